@@ -115,8 +115,8 @@ fn counted<T>(run: impl FnOnce() -> T) -> T {
 fn compile(frame: &Frame) {
     let device = graphs::device();
     let compile = || framewright_graph::compile::compile(frame, &device, &mut Estimated(&device), &Options::default());
-    black_box(compile()).expect("the graph is legal");
-    counted(compile).expect("the graph is legal");
+    black_box(compile()).expect("the graph is valid");
+    counted(compile).expect("the graph is valid");
 }
 
 /// Compiles a frame after the `changed` one, of which as much serves as `expected`.
@@ -127,7 +127,7 @@ fn compile_again(changed: fn(&Frame) -> Frame, expected: Reuse) {
     let mut compiler = Compiler::new();
     let mut compile = |frame| {
         let compiled = compiler.compile(frame, &device, &mut Estimated(&device), &Options::default());
-        black_box(compiled).expect("the graph is legal");
+        black_box(compiled).expect("the graph is valid");
     };
     compile(&frame);
     compile(&changed);
@@ -139,7 +139,7 @@ fn verify_plan() {
     let device = graphs::device();
     let frame = graphs::wide(1_000);
     let compiled = framewright_graph::compile::compile(&frame, &device, &mut Estimated(&device), &Options::default());
-    let plan = compiled.expect("the graph is legal");
+    let plan = compiled.expect("the graph is valid");
     black_box(verify(&plan));
     black_box(counted(|| verify(&plan)));
 }

@@ -1,10 +1,9 @@
 //! From the graph's words to Vulkan's enumerants. Flags and formats share their values; the rest are tables.
 
 use ash::vk;
-use framewright_graph::plan::Subresources;
 use framewright_graph::vulkan::{
     Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Format, Layout, LoadOp, ResolveMode, Stages,
-    StencilOp, StoreOp, Usage,
+    StencilOp, StoreOp, Subresources, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {

@@ -3,8 +3,8 @@
 use crate::base::convert;
 use crate::gpu::Gpu;
 use ash::vk;
-use framewright_graph::plan::{MemoryBarrier, Subresources};
-use framewright_graph::vulkan::State;
+use framewright_graph::plan::MemoryBarrier;
+use framewright_graph::vulkan::{State, Subresources};
 
 /// Barriers as Vulkan takes them, ready to be recorded as often as needed.
 pub(crate) struct Barriers {

@@ -8,8 +8,7 @@ use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::plan::Subresources;
-use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Rotation, Stages, State};
+use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Rotation, Stages, State, Subresources};
 use std::sync::Arc;
 
 /// Texels of one plane of one mip level of an image: of the upright picture, where the image holds a rotated one.

@@ -3,8 +3,7 @@
 use crate::base::convert::{self, Clear};
 use crate::gpu::Gpu;
 use ash::vk;
-use framewright_graph::plan::Subresources;
-use framewright_graph::vulkan::Aspects;
+use framewright_graph::vulkan::{Aspects, Subresources};
 
 /// A part of an image, on the device.
 #[derive(Clone, Copy)]

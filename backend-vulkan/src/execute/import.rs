@@ -4,8 +4,8 @@
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{Frame, PhysicalResources, ResourceUses};
 use ash::vk;
-use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
-use framewright_graph::vulkan::{Layout, Stages, State};
+use framewright_graph::plan::{Plan, Resource, Role, StepId, Wait};
+use framewright_graph::vulkan::{Layout, Stages, State, Subresources};
 
 /// One external image or buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]

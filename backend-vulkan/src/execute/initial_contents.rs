@@ -8,8 +8,8 @@ use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
 use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
 use ash::vk;
-use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
-use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Usage};
+use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
 /// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their

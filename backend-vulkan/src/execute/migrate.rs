@@ -5,8 +5,8 @@ use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{cycle, initial_queue, name_and_role};
 use ash::vk;
-use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
-use framewright_graph::vulkan::State;
+use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role};
+use framewright_graph::vulkan::{State, Subresources};
 use std::sync::Arc;
 
 /// One image or buffer that keeps its contents.

@@ -2,8 +2,8 @@
 
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{self, BufferId, Plan, Resource, Role, Subresources};
-use framewright_graph::vulkan::{BufferUsage, Usage};
+use framewright_graph::plan::{self, BufferId, Plan, Resource, Role};
+use framewright_graph::vulkan::{BufferUsage, Subresources, Usage};
 
 /// The description of a Plan's image on this device. What outlives the frame can be read back, whatever the Plan says.
 pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {

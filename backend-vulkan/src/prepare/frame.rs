@@ -8,8 +8,8 @@ use crate::gpu::Gpu;
 use crate::memory::{Image, RawBuffer};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side, Subresources};
-use framewright_graph::vulkan::Layout;
+use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side};
+use framewright_graph::vulkan::{Layout, Subresources};
 use std::sync::Arc;
 
 /// A Plan, and what stands for its images and buffers in one frame.

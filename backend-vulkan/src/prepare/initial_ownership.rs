@@ -5,8 +5,8 @@
 
 use super::descriptions::part;
 use super::uses::{ResourceUses, used};
-use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role, Subresources};
-use framewright_graph::vulkan::{Layout, Sharing};
+use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role};
+use framewright_graph::vulkan::{Layout, Sharing, Subresources};
 use std::collections::HashSet;
 
 /// A part of an image that one queue at a time may use.
@@ -109,7 +109,7 @@ mod tests {
             chosen: None,
             shape: Shape::D2,
             extent: [2, 2, 1],
-            room: None,
+            allocated: None,
             rotation: Rotation::Identity,
             eyes: None,
             mips: 2,

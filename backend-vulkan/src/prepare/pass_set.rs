@@ -9,9 +9,9 @@ use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS, parameters};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
+use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource};
 use framewright_graph::shader::{self, Block, PASS_SET};
-use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages};
+use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources};
 use std::sync::Arc;
 
 /// A pass's own sets, and what they are filled with, whatever stands for its images and buffers.

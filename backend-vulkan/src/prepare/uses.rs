@@ -1,6 +1,7 @@
 //! Where in a frame each image and buffer is used first and last.
 
-use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Side, Step, StepId, Subresources, Work};
+use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Side, Step, StepId, Work};
+use framewright_graph::vulkan::Subresources;
 
 /// First and last step that touch an image or buffer, barriers included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

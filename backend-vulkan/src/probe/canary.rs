@@ -9,8 +9,8 @@ use crate::gpu::{Device, Gpu, Message, MessageKind, Severity};
 use crate::memory::{Image, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::plan::{Queue, Subresources};
-use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
+use framewright_graph::plan::Queue;
+use framewright_graph::vulkan::{Format, Shape, Sharing, Subresources, Usage};
 
 /// What the layer proved that it sees.
 #[derive(Debug, Clone, PartialEq, Eq)]

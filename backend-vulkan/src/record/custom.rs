@@ -5,8 +5,8 @@ use crate::commands::{TransferSide, copy_between, fill};
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
-use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
-use framewright_graph::vulkan::{Accesses, FillValue, Rotation};
+use framewright_graph::plan::{self, Access, BufferAccess};
+use framewright_graph::vulkan::{Accesses, FillValue, Rotation, Subresources};
 
 /// Records a custom pass, outside of rendering scopes. The pass's images and buffers go by the names that the Plan gives
 /// them, and are in the state that the Plan says.

@@ -6,8 +6,8 @@ use crate::gpu::{Device, SamplerDescriptor};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::plan::{Queue, Subresources};
-use framewright_graph::vulkan::{Format, Layout, Shape, Sharing, Usage};
+use framewright_graph::plan::Queue;
+use framewright_graph::vulkan::{Format, Layout, Shape, Sharing, Subresources, Usage};
 use std::sync::Arc;
 
 /// What a buffer is for.

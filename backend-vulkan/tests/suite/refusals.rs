@@ -6,10 +6,10 @@ use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryNeeds, Mem
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
-    StepId, Subresources, Work,
+    StepId, Work,
 };
 use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
-use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Usage};
+use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
 const SHADERS: &[(&str, &str)] = &[

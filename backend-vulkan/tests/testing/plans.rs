@@ -5,11 +5,11 @@ use framewright_graph::frame::{Blend, Draw, ParamValue, Stereo};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap,
     Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Step, StepId,
-    Subresources, Totals, Work,
+    Totals, Work,
 };
 use framewright_graph::vulkan::{
     Accesses, Filter, Format, Layout, LoadOp, ResolveMode, Rotation, Sampler, Shape, Sharing, Stages, State, StoreOp,
-    Usage,
+    Subresources, Usage,
 };
 use framewright_vulkan::Device;
 
@@ -123,7 +123,7 @@ fn image(id: ImageId, name: &str, samples: u32, usage: Usage, role: Role) -> Ima
         chosen: None,
         shape: Shape::D2,
         extent,
-        room: None,
+        allocated: None,
         rotation: Rotation::Identity,
         eyes: None,
         mips: 1,

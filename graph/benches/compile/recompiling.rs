@@ -59,7 +59,7 @@ fn alternate(timing: &Timing, frames: [&Arc<Frame>; 2], expected: Reuse, anew: b
         let start = Instant::now();
         let compiled = compiler.compile(frames[at], &device, &mut Estimated(&device), &options);
         let time = start.elapsed();
-        black_box(&compiled).as_ref().expect("the graph is legal");
+        black_box(&compiled).as_ref().expect("the graph is valid");
         // The first of all has nothing to follow.
         if compiler.reuse() >= expected {
             least = least.min(time);

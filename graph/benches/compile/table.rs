@@ -116,14 +116,14 @@ fn growth(rows: &[Row]) {
 /// The order that saves memory.
 fn low_memory(device: &Profile) {
     let options = Options { order: Order::LowMemory, ..Options::default() };
-    let plan = compile(&graphs::wide(1000), device, &mut Estimated(device), &options).expect("the graph is legal");
+    let plan = compile(&graphs::wide(1000), device, &mut Estimated(device), &options).expect("the graph is valid");
     let share = plan.totals.placed_bytes as f64 / plan.totals.transient_bytes as f64;
     println!("low memory, wide 1000: {share:.3} of the sum of all images (0.381)");
 }
 
 fn measure(timing: &Timing, name: &'static str, frame: &Frame, device: &Profile, goals: Goals) -> Row {
     let compiled =
-        || compile(frame, device, &mut Estimated(device), &Options::default()).expect("the measured graphs are legal");
+        || compile(frame, device, &mut Estimated(device), &Options::default()).expect("the measured graphs are valid");
     let plan = compiled();
     let passes = frame.passes.len() as u32;
     let compile = microseconds(timing.least(|| black_box(compiled()))) / f64::from(passes);

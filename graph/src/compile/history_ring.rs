@@ -2,21 +2,21 @@
 //!
 //! The members of a ring have neighbouring indices, the youngest first. A resource that doesn't rotate is a ring of one.
 
-use super::model::{Adapted, MemorySource, StoreIndex};
+use super::model::{Adapted, MemorySource, PhysicalIndex};
 
 /// The oldest member of the ring that `member` is in.
-pub(super) fn last_of_ring(adapted: &Adapted, member: StoreIndex) -> StoreIndex {
-    let rotates = |store: &StoreIndex| match adapted.stores[*store as usize].memory {
-        MemorySource::Persistent { becomes, .. } => becomes > *store,
+pub(super) fn last_of_ring(adapted: &Adapted, member: PhysicalIndex) -> PhysicalIndex {
+    let rotates = |resource: &PhysicalIndex| match adapted.resources[*resource as usize].memory {
+        MemorySource::Persistent { becomes, .. } => becomes > *resource,
         _ => false,
     };
-    (member..).find(|store| !rotates(store)).unwrap_or(member)
+    (member..).find(|resource| !rotates(resource)).unwrap_or(member)
 }
 
 /// The members that were `member` in earlier frames: how many frames ago, and which one. It was itself a whole turn ago.
-pub(super) fn earlier(adapted: &Adapted, member: StoreIndex) -> impl Iterator<Item = (u32, StoreIndex)> {
+pub(super) fn earlier(adapted: &Adapted, member: PhysicalIndex) -> impl Iterator<Item = (u32, PhysicalIndex)> {
     let last = last_of_ring(adapted, member);
-    let same_ring = |first: &StoreIndex| last_of_ring(adapted, *first) == last;
+    let same_ring = |first: &PhysicalIndex| last_of_ring(adapted, *first) == last;
     let first = (0..=member).rev().take_while(same_ring).last().unwrap_or(member);
     let length = last - first + 1;
     (1..=length).map(move |ago| (ago, first + (member - first + length - ago) % length))

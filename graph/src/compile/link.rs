@@ -4,7 +4,7 @@
 
 use super::parts::Grids;
 use crate::base::Diagnostic;
-use crate::frame::{Access, BufferIndex, Effect, Frame, Image, ImageIndex, Pass, Resource};
+use crate::frame::{Access, BufferIndex, Effect, Frame, ImageIndex, Pass, Resource};
 
 /// The access of one pass to one part of an image, or to a buffer.
 #[derive(Debug, Clone, Copy)]
@@ -110,30 +110,24 @@ struct Linker<'f> {
 
 impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
+        let (frame, grids) = (self.frame, self.grids);
         pass.accesses().for_each(|access| {
-            if access.frames_ago() == 0 {
-                let image = access.image_index().map(|image| &self.frame.images[image.0 as usize]);
-                access.for_each_effect(pass, image, |effect| self.effect(pass, &access, image, effect));
+            if access.frames_ago() > 0 {
+                return;
             }
-        });
-    }
-
-    fn effect(&mut self, pass: &Pass, access: &Access<'_>, image: Option<&Image>, effect: Effect) {
-        match (image, access.image_index().and_then(|index| self.grids.of(index))) {
-            (Some(image), Some(grid)) => {
-                for part in grid.cover(image.part(effect.range)) {
-                    self.access(pass, access, part, effect);
+            let (number, image, grid) = match access.resource() {
+                Resource::Image(index) => (index.0 as usize, Some(&frame.images[index.0 as usize]), grids.of(index)),
+                Resource::Buffer(index) => (frame.images.len() + index.0 as usize, None, None),
+            };
+            let first = self.first_part[number];
+            access.for_each_effect(pass, image, |effect| match (image, grid) {
+                (Some(image), Some(grid)) => {
+                    grid.cover(image.part(effect.range))
+                        .for_each(|part| self.access(pass, &access, first + part, effect));
                 }
-            }
-            _ => self.access(pass, access, 0, effect),
-        }
-    }
-
-    fn number(&self, resource: Resource) -> usize {
-        match resource {
-            Resource::Image(image) => image.0 as usize,
-            Resource::Buffer(buffer) => self.frame.images.len() + buffer.0 as usize,
-        }
+                _ => self.access(pass, &access, first, effect),
+            });
+        });
     }
 
     fn name(&self, resource: Resource) -> &str {
@@ -145,33 +139,42 @@ impl Linker<'_> {
 
     /// All parts of an image or buffer, and its name.
     fn all(&self, resource: Resource) -> (std::ops::Range<usize>, &str) {
-        let number = self.number(resource);
+        let number = match resource {
+            Resource::Image(image) => image.0 as usize,
+            Resource::Buffer(buffer) => self.frame.images.len() + buffer.0 as usize,
+        };
         let end = self.first_part.get(number + 1).map_or(self.written.len(), |next| *next as usize);
         (self.first_part[number] as usize..end, self.name(resource))
     }
 
     /// Notes one access. Later passes alone can read its writes ([`Linker::commit`]).
-    fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, effect: Effect) {
-        let (resource, Effect { reads, writes, .. }) = (access.resource(), effect);
-        let part = self.first_part[self.number(resource)] + part;
+    #[inline]
+    fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, Effect { reads, writes, .. }: Effect) {
         if reads && !self.written[part as usize] {
             // Reported once for each part.
             self.written[part as usize] = true;
-            let (name, pass, span) = (self.name(resource), &pass.name, access.span());
-            let message = if writes {
-                format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched")
-            } else {
-                format!("`{pass}` reads `{name}` before anything has written it")
-            };
-            let help = if writes { "clear it" } else { "a pass reads what passes above it wrote" };
-            let repeated = self.errors.last().is_some_and(|last| {
-                last.message == message && last.labels.first().is_some_and(|label| label.span == span)
-            });
-            if !repeated {
-                self.errors.push(Diagnostic::new(span, message).help(help));
-            }
+            self.report_unwritten(pass, access, writes);
         }
         self.uses.push(PartUse::new(part, reads, writes));
+    }
+
+    /// Reports an access that needs contents where nothing has written any.
+    #[cold]
+    fn report_unwritten(&mut self, pass: &Pass, access: &Access<'_>, writes: bool) {
+        let (name, pass, span) = (self.name(access.resource()), &pass.name, access.span());
+        let message = if writes {
+            format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched")
+        } else {
+            format!("`{pass}` reads `{name}` before anything has written it")
+        };
+        let help = if writes { "clear it" } else { "a pass reads what passes above it wrote" };
+        let repeated = self
+            .errors
+            .last()
+            .is_some_and(|last| last.message == message && last.labels.first().is_some_and(|label| label.span == span));
+        if !repeated {
+            self.errors.push(Diagnostic::new(span, message).help(help));
+        }
     }
 
     /// Makes what a pass wrote current, once all its reads are known.

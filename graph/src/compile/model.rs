@@ -2,11 +2,11 @@
 
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
-use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
-use crate::plan::{Inserted, Note, Subresources};
+use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
+use crate::plan::{Inserted, Note};
 use crate::vulkan::{
     Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing, Stages, State,
-    Usage,
+    Subresources, Usage,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// A physical image or buffer.
 #[derive(Debug, Clone)]
-pub(super) struct Store {
+pub(super) struct PhysicalResource {
     /// Its number among the images of the Plan, or among the buffers.
     pub(super) id: u32,
     /// What it was made for.
@@ -29,8 +29,8 @@ pub(super) struct Store {
     pub(super) memory: MemorySource,
     /// The state in which it is to be left, if one was asked for.
     pub(super) after: Option<State>,
-    /// The first of its cells: what is tracked by itself.
-    pub(super) first_cell: u32,
+    /// The first of its subresources: what is tracked by itself.
+    pub(super) first_subresource: u32,
 }
 
 /// Image or buffer.
@@ -47,14 +47,14 @@ pub(super) enum MemorySource {
     Transient,
     /// Memory of its own, without contents from before the frame.
     Output,
-    /// Memory of its own, with contents that stay: the next frame finds them in `becomes`. The first frame finds `initial`, or
-    /// the contents of its file.
-    Persistent { becomes: StoreIndex, initial: Option<FillValue> },
+    /// Memory of its own, with contents that stay: the next frame finds them in `becomes`. The first frame finds `initial`,
+    /// or the contents of its file.
+    Persistent { becomes: PhysicalIndex, initial: Option<FillValue> },
     /// The embedding program hands it in, in this state.
     Imported { before: State },
 }
 
-impl Store {
+impl PhysicalResource {
     /// The descriptor, if it is an image.
     pub(super) fn image(&self) -> Option<&ImageDescriptor> {
         match &self.kind {
@@ -71,9 +71,18 @@ impl Store {
         }
     }
 
-    /// Its cells.
-    pub(super) fn cells(&self, grids: &Grids) -> Range<CellIndex> {
-        self.first_cell..self.first_cell + self.grid(grids).map_or(1, |grid| grid.len())
+    /// Its subresources.
+    pub(super) fn subresources(&self, grids: &Grids) -> Range<SubresourceIndex> {
+        self.first_subresource..self.first_subresource + self.grid(grids).map_or(1, |grid| grid.len())
+    }
+
+    /// Calls `visit` with its subresources in `range`.
+    #[inline]
+    pub(super) fn for_each_in(&self, grids: &Grids, range: Subresources, mut visit: impl FnMut(SubresourceIndex)) {
+        match self.grid(grids) {
+            None => visit(self.first_subresource),
+            Some(grid) => grid.cover(range).for_each(|part| visit(self.first_subresource + part)),
+        }
     }
 
     /// The layout of all its planes, one of which is in `layout`.
@@ -127,56 +136,61 @@ impl Store {
     }
 }
 
-/// Index into [`Adapted::stores`].
-pub(super) type StoreIndex = u32;
+/// Index into [`Adapted::resources`].
+pub(super) type PhysicalIndex = u32;
 /// Number of a part of a physical image, or of a buffer, among all of them.
-pub(super) type CellIndex = u32;
+pub(super) type SubresourceIndex = u32;
 
 /// Physical images and buffers, and the operations on them, in frame order.
 #[derive(Debug, Default)]
 pub(super) struct Adapted {
-    pub(super) stores: Vec<Store>,
+    pub(super) resources: Vec<PhysicalResource>,
     pub(super) ops: Vec<Op>,
     pub(super) uses: Vec<Use>,
     /// Ranges that are not all of their image.
     pub(super) ranges: Vec<Subresources>,
-    /// Number of cells of all stores.
-    pub(super) cells: u32,
+    /// Number of subresources of all resources.
+    pub(super) subresources: u32,
     /// The frame's outputs, in its order.
-    pub(super) outputs: Vec<StoreIndex>,
+    pub(super) outputs: Vec<PhysicalIndex>,
     pub(super) notes: Vec<Note>,
-    /// Width and height that images are made with whose size may change.
-    pub(super) rooms: HashMap<StoreIndex, [u32; 2]>,
+    /// The allocated width and height of images whose size may change.
+    pub(super) allocated: HashMap<PhysicalIndex, [u32; 2]>,
     /// How images hold both eyes' parts, and how they are turned.
-    pub(super) eyes: HashMap<StoreIndex, (EyeForm, Rotation)>,
+    pub(super) eyes: HashMap<PhysicalIndex, (EyeForm, Rotation)>,
 }
 
 impl Adapted {
     /// Takes the sizes that the frame says now.
     pub(super) fn resize(&mut self, frame: &Frame) {
-        self.stores.iter_mut().for_each(|store| store.resize(frame));
-        for (store, room) in &mut self.rooms {
-            if let Resource::Image(of) = self.stores[*store as usize].of {
-                *room = frame.images[of.0 as usize].room.unwrap_or(*room);
+        self.resources.iter_mut().for_each(|resource| resource.resize(frame));
+        for (resource, allocated) in &mut self.allocated {
+            if let Resource::Image(of) = self.resources[*resource as usize].of {
+                *allocated = frame.images[of.0 as usize].allocated.unwrap_or(*allocated);
             }
         }
     }
 
-    /// Width and height that a physical image is made with, if its size may change.
-    pub(super) fn room(&self, store: StoreIndex) -> Option<[u32; 2]> {
+    /// The allocated width and height of a physical image, if its size may change.
+    pub(super) fn allocated(&self, resource: PhysicalIndex) -> Option<[u32; 2]> {
         // Few frames have any.
-        if self.rooms.is_empty() { None } else { self.rooms.get(&store).copied() }
+        if self.allocated.is_empty() { None } else { self.allocated.get(&resource).copied() }
     }
 
     /// How a physical image holds both eyes' parts, if it does.
-    pub(super) fn eyes(&self, store: StoreIndex) -> Option<EyeForm> {
-        if self.eyes.is_empty() { None } else { self.eyes.get(&store).map(|(form, _)| *form) }
+    pub(super) fn eyes(&self, resource: PhysicalIndex) -> Option<EyeForm> {
+        if self.eyes.is_empty() { None } else { self.eyes.get(&resource).map(|(form, _)| *form) }
     }
 
     /// What a physical image is made as.
-    pub(super) fn made(&self, store: StoreIndex, image: &ImageDescriptor) -> ImageDescriptor {
-        let extent = with_room(image.extent, self.room(store));
-        let Some((form, rotation)) = self.eyes.get(&store).filter(|_| !self.eyes.is_empty()).copied() else {
+    #[inline]
+    pub(super) fn made(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
+        // Few frames have any.
+        if self.allocated.is_empty() && self.eyes.is_empty() {
+            return *image;
+        }
+        let extent = allocated_extent(image.extent, self.allocated(resource));
+        let Some((form, rotation)) = self.eyes.get(&resource).copied() else {
             return ImageDescriptor { extent, ..*image };
         };
         let (extent, layers) =
@@ -194,21 +208,17 @@ impl Adapted {
     pub(super) fn range(&self, used: &Use) -> Subresources {
         match self.ranges.get(used.range as usize) {
             Some(range) => *range,
-            None => self.stores[used.store as usize].all(),
+            None => self.resources[used.resource as usize].all(),
         }
     }
 
-    /// The cells that a use is about.
+    /// The subresources that a use is about.
     #[inline]
-    pub(super) fn for_each_cell(&self, grids: &Grids, used: &Use, mut visit: impl FnMut(CellIndex)) {
-        if used.cell != Use::CELLS {
-            return visit(used.cell);
+    pub(super) fn for_each_subresource(&self, grids: &Grids, used: &Use, mut visit: impl FnMut(SubresourceIndex)) {
+        if used.subresource != Use::SEVERAL {
+            return visit(used.subresource);
         }
-        let store = &self.stores[used.store as usize];
-        match store.grid(grids) {
-            None => visit(store.first_cell),
-            Some(grid) => grid.cover(self.range(used)).for_each(|part| visit(store.first_cell + part)),
-        }
+        self.resources[used.resource as usize].for_each_in(grids, self.range(used), visit);
     }
 }
 
@@ -316,16 +326,16 @@ impl OpKind {
 /// One use of a physical image or buffer by an operation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Use {
-    pub(super) store: StoreIndex,
+    pub(super) resource: PhysicalIndex,
     /// Into [`Adapted::ranges`]; [`Use::ALL`]: all of it.
     pub(super) range: u32,
-    /// The one cell that it is about; [`Use::CELLS`] if there may be several.
-    pub(super) cell: CellIndex,
+    /// The one subresource that it is about; [`Use::SEVERAL`] if there may be several.
+    pub(super) subresource: SubresourceIndex,
     /// Which entry of the pass's list of such uses it is.
     pub(super) entry: u32,
     pub(super) role: Role,
     /// What an attachment starts from.
-    pub(super) start: Start,
+    pub(super) contents: InitialContents,
     /// Whether it needs what earlier operations left.
     pub(super) reads: bool,
     /// Whether it changes it.
@@ -336,10 +346,10 @@ pub(super) struct Use {
 }
 
 impl Use {
-    /// All of a store.
+    /// All of a resource.
     pub(super) const ALL: u32 = u32::MAX;
-    /// Several cells.
-    pub(super) const CELLS: CellIndex = u32::MAX;
+    /// Several subresources.
+    pub(super) const SEVERAL: SubresourceIndex = u32::MAX;
 }
 
 /// The role in which an operation uses an image or buffer.
@@ -388,7 +398,7 @@ impl Role {
 
 /// What a pass finds in its attachment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Start {
+pub(super) enum InitialContents {
     /// A clear value.
     Clear,
     /// What was there.

@@ -16,7 +16,7 @@ pub struct Options {
     pub queues: bool,
 }
 
-/// Which of the legal orders is taken.
+/// Which of the valid orders is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
     /// That of the file.

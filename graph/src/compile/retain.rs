@@ -1,6 +1,6 @@
 //! `retain`: load and store operations of attachments. Contents are kept only where somebody needs them.
 
-use super::model::{Adapted, MemorySource, OpKind, Role, Start, Use};
+use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
 use super::parts::Grids;
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
@@ -37,13 +37,13 @@ pub(super) enum Next {
 
 /// Load and store operations of all attachments.
 #[derive(Debug, Default)]
-pub(super) struct Retained {
+pub(super) struct LoadStoreOps {
     ops: Vec<AttachmentOps>,
     /// For each step where its attachments begin; empty if nothing is drawn.
     starts: Vec<u32>,
 }
 
-impl Retained {
+impl LoadStoreOps {
     /// The attachments of a step: colour by location, then depth, then stencil.
     pub(super) fn of(&self, step: u32) -> &[AttachmentOps] {
         match self.starts.get(step as usize..step as usize + 2) {
@@ -76,18 +76,18 @@ impl AttachmentOps {
     }
 }
 
-pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &Scoped) -> Retained {
+pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &Scoped) -> LoadStoreOps {
     if !scoped.steps.iter().any(|step| matches!(step, Step::Scope(_))) {
-        return Retained::default();
+        return LoadStoreOps::default();
     }
-    let mut walk = Walk { frame, grids, adapted, ops: Vec::new(), last: vec![NONE; adapted.cells as usize] };
+    let mut walk = Walk { frame, grids, adapted, ops: Vec::new(), last: vec![NONE; adapted.subresources as usize] };
     let mut starts = Vec::with_capacity(scoped.steps.len() + 1);
     for step in &scoped.steps {
         starts.push(walk.ops.len() as u32);
         match step {
             Step::Scope(scope) => walk.scope(scope),
             Step::Single(op) => adapted.uses(*op).iter().for_each(|used| walk.access(*op, used)),
-            Step::Export => {}
+            Step::BarriersOnly => {}
         }
     }
     starts.push(walk.ops.len() as u32);
@@ -100,7 +100,7 @@ pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &S
             (true, Next::Nobody | Next::Replaced) => StoreOp::DontCare,
         };
     }
-    Retained { ops, starts }
+    LoadStoreOps { ops, starts }
 }
 
 /// No attachment.
@@ -111,7 +111,7 @@ struct Walk<'w> {
     grids: &'w Grids,
     adapted: &'w Adapted,
     ops: Vec<AttachmentOps>,
-    /// For each cell the attachment that holds what it contains.
+    /// For each subresource the attachment that holds what it contains.
     last: Vec<u32>,
 }
 
@@ -128,7 +128,7 @@ impl Walk<'_> {
         for at in first..self.ops.len() {
             if self.ops[at].load == LoadOp::Load {
                 let AttachmentOps { target, first, .. } = self.ops[at];
-                self.each(target, |walk, cell| walk.needed(cell, Next::Op(first)));
+                self.each(target, |walk, subresource| walk.needed(subresource, Next::Op(first)));
             }
         }
         for op in &scope.ops {
@@ -140,10 +140,10 @@ impl Walk<'_> {
         for at in first..self.ops.len() {
             if self.ops[at].written {
                 let target = self.ops[at].target;
-                self.each(target, |walk, cell| walk.replaced(cell, at as u32));
+                self.each(target, |walk, subresource| walk.replaced(subresource, at as u32));
             }
         }
-        for op in scope.carries() {
+        for op in scope.folded_resolves() {
             if let Some(target) = self.adapted.uses(op).get(1) {
                 self.access(op, target);
             }
@@ -154,7 +154,7 @@ impl Walk<'_> {
     fn attachment(&self, scope: &Scope, target: Target, role: Role) -> AttachmentOps {
         let Walk { frame, adapted, .. } = self;
         let is_it =
-            |used: &&Use| used.role == role && used.store == target.store && adapted.range(used) == target.range;
+            |used: &&Use| used.role == role && used.resource == target.resource && adapted.range(used) == target.range;
         let mut made = AttachmentOps {
             target,
             role,
@@ -172,47 +172,44 @@ impl Walk<'_> {
                 continue;
             }
             made.first = *op;
-            (made.load, made.clear) = match used.start {
-                Start::Keep => (LoadOp::Load, None),
-                Start::Discard => (LoadOp::DontCare, None),
-                Start::Clear => (LoadOp::Clear, clear_value(frame, &adapted.ops[*op as usize].kind, used)),
+            (made.load, made.clear) = match used.contents {
+                InitialContents::Keep => (LoadOp::Load, None),
+                InitialContents::Discard => (LoadOp::DontCare, None),
+                InitialContents::Clear => (LoadOp::Clear, clear_value(frame, &adapted.ops[*op as usize].kind, used)),
             };
         }
         made
     }
 
     fn each(&mut self, target: Target, mut visit: impl FnMut(&mut Self, u32)) {
-        let store = &self.adapted.stores[target.store as usize];
-        match store.grid(self.grids) {
-            None => visit(self, store.first_cell),
-            Some(grid) => grid.cover(target.range).for_each(|part| visit(self, store.first_cell + part)),
-        }
+        let (adapted, grids) = (self.adapted, self.grids);
+        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |at| visit(self, at));
     }
 
     fn access(&mut self, op: u32, used: &Use) {
         let (adapted, grids) = (self.adapted, self.grids);
-        adapted.for_each_cell(grids, used, |cell| {
+        adapted.for_each_subresource(grids, used, |subresource| {
             if used.reads {
-                self.needed(cell, Next::Op(op));
+                self.needed(subresource, Next::Op(op));
             }
             if used.writes {
-                self.replaced(cell, NONE);
+                self.replaced(subresource, NONE);
             }
         });
     }
 
-    /// Notes that the contents of a cell are needed.
-    fn needed(&mut self, cell: u32, by: Next) {
-        if let Some(attachment) = self.ops.get_mut(self.last[cell as usize] as usize)
+    /// Notes that the contents of a subresource are needed.
+    fn needed(&mut self, subresource: u32, by: Next) {
+        if let Some(attachment) = self.ops.get_mut(self.last[subresource as usize] as usize)
             && !matches!(attachment.next, Next::Op(_))
         {
             attachment.next = by;
         }
     }
 
-    /// Notes that a cell is overwritten.
-    fn replaced(&mut self, cell: u32, by: u32) {
-        let last = std::mem::replace(&mut self.last[cell as usize], by);
+    /// Notes that a subresource is overwritten.
+    fn replaced(&mut self, subresource: u32, by: u32) {
+        let last = std::mem::replace(&mut self.last[subresource as usize], by);
         if let Some(attachment) = self.ops.get_mut(last as usize).filter(|_| last != by)
             && attachment.next == Next::Nobody
         {
@@ -222,22 +219,23 @@ impl Walk<'_> {
 
     /// Notes that contents are needed that outlive the frame.
     fn after(&mut self) {
-        for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None]))
+        for (resource, next) in
+            self.adapted.resources.iter().zip(self.adapted.resources.iter().skip(1).map(Some).chain([None]))
         {
-            if store.memory != MemorySource::Transient {
-                let end = next.map_or(self.adapted.cells, |next| next.first_cell);
-                (store.first_cell..end).for_each(|cell| self.needed(cell, Next::After));
+            if resource.memory != MemorySource::Transient {
+                let end = next.map_or(self.adapted.subresources, |next| next.first_subresource);
+                (resource.first_subresource..end).for_each(|subresource| self.needed(subresource, Next::After));
             }
         }
     }
 }
 
 /// Takes over the clear values that the frame says now.
-pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, retained: &mut Retained) {
-    for attachment in retained.ops.iter_mut().filter(|attachment| attachment.load == LoadOp::Clear) {
+pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, load_store: &mut LoadStoreOps) {
+    for attachment in load_store.ops.iter_mut().filter(|attachment| attachment.load == LoadOp::Clear) {
         let AttachmentOps { target, role, first, .. } = *attachment;
         let is_it =
-            |used: &&Use| used.role == role && used.store == target.store && adapted.range(used) == target.range;
+            |used: &&Use| used.role == role && used.resource == target.resource && adapted.range(used) == target.range;
         if let Some(used) = adapted.uses(first).iter().find(is_it) {
             attachment.clear = clear_value(frame, &adapted.ops[first as usize].kind, used);
         }

@@ -6,10 +6,10 @@ use super::model::{Adapted, Use};
 use super::options::{Options, Order};
 use super::parts::Grids;
 use super::queues::{self, Assigned};
-use super::retain::{self, Retained};
+use super::retain::{self, LoadStoreOps};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped};
-use super::sync::{self, Barriers, CellBarrier, Timeline};
+use super::sync::{self, AccessTimeline, Barriers, SubresourceBarrier};
 use super::{adapt, fit, usage};
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
@@ -30,8 +30,8 @@ pub(super) struct Structure {
     /// Which draws have the area of the draw before them, in execution order, if that may decide anything.
     same_areas: Vec<bool>,
     pub(super) scoped: Scoped,
-    pub(super) retained: Retained,
-    pub(super) timeline: Timeline,
+    pub(super) load_store: LoadStoreOps,
+    pub(super) timeline: AccessTimeline,
     /// How long memory is taken, where steps of several queues run side by side.
     spans: Option<Vec<[u32; 2]>>,
 }
@@ -94,17 +94,17 @@ impl Structure {
         let Assigned { scoped, queues, notes: of_queues, sharing } =
             queues::assign(frame, &grids, &adapted, scoped, device, options);
         adapted.notes.extend(of_queues);
-        sharing.into_iter().for_each(|(store, sharing)| adapted.stores[store as usize].set_sharing(sharing));
-        let retained = retain::retain(frame, &grids, &adapted, &scoped);
-        let timeline = sync::timeline(&grids, &adapted, &scoped, &retained, queues);
+        sharing.into_iter().for_each(|(resource, sharing)| adapted.resources[resource as usize].set_sharing(sharing));
+        let load_store = retain::retain(frame, &grids, &adapted, &scoped);
+        let timeline = sync::timeline(&grids, &adapted, &scoped, &load_store, queues);
         for (used, layout) in &timeline.layouts {
             adapted.uses[*used as usize].layout = *layout;
         }
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
-        let usages = usage::usages(&grids, &adapted, &timeline, &retained, &scoped, options);
-        adapted.stores.iter_mut().zip(usages).for_each(|(store, usage)| store.set_usage(usage));
+        let usages = usage::usages(&grids, &adapted, &timeline, &load_store, &scoped, options);
+        adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
         fit::check_support(frame, &adapted, &scoped, device)?;
-        Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, retained, timeline, spans })
+        Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })
     }
 
     /// Whether it holds for another valid frame, which differs only in sizes and values, and forwards only between images of
@@ -132,7 +132,7 @@ impl Structure {
     /// Runs the stages from `place` on. `barriers`: those of the timeline.
     pub(super) fn settle(
         &self,
-        barriers: Vec<CellBarrier>,
+        barriers: Vec<SubresourceBarrier>,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
@@ -154,7 +154,7 @@ impl Structure {
         let mut settled = self.settle(barriers, device, memory, options)?;
         settled.aliasing = Aliasing::default();
         settled.barriers.barriers.shrink_to_fit();
-        self.timeline.forget_cells();
+        self.timeline.forget_subresources();
         self.scheduled.order = Vec::new();
         self.adapted.uses.shrink_to_fit();
         Ok(settled)
@@ -196,7 +196,7 @@ impl Structure {
         memory::place(&self.adapted, &self.timeline.lifetimes, self.spans.as_deref(), device, memory, options)
     }
 
-    fn barriers(&self, barriers: Vec<CellBarrier>, aliasing: &Aliasing) -> Barriers {
+    fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {
         let steps = self.scoped.steps.len() as u32;
         sync::barriers(&self.grids, &self.adapted, &self.timeline, barriers, &aliasing.edges, steps)
     }

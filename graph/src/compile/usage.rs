@@ -2,12 +2,12 @@
 //! states before and after the frame.
 
 use super::history_ring::last_of_ring;
-use super::model::{Adapted, Kind, MemorySource, StoreIndex};
+use super::model::{Adapted, Kind, MemorySource, PhysicalIndex};
 use super::options::Options;
 use super::parts::Grids;
-use super::retain::{AttachmentOps, Retained};
+use super::retain::{AttachmentOps, LoadStoreOps};
 use super::scope::{Scoped, Step};
-use super::sync::Timeline;
+use super::sync::AccessTimeline;
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 
@@ -17,8 +17,8 @@ use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 pub(super) fn usages(
     grids: &Grids,
     adapted: &Adapted,
-    timeline: &Timeline,
-    retained: &Retained,
+    timeline: &AccessTimeline,
+    load_store: &LoadStoreOps,
     scoped: &Scoped,
     options: &Options,
 ) -> Vec<u32> {
@@ -26,20 +26,22 @@ pub(super) fn usages(
         let [first, last] = timeline.lifetimes[at as usize];
         let in_one_scope = first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
         let stays = |ops: &AttachmentOps| ops.load != LoadOp::Load && ops.store != StoreOp::Store;
-        in_one_scope && retained.of(first).iter().filter(|ops| ops.target.store == at).all(stays)
+        in_one_scope && load_store.of(first).iter().filter(|ops| ops.target.resource == at).all(stays)
     };
-    let mut usages = Vec::with_capacity(adapted.stores.len());
-    for (store, at) in adapted.stores.iter().zip(0_u32..) {
-        let bits = timeline.usage(store.cells(grids));
-        usages.push(match &store.kind {
+    let mut usages = Vec::with_capacity(adapted.resources.len());
+    for (resource, at) in adapted.resources.iter().zip(0_u32..) {
+        let bits = timeline.usage(resource.subresources(grids));
+        usages.push(match &resource.kind {
             Kind::Image(image) => {
                 let mut usage = Usage::from_bits_truncate(bits);
                 for state in timeline.states[at as usize].iter().flat_map(|states| [states.before, states.after]) {
                     usage |= usage_for(state.layout);
                 }
-                (usage | of_image(usage, store.memory, image.mips, options.poison, || stays_in_scope(at))).bits()
+                (usage | of_image(usage, resource.memory, image.mips, options.poison, || stays_in_scope(at))).bits()
             }
-            Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(store.memory, options.poison)).bits(),
+            Kind::Buffer(_) => {
+                (BufferUsage::from_bits_truncate(bits) | of_buffer(resource.memory, options.poison)).bits()
+            }
         });
     }
     share_usages(adapted, &mut usages);
@@ -76,7 +78,7 @@ fn of_buffer(memory: MemorySource, poison: bool) -> BufferUsage {
 fn share_usages(adapted: &Adapted, usages: &mut [u32]) {
     let mut first = 0;
     while first < usages.len() {
-        let last = last_of_ring(adapted, first as StoreIndex) as usize;
+        let last = last_of_ring(adapted, first as PhysicalIndex) as usize;
         if last > first {
             let ring = &mut usages[first..=last];
             let all = ring.iter().fold(0, |all, usage| all | usage);

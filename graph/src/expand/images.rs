@@ -69,9 +69,9 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
     let policy = chosen.pipeline.depth.as_ref();
     let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), area), samples), layers), mips)| {
-        let (language::Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
+        let (language::Area { extent: [width, height], allocated }, (samples, samples_because)) = (area?, samples?);
         let plain = Image::new(&described.name.text, format?, width, height);
-        let image = Image { span: described.name.span, samples, room, eyes: described.eyes, ..plain };
+        let image = Image { span: described.name.span, samples, allocated, eyes: described.eyes, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })

@@ -33,7 +33,7 @@ pub(super) fn cells(image: &Image, range: &Subresources) -> Cells {
 
 /// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
 pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String {
-    match image.room {
+    match image.allocated {
         Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
         None => format!("{width}×{height}"),
     }

@@ -300,10 +300,10 @@ impl Check<'_> {
     fn part(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let halves = image.eyes == Some(EyeForm::Halves);
-        if image.room.is_none() && !halves || self.declared.input {
+        if image.allocated.is_none() && !halves || self.declared.input {
             return;
         }
-        if halves && image.room.is_none() {
+        if halves && image.allocated.is_none() {
             return self.half(interface, errors);
         }
         let declared = self.chosen.image(self.sample.part.image.index).size.span;
@@ -360,7 +360,7 @@ impl Check<'_> {
         };
         let Some(target) = things.image(target).map(|target| &target.image) else { return };
         let (own, drawn) = (image.extent_at(self.cells.mips.start), target.target_shape(range).extent);
-        if (&own[..2], image.room) != (&drawn[..2], target.room)
+        if (&own[..2], image.allocated) != (&drawn[..2], target.allocated)
             || self.cells.mips.len() > 1
             || self.cells.layers.len() > 1
         {

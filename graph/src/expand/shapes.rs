@@ -76,7 +76,7 @@ pub(super) fn shaped(
         let message = format!("`{name}` is three-dimensional and can't hold depth ({})", image.format);
         errors.push(Diagnostic::new(described.format.span, message).label(described.shape.span, "its shape"));
     }
-    if image.room.is_some() {
+    if image.allocated.is_some() {
         let alone = [
             (image.shape != Shape::D2, described.shape.span, "its shape"),
             (image.mips > 1, described.mips.span, "its mip levels"),

@@ -121,7 +121,7 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
     for other in others {
         let (one, another) = (&first.image.image, &other.image.image);
         let span = other.part.image.span;
-        if (first.shape.extent, first.shape.room) != (other.shape.extent, other.shape.room) {
+        if (first.shape.extent, first.shape.allocated) != (other.shape.extent, other.shape.allocated) {
             let message = format!(
                 "pass `{}` draws into images of different sizes: `{}` and `{}`",
                 pass.name.text, one.name, another.name
@@ -129,7 +129,7 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
             let wrong = Diagnostic::new(span, message)
                 .remark(parts::size_words(other.shape.extent, another))
                 .label(first.part.image.span, parts::size_words(first.shape.extent, one));
-            let whole = (one.extent, one.room) != (another.extent, another.room);
+            let whole = (one.extent, one.allocated) != (another.extent, another.allocated);
             let help = format!("let one follow the other: say `size: Like(\"{}\")` of `{}`", one.name, another.name);
             errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });
         }

@@ -37,8 +37,9 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) ->
 
 /// What a pass samples of which only a part is in use.
 pub(super) fn in_part<'p>(things: &'p Things, pass: &'p language::Pass) -> impl Iterator<Item = &'p language::Sample> {
-    let room = |sample: &&language::Sample| things.image(sample.part.image.index).and_then(|image| image.image.room);
-    pass.sample.iter().filter(move |sample| room(sample).is_some())
+    let allocated =
+        |sample: &&language::Sample| things.image(sample.part.image.index).and_then(|image| image.image.allocated);
+    pass.sample.iter().filter(move |sample| allocated(sample).is_some())
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.

@@ -20,26 +20,25 @@ impl Pass {
 
     /// Whether what it draws into `target`, a part of `image`, replaces every texel.
     fn covers_color(&self, target: &ColorTarget, image: &Image) -> bool {
-        target.blend == Blend::Replace && self.reaches_every_texel(image, &target.range)
+        target.blend == Blend::Replace && self.reaches_every_texel(image, target.range)
     }
 
     /// Whether what it draws into one plane of `target`, a part of `image`, replaces every texel.
     fn covers_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
         let sets = |stencil: StencilState| matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
         let written = if plane == Aspects::STENCIL { target.stencil.is_some_and(sets) } else { target.write };
-        written && self.reaches_every_texel(image, &target.range)
+        written && self.reaches_every_texel(image, target.range)
     }
 
     /// Whether it draws a fragment that passes all tests at every sample. A triangle reaches only one of several layers.
-    fn reaches_every_texel(&self, image: &Image, range: &Subresources) -> bool {
+    fn reaches_every_texel(&self, image: &Image, range: Subresources) -> bool {
         let full_screen = matches!(self.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. });
-        let layers = match range.layers {
-            Subresources::REMAINING => image.layers.saturating_sub(range.base_layer),
-            layers => layers,
-        };
         let passes = |depth: &DepthTarget| {
             depth.test == CompareOp::Always && depth.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always)
         };
-        full_screen && !self.alpha_to_coverage && layers == 1 && self.depth.as_ref().is_none_or(passes)
+        full_screen
+            && !self.alpha_to_coverage
+            && image.part(range).layers == 1
+            && self.depth.as_ref().is_none_or(passes)
     }
 }

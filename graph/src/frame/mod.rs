@@ -22,7 +22,7 @@ pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;
 pub(crate) use part::TargetShape;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
-pub(crate) use resource::with_room;
+pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{
     ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,

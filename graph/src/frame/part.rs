@@ -8,8 +8,8 @@ use crate::vulkan::{Aspects, Subresources, extent_at};
 pub(crate) struct TargetShape {
     /// Width, height and depth of the mip level.
     pub(crate) extent: [u32; 3],
-    /// Width and height that the image is made with, if its size may change.
-    pub(crate) room: Option<[u32; 2]>,
+    /// The allocated width and height, if its size may change.
+    pub(crate) allocated: Option<[u32; 2]>,
     /// How it holds both eyes' parts, if it does.
     pub(crate) eyes: Option<EyeForm>,
     pub(crate) layers: u32,
@@ -57,7 +57,7 @@ impl Image {
     /// What `range` of it, one mip level, demands of the attachments beside it.
     pub(crate) fn target_shape(&self, range: Subresources) -> TargetShape {
         let Subresources { base_mip, layers, .. } = self.part(range);
-        let Image { room, eyes, samples, .. } = *self;
-        TargetShape { extent: self.extent_at(base_mip), room, eyes, layers, samples }
+        let Image { allocated, eyes, samples, .. } = *self;
+        TargetShape { extent: self.extent_at(base_mip), allocated, eyes, layers, samples }
     }
 }

@@ -48,7 +48,7 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// A pass that touches nothing yet, and that no file declares.
+    /// A pass that accesses nothing yet, and that no file declares.
     #[must_use]
     pub fn new(name: &str, work: Work) -> Pass {
         Pass {

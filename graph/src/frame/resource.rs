@@ -19,13 +19,13 @@ pub struct Image {
     pub format: Format,
     /// Flat, deep, or a cube.
     pub shape: Shape,
-    /// Width, height, depth in texels, each at least 1: of the part in use, if it has room for more.
+    /// Width, height, depth in texels, each at least 1: of the part in use, if more is allocated.
     pub extent: [u32; 3],
-    /// Width and height that it is made with if `extent` may change from frame to frame, both at least as much as that: the
-    /// part in use begins in the upper left corner. `None`: it is made as large as `extent`. Flat, transient images of one
-    /// mip level may have room.
-    pub room: Option<[u32; 2]>,
-    /// By how much what it holds is turned; `extent` and `room` are those of the turned picture then. The compiler turns
+    /// The allocated width and height if `extent` may change from frame to frame, both at least as much as that: the part
+    /// in use begins in the upper left corner. `None`: the allocated extent is `extent`. Flat, transient images of one mip
+    /// level may have one of their own.
+    pub allocated: Option<[u32; 2]>,
+    /// By how much what it holds is turned; `extent` and `allocated` are those of the turned picture then. The compiler turns
     /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given none is.
     pub rotation: Rotation,
     /// How it holds what both eyes have of their own; `None`: it is both eyes' together, or one's. All else that is said of it
@@ -67,7 +67,7 @@ impl Image {
             format,
             shape: Shape::D2,
             extent: [width, height, 1],
-            room: None,
+            allocated: None,
             rotation: Rotation::Identity,
             eyes: None,
             mips: 1,
@@ -82,7 +82,7 @@ impl Image {
     /// Width, height and depth that it is made with.
     #[must_use]
     pub fn made(&self) -> [u32; 3] {
-        EyeForm::extent(self.eyes, with_room(self.extent, self.room), self.rotation)
+        EyeForm::extent(self.eyes, allocated_extent(self.extent, self.allocated), self.rotation)
     }
 
     /// Array layers that it is made with.
@@ -93,8 +93,8 @@ impl Image {
 }
 
 /// Width, height and depth of an image of which a part is in use.
-pub(crate) fn with_room(part: [u32; 3], room: Option<[u32; 2]>) -> [u32; 3] {
-    room.map_or(part, |[width, height]| [width, height, part[2]])
+pub(crate) fn allocated_extent(part: [u32; 3], allocated: Option<[u32; 2]>) -> [u32; 3] {
+    allocated.map_or(part, |[width, height]| [width, height, part[2]])
 }
 
 /// How several samples of an image become one value.

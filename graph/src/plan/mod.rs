@@ -5,14 +5,14 @@
 //! flags are written `A | B`. Everything is in execution order; same input, same bytes. `docs/plan-format.md` describes the
 //! JSON form field by field.
 //!
-//! What a step touches:
-//! - A [`Work::Render`] scope touches its attachments as their load, store and resolve operations say (colour in
+//! What a step accesses:
+//! - A [`Work::Render`] scope accesses its attachments as their load, store and resolve operations say (colour in
 //!   `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, stores in `LATE_FRAGMENT_TESTS`; *every* resolve in
-//!   `COLOR_ATTACHMENT_OUTPUT`), and each of its passes touches what its `accesses` list.
-//! - A [`Work::Dispatch`] or [`Work::Custom`] touches its accesses.
+//!   `COLOR_ATTACHMENT_OUTPUT`), and each of its passes accesses what its `accesses` list.
+//! - A [`Work::Dispatch`] or [`Work::Custom`] makes its accesses.
 //! - A [`Work::Resolve`], [`Work::Copy`] or [`Work::Blit`] reads its source and writes its target in the stage of that name
 //!   (`RESOLVE`, `COPY`, `BLIT`); a [`Work::Fill`] writes its target in `CLEAR`.
-//! - [`Work::Export`] touches nothing: its barriers leave images in the state that their [`Role`] promises, or change their
+//! - [`Work::Export`] accesses nothing: its barriers leave images in the state that their [`Role`] promises, or change their
 //!   layout before several queues read them.
 //!
 //! Order. Steps stand in the order in which they are submitted; those of one queue run in that order, as far as their
@@ -30,7 +30,6 @@ use crate::base::Place;
 use crate::frame::change::Action;
 use crate::frame::{EyeForm, Stereo};
 use crate::vulkan::Rotation;
-pub use crate::vulkan::Subresources;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
 
-use super::{BufferId, ImageId, Plan, Resource, Side, StepId, Subresources, Transfer, Work};
-use crate::vulkan::name_of;
+use super::{BufferId, ImageId, Plan, Resource, Side, StepId, Transfer, Work};
+use crate::vulkan::{Subresources, name_of};
 use std::fmt;
 use std::fmt::{Display, Formatter, Write};
 

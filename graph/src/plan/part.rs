@@ -1,14 +1,14 @@
 //! Which part of an image a frame uses.
 
 use super::{BindingKind, Image, Pass, Plan};
-use crate::frame::{EyeForm, with_room};
+use crate::frame::{EyeForm, allocated_extent};
 use std::sync::Arc;
 
 impl Image {
     /// Width, height and depth that it is made with.
     #[must_use]
     pub fn made(&self) -> [u32; 3] {
-        EyeForm::extent(self.eyes, with_room(self.extent, self.room), self.rotation)
+        EyeForm::extent(self.eyes, allocated_extent(self.extent, self.allocated), self.rotation)
     }
 
     /// Array layers that it is made with.
@@ -18,7 +18,8 @@ impl Image {
     }
 
     /// Where the part in use, of two eyes the left one's, lies among all of the upright image: its width and height as shares,
-    /// and where it begins; the right eye's begins where it ends. That of a place in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
+    /// and where it begins; the right eye's begins where it ends. A place in the part, 0 to 1 from its upper left corner, is
+    /// `place * [0..2] + [2..4]` in the image.
     #[must_use]
     pub fn part(&self) -> [f32; 4] {
         #[allow(clippy::cast_possible_truncation, reason = "shaders calculate with as many bits")]
@@ -35,7 +36,7 @@ impl Plan {
         pass.accesses.iter().filter_map(|access| {
             let binding = access.binding.as_ref().filter(|it| matches!(it.kind, BindingKind::Sampled(_)))?;
             let image = self.image(access.image);
-            image.room.map(|_| (&binding.name, image.part()))
+            image.allocated.map(|_| (&binding.name, image.part()))
         })
     }
 }

@@ -22,13 +22,14 @@ pub struct Image {
     pub chosen: Option<ChosenFormat>,
     /// Flat, deep, or a cube.
     pub shape: Shape,
-    /// Width, height, depth in texels: of the part in use, if it has room for more.
+    /// Width, height, depth in texels: of the part in use, if more is allocated.
     pub extent: [u32; 3],
-    /// Width and height that it is made with, where `extent` is only the part that this frame uses, from the upper left
+    /// The allocated width and height, where `extent` is only the part that this frame uses, from the upper left
     /// corner on; `None`: `extent`. Shaders find the part by what they know as `NAME_st`.
-    pub room: Option<[u32; 2]>,
+    #[serde(rename = "room")]
+    pub allocated: Option<[u32; 2]>,
     /// By how much what it holds is turned: it is only drawn into, filled or left to a program that knows. `extent` and
-    /// `room` are those of the turned picture.
+    /// `allocated` are those of the turned picture.
     pub rotation: Rotation,
     /// How it holds both eyes' parts, if it does. Everything else that is said of it here, and wherever it is named, is said
     /// of one eye's part then, and what is done to it is done to both; it is made with [`Image::made`] and
@@ -135,7 +136,7 @@ pub struct Placement {
     pub alignment: u64,
     /// Memory types that will do, one bit each.
     pub type_bits: u32,
-    /// First and last step whose work touches it. Between them the memory is its own. Barriers for its first use may
+    /// First and last step whose work accesses it. Between them the memory is its own. Barriers for its first use may
     /// stand before an earlier step, if the previous user of the memory is done by then.
     pub lifetime: [StepId; 2],
 }

@@ -59,7 +59,7 @@ pub struct MemoryBarrier {
     pub dst_stages: Stages,
     /// Accesses that the writes are made visible to.
     pub dst_accesses: Accesses,
-    /// Previous and next occupant of each piece of memory that changes hands.
+    /// Previous and next owner of each piece of memory that changes hands.
     pub hand_overs: Vec<[Resource; 2]>,
     /// Buffers that it is there for.
     pub buffers: Vec<BufferHazard>,

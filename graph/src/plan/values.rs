@@ -37,16 +37,17 @@ fn without_values(plan: &Plan) -> Plan {
     plan.views.iter_mut().for_each(|view| view.jitter = None);
     for image in &mut plan.images {
         image.cause = Cause::Written(None);
-        image.extent = crate::frame::with_room(image.extent, image.room);
+        image.extent = crate::frame::allocated_extent(image.extent, image.allocated);
     }
     plan.buffers.iter_mut().for_each(|buffer| buffer.cause = Cause::Written(None));
     let Plan { images, steps, .. } = &mut plan;
-    let changes = |side: &Side| matches!(side, Side::Image { image, .. } if images[image.0 as usize].room.is_some());
+    let changes =
+        |side: &Side| matches!(side, Side::Image { image, .. } if images[image.0 as usize].allocated.is_some());
     for step in steps {
         match &mut step.work {
             Work::Render(scope) => {
                 let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
-                let changing = first.is_some_and(|first| images[first.image.0 as usize].room.is_some());
+                let changing = first.is_some_and(|first| images[first.image.0 as usize].allocated.is_some());
                 of_scope(scope, changing);
             }
             Work::Dispatch(pass) | Work::Custom(pass) => of_pass(pass),

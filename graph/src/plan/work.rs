@@ -1,9 +1,10 @@
 //! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies, fills.
 
-use super::{BufferId, Cause, ImageId, Resource, Subresources, ViewId};
+use super::{BufferId, Cause, ImageId, Resource, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
 use crate::vulkan::{
     Accesses, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
+    Subresources,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

@@ -6,12 +6,12 @@
 //! behind it that names it as its source; where it names no stages, a semaphore, which waits for everything. Of the reads
 //! that it names, at least one can be made at once.
 
-use super::cells::{Cell, Contents, Owner, Write};
 use super::dependencies::{before_access, before_layout_change};
 use super::findings::role;
 use super::frames::Frames;
 use super::scopes::{PairSet, StageSet, stage_of};
-use super::violation::Touched;
+use super::subresources::{Contents, Owner, SubresourceState, Write};
+use super::violation::Accessed;
 use super::walk::Walk;
 use crate::plan::{Resource, Role, StepId};
 use crate::vulkan::{Layout, State};
@@ -32,15 +32,15 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let queue = self.program.used[resource as usize].queue;
             let mut part = self.parts.whole(resource);
             while let Some(index) = self.parts.next(&mut part) {
-                let cell = &mut self.cells[index];
-                *cell = Cell::FRESH;
-                cell.layout = before.layout;
-                cell.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
+                let subresource = &mut self.subresources[index];
+                *subresource = SubresourceState::FRESH;
+                subresource.layout = before.layout;
+                subresource.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
                 // What is handed in was used on the queue that uses it first. What persists was prepared, and who did so
                 // waited until that was done.
                 if !persistent {
-                    cell.write = Write::before_frame(queue, pairs, time);
-                    cell.reads.insert(queue, stages, time);
+                    subresource.write = Write::before_frame(queue, pairs, time);
+                    subresource.reads.insert(queue, stages, time);
                 }
             }
         }
@@ -62,7 +62,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 }
                 self.check_layout(last, resource, index, after.layout);
                 self.check_state(last, resource, index, &after);
-                if persistent || matches!(self.cells[index].contents, Contents::Lost(..) | Contents::InPart(_)) {
+                if persistent || matches!(self.subresources[index].contents, Contents::Lost(..) | Contents::InPart(_)) {
                     self.read(last, resource, index);
                 }
             }
@@ -81,8 +81,8 @@ impl<const Q: usize> Walk<'_, '_, Q> {
 
     /// Whether a barrier that names the stated state as its source waits for everything, and makes it available.
     fn check_state(&mut self, last: StepId, resource: u32, index: usize, after: &State) {
-        let cell = &self.cells[index];
-        if cell.excused || matches!(cell.owner, Owner::Released(_)) || after.stages.is_empty() {
+        let subresource = &self.subresources[index];
+        if subresource.excused || matches!(subresource.owner, Owner::Released(_)) || after.stages.is_empty() {
             return;
         }
         let (stages, pairs) = scopes(after);
@@ -90,14 +90,15 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         // Parts may have been read last in different stages, of which the state lists all.
         let mut reads = if pairs.writes().is_empty() { pairs } else { PairSet::default() }.iter();
         let queue = self.program.used[resource as usize].last_queue;
-        let read = |pair| before_access(cell, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
+        let read =
+            |pair| before_access(subresource, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
         let unread = || {
             let first = read(reads.next()?)?;
             reads.all(|pair| read(pair).is_some()).then_some(first)
         };
-        if let Some(mut gap) = before_layout_change(cell, &before, pairs).or_else(unread) {
-            gap.later = Touched::AfterFrame;
-            self.cells[index].excused = true;
+        if let Some(mut gap) = before_layout_change(subresource, &before, pairs).or_else(unread) {
+            gap.later = Accessed::AfterFrame;
+            self.subresources[index].excused = true;
             self.report(last, resource, index, gap.rule(), gap.time);
         }
     }
@@ -114,7 +115,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     fn exchange(&mut self, one: u32, other: u32) {
         let (mut one, mut other) = (self.parts.whole(one), self.parts.whole(other));
         while let (Some(one), Some(other)) = (self.parts.next(&mut one), self.parts.next(&mut other)) {
-            self.cells.swap(one, other);
+            self.subresources.swap(one, other);
         }
     }
 }

@@ -7,7 +7,7 @@
 //! A semaphore is a barrier from everything on one queue to everything on another.
 //!
 //! Availability and visibility by *memory barriers* and semaphores, which cover everything, are clocks of the same kind.
-//! Those by image barriers, which cover one image, are kept with that image: see [`super::cells`].
+//! Those by image barriers, which cover one image, are kept with that image: see [`super::subresources`].
 //!
 //! `Q` is the number of queues: a Plan on one queue pays for one.
 

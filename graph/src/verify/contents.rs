@@ -1,47 +1,49 @@
 //! Whether what is read was ever written, and not lost since.
 
-use super::cells::{Contents, Lost};
+use super::accesses::does;
 use super::findings::{Finding, name};
-use super::program::Touch;
-use super::touches::does;
+use super::program::Access;
+use super::subresources::{Contents, Lost};
 use super::violation::{Loss, Rule, StepName};
 use super::walk::Walk;
 use crate::plan::StepId;
 
 impl<const Q: usize> Walk<'_, '_, Q> {
     /// What an access does to contents.
-    pub(super) fn contents(&mut self, step: StepId, touch: &Touch) {
+    pub(super) fn contents(&mut self, step: StepId, access: &Access) {
         let now = self.now(step);
-        let mut part = self.parts.of(touch.resource, touch.range);
+        let mut part = self.parts.of(access.resource, access.range);
         while let Some(index) = self.parts.next(&mut part) {
-            if touch.contents & does::READ != 0 {
-                self.read(step, touch.resource, index);
+            if access.contents & does::READ != 0 {
+                self.read(step, access.resource, index);
             }
-            let cell = &mut self.cells[index];
-            if touch.contents & does::FILL != 0 {
-                cell.contents = Contents::Defined;
-                cell.filled = now;
-            } else if touch.contents & does::ADD != 0 {
-                match cell.contents {
-                    Contents::Defined => cell.filled = now,
-                    Contents::Unwritten => cell.contents = Contents::InPart(now),
+            let subresource = &mut self.subresources[index];
+            if access.contents & does::FILL != 0 {
+                subresource.contents = Contents::Defined;
+                subresource.filled = now;
+            } else if access.contents & does::ADD != 0 {
+                match subresource.contents {
+                    Contents::Defined => subresource.filled = now,
+                    Contents::Unwritten => subresource.contents = Contents::InPart(now),
                     Contents::InPart(_) | Contents::Lost(..) => {}
                 }
             }
-            let lost = match cell.contents {
-                Contents::Defined if touch.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
-                Contents::Defined if touch.contents & does::NOT_STORE != 0 => Lost::NotStored,
+            let lost = match subresource.contents {
+                Contents::Defined if access.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
+                Contents::Defined if access.contents & does::NOT_STORE != 0 => Lost::NotStored,
                 // A store operation `NONE` keeps what was there before the scope, but not what the scope wrote.
-                Contents::Defined if touch.contents & does::STORE_NONE != 0 && cell.filled == now => Lost::NotStored,
+                Contents::Defined if access.contents & does::STORE_NONE != 0 && subresource.filled == now => {
+                    Lost::NotStored
+                }
                 _ => continue,
             };
-            cell.contents = Contents::Lost(lost, now);
+            subresource.contents = Contents::Lost(lost, now);
         }
     }
 
     /// A step reads a part.
     pub(super) fn read(&mut self, step: StepId, resource: u32, index: usize) {
-        let contents = self.cells[index].contents;
+        let contents = self.subresources[index].contents;
         let (rule, other) = match contents {
             Contents::Defined => return,
             Contents::Unwritten => {
@@ -51,7 +53,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             Contents::InPart(time) => (Rule::Uninitialised { in_part: true }, self.name_at(time, resource)),
             Contents::Lost(lost, time) => (Rule::LostWrite { loss: self.loss(lost) }, self.name_at(time, resource)),
         };
-        self.cells[index].contents = Contents::Defined;
+        self.subresources[index].contents = Contents::Defined;
         let (range, bytes) = (self.range(resource, index), self.buffer_bytes(resource));
         self.found.push(Finding { rule, step, other, resource, range, bytes });
     }

@@ -9,18 +9,18 @@
 //! Execution dependencies are global, whichever barrier or semaphore makes them. Memory dependencies of an image barrier
 //! cover the barrier's own range, those of memory barriers and semaphores everything.
 
-use super::cells::{Cell, Write};
 use super::clocks::{Clock, Clocks, Time};
 use super::scopes::{PairSet, StageSet, stage_of, stage_word, words};
-use super::violation::{Rule, Touched};
+use super::subresources::{SubresourceState, Write};
+use super::violation::{Accessed, Rule};
 
 /// What is missing between an earlier access and a later one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
     /// When the earlier one happened.
     pub(super) time: Time,
-    pub(super) earlier: Touched,
-    pub(super) later: Touched,
+    pub(super) earlier: Accessed,
+    pub(super) later: Accessed,
     pub(super) missing: Missing,
 }
 
@@ -45,14 +45,14 @@ impl Gap {
 
 /// What is missing before an access in `stages` of `queue` by `pairs`.
 pub(super) fn before_access<const Q: usize>(
-    cell: &Cell<Q>,
+    subresource: &SubresourceState<Q>,
     clocks: &Clocks<Q>,
     queue: u8,
     stages: StageSet,
     pairs: PairSet,
 ) -> Option<Gap> {
-    if cell.write.exists()
-        && let Some(gap) = after_write(&cell.write, clocks, queue, stages, pairs)
+    if subresource.write.exists()
+        && let Some(gap) = after_write(&subresource.write, clocks, queue, stages, pairs)
     {
         return Some(gap);
     }
@@ -60,12 +60,12 @@ pub(super) fn before_access<const Q: usize>(
     if writes.is_empty() {
         return None;
     }
-    cell.reads.iter().find_map(|read| {
+    subresource.reads.iter().find_map(|read| {
         let early = |pair: &usize| !clocks.of(queue, stage_of(*pair)).is_after(read.queue, read.stage, read.time);
         let later = by(writes.iter().find(early)?);
         Some(Gap {
             time: read.time,
-            earlier: Touched::Read(stage_word(read.stage)),
+            earlier: Accessed::Read(stage_word(read.stage)),
             later,
             missing: Missing::Execution,
         })
@@ -83,8 +83,8 @@ fn after_write<const Q: usize>(
         let pair = pairs.iter().find(|pair| stage_of(*pair) == stage);
         let missed =
             write.pairs.iter().find(|pair| !clocks.of(queue, stage).is_after(write.queue, stage_of(*pair), write.time));
-        let later = pair.map_or(Touched::Wait(stage_word(stage)), by);
-        let earlier = missed.map_or(Touched::LayoutChange, by);
+        let later = pair.map_or(Accessed::Wait(stage_word(stage)), by);
+        let earlier = missed.map_or(Accessed::LayoutChange, by);
         return Some(Gap { time: write.time, earlier, later, missing: Missing::Execution });
     }
     if write.is_shown(queue, pairs) {
@@ -94,17 +94,21 @@ fn after_write<const Q: usize>(
     let available = stages.iter().all(|stage| is_available(clocks, queue, stage, write));
     let missing = if available { Missing::Visibility } else { Missing::Availability };
     let dark = write.pairs.iter().find(|pair| !clocks.is_visible(queue, hidden, write.queue, *pair, write.time));
-    Some(Gap { time: write.time, earlier: dark.map_or(Touched::LayoutChange, by), later: by(hidden), missing })
+    Some(Gap { time: write.time, earlier: dark.map_or(Accessed::LayoutChange, by), later: by(hidden), missing })
 }
 
 /// What is missing before a layout change, or before the memory is given away, by a barrier that comes after `before` and
 /// makes the writes `source` available itself.
-pub(super) fn before_layout_change<const Q: usize>(cell: &Cell<Q>, before: &Clock<Q>, source: PairSet) -> Option<Gap> {
-    let gap = |time, earlier, missing| Gap { time, earlier, later: Touched::LayoutChange, missing };
-    if let Some(read) = cell.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
-        return Some(gap(read.time, Touched::Read(stage_word(read.stage)), Missing::Execution));
+pub(super) fn before_layout_change<const Q: usize>(
+    subresource: &SubresourceState<Q>,
+    before: &Clock<Q>,
+    source: PairSet,
+) -> Option<Gap> {
+    let gap = |time, earlier, missing| Gap { time, earlier, later: Accessed::LayoutChange, missing };
+    if let Some(read) = subresource.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
+        return Some(gap(read.time, Accessed::Read(stage_word(read.stage)), Missing::Execution));
     }
-    let write = &cell.write;
+    let write = &subresource.write;
     if !write.exists() || makes_available(write, before, source) {
         return None;
     }
@@ -115,7 +119,7 @@ pub(super) fn before_layout_change<const Q: usize>(cell: &Cell<Q>, before: &Cloc
     let left = |pair: &usize| !source.contains(*pair) && !before.has_available(write.queue, *pair, write.time);
     let (earlier, missing) = match write.pairs.iter().find(left) {
         Some(pair) => (by(pair), Missing::Availability),
-        None => (Touched::LayoutChange, Missing::Execution),
+        None => (Accessed::LayoutChange, Missing::Execution),
     };
     Some(gap(write.time, earlier, missing))
 }
@@ -157,7 +161,7 @@ fn is_available<const Q: usize>(clocks: &Clocks<Q>, queue: u8, stage: usize, wri
 }
 
 /// A pair in Vulkan's words.
-pub(super) fn by(pair: usize) -> Touched {
+pub(super) fn by(pair: usize) -> Accessed {
     let (stages, accesses) = words(pair);
-    Touched::By(stages, accesses)
+    Accessed::By(stages, accesses)
 }

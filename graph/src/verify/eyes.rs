@@ -1,7 +1,7 @@
 //! Whether what holds both eyes' parts is used for both eyes at once, or by shaders that say whose they look up.
 
+use super::accesses::attachments;
 use super::findings::Findings;
-use super::touches::attachments;
 use crate::frame::{EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
 use crate::vulkan::{Accesses, Shape};

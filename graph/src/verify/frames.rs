@@ -71,7 +71,7 @@ fn check_alike(plan: &Plan, found: &mut Findings) {
                 let extent = (
                     image.format,
                     image.shape,
-                    (image.extent, image.room, image.rotation),
+                    (image.extent, image.allocated, image.rotation),
                     image.mips,
                     image.layers,
                     image.samples,

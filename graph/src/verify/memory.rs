@@ -11,12 +11,12 @@
 //!    image barrier's memory scope is its own image. To the first accesses of a buffer B, which no barrier of its own
 //!    protects, it must be visible as well.
 
-use super::cells::{Cell, Contents, Lost};
 use super::clocks::Clock;
 use super::dependencies::{Missing, before_access, before_layout_change};
 use super::findings::{Finding, name, role};
-use super::program::Touch;
+use super::program::Access;
 use super::scopes::PairSet;
+use super::subresources::{Contents, Lost, SubresourceState};
 use super::violation::{Rule, StepName};
 use super::walk::Walk;
 use crate::plan::{Placement, Plan, Role, StepId};
@@ -37,7 +37,7 @@ pub(super) struct Memory {
 #[derive(Debug, Clone, Copy, Default)]
 struct Holder {
     /// How often it took them.
-    occupations: u32,
+    generations: u32,
     /// Whether it still has all of them.
     held: bool,
     /// When it took them last.
@@ -52,7 +52,7 @@ pub(super) enum Taking<'t, const Q: usize> {
     /// An image barrier: what comes before it. It makes available only what its own image wrote.
     Barrier(&'t Clock<Q>),
     /// An access to a buffer, on that queue.
-    Access(u8, &'t Touch),
+    Access(u8, &'t Access),
 }
 
 impl Memory {
@@ -64,9 +64,9 @@ impl Memory {
         }
     }
 
-    /// Which occupation the parts of an image belong to now.
-    pub(super) fn occupation(&self, resource: u32) -> u32 {
-        self.holders[resource as usize].occupations
+    /// How often the memory of an image has changed hands.
+    pub(super) fn generation(&self, resource: u32) -> u32 {
+        self.holders[resource as usize].generations
     }
 
     /// Gives the bytes of `placement` to `resource`; who had them before is added to the predecessors.
@@ -105,14 +105,14 @@ impl Memory {
 
 impl<const Q: usize> Walk<'_, '_, Q> {
     /// An image or buffer takes its bytes, unless it has them.
-    pub(super) fn occupy(&mut self, step: StepId, resource: u32) {
+    pub(super) fn alias(&mut self, step: StepId, resource: u32) {
         let Role::Transient(placement) = role(self.plan, resource) else { return };
         let now = self.now(step);
         let holder = &mut self.memory.holders[resource as usize];
         if std::mem::replace(&mut holder.held, true) {
             return;
         }
-        holder.occupations += 1;
+        holder.generations += 1;
         holder.taken = now;
         let first = self.memory.predecessors.len();
         self.memory.take(resource, placement);
@@ -143,10 +143,10 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         let frame_start = self.frame_start();
         let mut part = self.parts.whole(owner);
         while let Some(index) = self.parts.next(&mut part) {
-            let cell = &mut self.cells[index];
-            cell.layout = crate::vulkan::Layout::Undefined;
-            cell.contents = match cell.contents {
-                Contents::Defined if cell.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
+            let subresource = &mut self.subresources[index];
+            subresource.layout = crate::vulkan::Layout::Undefined;
+            subresource.contents = match subresource.contents {
+                Contents::Defined if subresource.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
                 Contents::Defined => Contents::Unwritten,
                 lost => lost,
             };
@@ -154,25 +154,26 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     }
 
     /// A step accesses a buffer: if it is transient, it may have to take its bytes.
-    pub(super) fn occupy_buffer(&mut self, step: StepId, queue: u8, touch: &Touch) {
-        let resource = touch.resource;
-        let before = self.memory.occupation(resource);
-        self.occupy(step, resource);
+    pub(super) fn alias_buffer(&mut self, step: StepId, queue: u8, access: &Access) {
+        let resource = access.resource;
+        let before = self.memory.generation(resource);
+        self.alias(step, resource);
         let holder = self.memory.holders[resource as usize];
-        if holder.occupations != before {
+        if holder.generations != before {
             // What it did before it lost its bytes is what those who took them had to wait for.
             let mut part = self.parts.whole(resource);
             while let Some(index) = self.parts.next(&mut part) {
-                let contents = self.cells[index].contents;
-                self.cells[index] = Cell { contents, owner: self.cells[index].owner, ..Cell::FRESH };
+                let contents = self.subresources[index].contents;
+                self.subresources[index] =
+                    SubresourceState { contents, owner: self.subresources[index].owner, ..SubresourceState::FRESH };
             }
         }
         if holder.taken == self.now(step) {
-            self.check_hand_over(step, resource, None, Taking::Access(queue, touch));
+            self.check_hand_over(step, resource, None, Taking::Access(queue, access));
         }
     }
 
-    /// The last step that touches `resource` in a frame, if `step` lies between its first and its last.
+    /// The last step that accesses `resource` in a frame, if `step` lies between its first and its last.
     fn needs_until(&self, resource: u32, step: StepId) -> Option<StepId> {
         let [first, last] = self.program.used[resource as usize].steps()?;
         (first..=last).contains(&step).then_some(last)
@@ -186,10 +187,12 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let mut part = self.parts.whole(from);
             let mut missing = None;
             while let (None, Some(index)) = (missing, self.parts.next(&mut part)) {
-                let cell = &self.cells[index];
+                let subresource = &self.subresources[index];
                 missing = match taking {
-                    Taking::Barrier(before) => before_layout_change(cell, before, PairSet::default()),
-                    Taking::Access(queue, touch) => before_access(cell, &self.clocks, queue, touch.stages, touch.pairs),
+                    Taking::Barrier(before) => before_layout_change(subresource, before, PairSet::default()),
+                    Taking::Access(queue, access) => {
+                        before_access(subresource, &self.clocks, queue, access.stages, access.pairs)
+                    }
                 };
             }
             if let Some(gap) = missing {
@@ -207,7 +210,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
-    fn first_range(&self, resource: u32) -> Option<crate::plan::Subresources> {
+    fn first_range(&self, resource: u32) -> Option<crate::vulkan::Subresources> {
         let mut part = self.parts.whole(resource);
         self.parts.next(&mut part).and_then(|index| self.range(resource, index))
     }

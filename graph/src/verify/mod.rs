@@ -10,9 +10,9 @@
 //!
 //! The work is linear in steps, barriers and accesses: see `clocks`, `parts` and `program`.
 
+mod accesses;
 mod barriers;
 mod boundaries;
-mod cells;
 mod clocks;
 mod contents;
 mod dependencies;
@@ -28,14 +28,14 @@ mod redraws;
 mod rotation;
 mod scopes;
 mod structure;
+mod subresources;
 mod totals;
-mod touches;
 mod transfers;
 mod violation;
 mod walk;
 mod work;
 
-pub use violation::{Loss, OwnershipFault, Rule, StepName, Touched, Violation};
+pub use violation::{Accessed, Loss, OwnershipFault, Rule, StepName, Violation};
 
 use crate::plan::Plan;
 use findings::Findings;

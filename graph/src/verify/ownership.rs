@@ -5,8 +5,8 @@
 //! a step on the first queue, one among the barriers of a step on the second; in between nobody may use it. In the first
 //! frame something persistent belongs to nobody yet, and can be acquired without a release. Buffers are never handed over.
 
-use super::cells::{Cell, Owner};
 use super::program::Barrier;
+use super::subresources::{Owner, SubresourceState};
 use super::violation::{OwnershipFault, Rule};
 use super::walk::Walk;
 use crate::plan::{Queue, StepId};
@@ -18,7 +18,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         if !self.program.used[resource as usize].exclusive {
             return;
         }
-        let fault = match std::mem::replace(&mut self.cells[index].owner, Owner::Queue(queue)) {
+        let fault = match std::mem::replace(&mut self.subresources[index].owner, Owner::Queue(queue)) {
             Owner::Anyone => return,
             Owner::Queue(owner) if owner == queue => return,
             Owner::Queue(owner) => OwnershipFault::Elsewhere { owner: named(owner), user: named(queue) },
@@ -37,14 +37,14 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         index: usize,
     ) -> bool {
         let image = barrier.image;
-        let owner = self.cells[index].owner;
+        let owner = self.subresources[index].owner;
         let owned = Owner::Queue(barrier.ownership.map_or(queue, |[_, to]| to));
         let fault = match (barrier.ownership, owner) {
             (None, Owner::Released(release)) if barrier.old == Layout::Undefined => {
                 OwnershipFault::NeverAcquired { released: self.queues(release) }
             }
             (None, _) if barrier.old == Layout::Undefined => {
-                self.cells[index].owner = owned;
+                self.subresources[index].owner = owned;
                 return false;
             }
             (None, _) => {
@@ -54,13 +54,18 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             (Some(_), Owner::Released(release))
                 if self.is_other_half(&self.program.barriers[release as usize], barrier) =>
             {
-                self.cells[index].owner = owned;
+                self.subresources[index].owner = owned;
                 return true;
             }
             (Some(_), Owner::Anyone) if self.frame == 0 => {
                 // Whoever made it has released it, in the layout in which the frame finds it.
-                let cell = &mut self.cells[index];
-                *cell = Cell { owner: owned, layout: cell.layout, contents: cell.contents, ..Cell::FRESH };
+                let subresource = &mut self.subresources[index];
+                *subresource = SubresourceState {
+                    owner: owned,
+                    layout: subresource.layout,
+                    contents: subresource.contents,
+                    ..SubresourceState::FRESH
+                };
                 return false;
             }
             (Some(_), Owner::Released(release)) => {
@@ -68,7 +73,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             }
             (Some(_), _) => OwnershipFault::NotReleased { acquired: self.queues(number) },
         };
-        self.cells[index].owner = owned;
+        self.subresources[index].owner = owned;
         self.report_owner(step, image, index, fault);
         // Its layouts are those of the other half, or wrong for the reason that was just given.
         barrier.ownership.is_some()
@@ -76,7 +81,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
 
     /// Whether nothing is left between two queues when the frame ends, of what doesn't go on to the next one.
     pub(super) fn check_acquired(&mut self, step: StepId, resource: u32, index: usize) {
-        if let Owner::Released(barrier) = self.cells[index].owner {
+        if let Owner::Released(barrier) = self.subresources[index].owner {
             let fault = OwnershipFault::NeverAcquired { released: self.queues(barrier) };
             self.report_owner(step, resource, index, fault);
         }
@@ -94,8 +99,8 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     }
 
     fn report_owner(&mut self, step: StepId, resource: u32, index: usize, fault: OwnershipFault) {
-        let last = self.cells[index].last();
-        self.cells[index].excused = true;
+        let last = self.subresources[index].last();
+        self.subresources[index].excused = true;
         self.report(step, resource, index, Rule::Ownership { fault }, last);
     }
 }

@@ -1,11 +1,11 @@
-//! Which cells stand for which parts of images.
+//! Which subresources stand for which parts of images.
 //!
-//! Parts that every range of the Plan names together are one cell: an image that is only used as a whole has one, a mip
+//! Parts that every range of the Plan names together are one subresource: an image that is only used as a whole has one, a mip
 //! chain that is built level by level has one a level. So the work grows with what the Plan tells apart, not with the
-//! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one cell.
+//! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one subresource.
 
-use crate::plan::{Image, Plan, Role, Subresources};
-use crate::vulkan::Aspects;
+use crate::plan::{Image, Plan, Role};
+use crate::vulkan::{Aspects, Subresources};
 use std::collections::BTreeMap;
 
 /// A range of an image that steps name; the whole of an image or buffer is the range 0.
@@ -23,18 +23,18 @@ pub(super) struct Ranges {
     ranges: Vec<(u32, Subresources)>,
 }
 
-/// The cells of all images and buffers.
+/// The subresources of all images and buffers.
 #[derive(Debug)]
 pub(super) struct Parts {
-    /// The first cell of each image and buffer, and behind all of them the number of cells.
+    /// The first subresource of each image and buffer, and behind all of them the number of subresources.
     first: Vec<u32>,
     grids: BTreeMap<u32, Grid>,
-    /// For each range, where its cells stand in `listed`.
+    /// For each range, where its subresources stand in `listed`.
     ranges: Vec<[u32; 2]>,
     listed: Vec<u32>,
 }
 
-/// The cells of a range: numbers, or places in a list of numbers.
+/// The subresources of a range: numbers, or places in a list of numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
     next: u32,
@@ -42,7 +42,7 @@ pub(super) struct Part {
     listed: bool,
 }
 
-/// Where the cells of an image are cut.
+/// Where the subresources of an image are cut.
 #[derive(Debug, Clone)]
 struct Grid {
     /// First level of each part, rising, then the number of levels.
@@ -114,7 +114,7 @@ impl Grid {
         ((self.mips.len() - 1) * (self.layers.len() - 1) * self.planes.len()) as u32
     }
 
-    /// Adds the cells of `range`, counted from `first`, to `listed`.
+    /// Adds the subresources of `range`, counted from `first`, to `listed`.
     fn list(&self, first: u32, range: Subresources, listed: &mut Vec<u32>) {
         let part = |cuts: &[u32], base: u32, count: u32| {
             cuts.partition_point(|cut| *cut < base)..cuts.partition_point(|cut| *cut < base + count)
@@ -134,7 +134,7 @@ impl Grid {
 }
 
 impl Parts {
-    /// Cells, cut so that each of `ranges` is made of whole cells. Images that become each other are cut alike.
+    /// Subresources, cut so that each of `ranges` is made of whole subresources. Images that become each other are cut alike.
     pub(super) fn new(plan: &Plan, ranges: &Ranges) -> Parts {
         let mut grids = BTreeMap::new();
         for (id, range) in &ranges.ranges {
@@ -151,12 +151,12 @@ impl Parts {
         grids.values_mut().for_each(Grid::sort);
         let resources = plan.images.len() + plan.buffers.len();
         let mut first = Vec::with_capacity(resources + 1);
-        let mut cells = 0;
+        let mut subresources = 0;
         for resource in 0..resources as u32 {
-            first.push(cells);
-            cells += grids.get(&resource).map_or(1, Grid::count);
+            first.push(subresources);
+            subresources += grids.get(&resource).map_or(1, Grid::count);
         }
-        first.push(cells);
+        first.push(subresources);
         let mut parts = Parts { first, grids, ranges: vec![[0, 0]], listed: Vec::new() };
         for (image, range) in &ranges.ranges {
             let start = parts.listed.len() as u32;
@@ -166,12 +166,12 @@ impl Parts {
         parts
     }
 
-    /// How many cells there are.
+    /// How many subresources there are.
     pub(super) fn count(&self) -> usize {
-        self.first.last().map_or(0, |cells| *cells as usize)
+        self.first.last().map_or(0, |subresources| *subresources as usize)
     }
 
-    /// The cells of a range of an image, or of a buffer.
+    /// The subresources of a range of an image, or of a buffer.
     pub(super) fn of(&self, resource: u32, range: RangeId) -> Part {
         if range == RangeId::WHOLE {
             return self.whole(resource);
@@ -180,12 +180,12 @@ impl Parts {
         Part { next, end, listed: true }
     }
 
-    /// Every cell of an image or buffer.
+    /// Every subresource of an image or buffer.
     pub(super) fn whole(&self, resource: u32) -> Part {
         Part { next: self.first[resource as usize], end: self.first[resource as usize + 1], listed: false }
     }
 
-    /// The next cell of a part.
+    /// The next subresource of a part.
     pub(super) fn next(&self, part: &mut Part) -> Option<usize> {
         let place = part.next;
         (place < part.end).then(|| {
@@ -194,12 +194,12 @@ impl Parts {
         })
     }
 
-    /// The part of `image` that a cell stands for.
-    pub(super) fn range(&self, image: &Image, cell: usize) -> Subresources {
+    /// The part of `image` that a subresource stands for.
+    pub(super) fn range(&self, image: &Image, subresource: usize) -> Subresources {
         let Some(grid) = self.grids.get(&image.id.0) else {
             return Subresources::all(image.format, image.mips, image.layers);
         };
-        let index = cell - self.first[image.id.0 as usize] as usize;
+        let index = subresource - self.first[image.id.0 as usize] as usize;
         let [mips, layers] = [grid.mips.len() - 1, grid.layers.len() - 1];
         let (mip, layer) = (index % mips, index / mips % layers);
         Subresources {

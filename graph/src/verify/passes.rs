@@ -1,8 +1,8 @@
 //! Whether each pass is well formed: what it draws or dispatches, and what it accesses.
 
+use super::accesses::{ATTACHMENT, attachments};
 use super::barriers::{check_scope, planes, possible};
 use super::structure::is_of_file;
-use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};
 use crate::plan::names::Shown;
@@ -196,10 +196,14 @@ impl<'p> Check<'_, 'p> {
         self.demand(!of_shader.is_empty(), access.image, "is bound without such an access");
         self.demand(possible.contains(of_shader), access.image, "is accessed by a shader without such a binding");
         let linear = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.is_linear());
-        let Image { room, format, .. } = self.plan.image(access.image);
+        let Image { allocated, format, .. } = self.plan.image(access.image);
         let ends = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.address == AddressMode::ClampToEdge);
         let sampled = matches!(binding.kind, BindingKind::Sampled(_));
-        self.demand(room.is_none() || ends || !sampled, access.image, "is used in part and looked up beyond its edges");
+        self.demand(
+            allocated.is_none() || ends || !sampled,
+            access.image,
+            "is used in part and looked up beyond its edges",
+        );
         let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));

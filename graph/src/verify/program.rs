@@ -4,13 +4,13 @@
 //! A Plan is read once to build it. On the way uses and lifetimes that the Plan doesn't state are reported, and ranges
 //! that no image has: with those, nothing can be followed.
 
+use super::accesses::{self, BufferAccess, ImageAccess, Kind};
 use super::findings::{Finding, Findings, role};
 use super::parts::{RangeId, Ranges, fits};
 use super::scopes::{PairSet, StageSet};
-use super::touches::{self, BufferTouch, ImageTouch, Kind};
 use super::violation::{Rule, StepName};
-use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId, Subresources};
-use crate::vulkan::{Layout, Sharing, name_of};
+use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId};
+use crate::vulkan::{Layout, Sharing, Subresources, name_of};
 
 /// The steps of a Plan.
 #[derive(Debug, Default)]
@@ -20,8 +20,8 @@ pub(super) struct Program {
     pub(super) memory_barriers: Vec<MemoryScopes>,
     /// Those before the work of a step, then its releases.
     pub(super) barriers: Vec<Barrier>,
-    pub(super) touches: Vec<Touch>,
-    /// For each image and buffer: what touches it.
+    pub(super) accesses: Vec<Access>,
+    /// For each image and buffer: what accesses it.
     pub(super) used: Vec<Used>,
     pub(super) ranges: Ranges,
     /// Steps that others wait for, rising.
@@ -38,7 +38,7 @@ struct Ends {
     memory_barriers: u32,
     barriers: u32,
     releases: u32,
-    touches: u32,
+    accesses: u32,
 }
 
 /// Where the entries of a step stand in each list.
@@ -49,7 +49,7 @@ pub(super) struct Span {
     pub(super) memory_barriers: std::ops::Range<usize>,
     pub(super) barriers: std::ops::Range<usize>,
     pub(super) releases: std::ops::Range<usize>,
-    pub(super) touches: std::ops::Range<usize>,
+    pub(super) accesses: std::ops::Range<usize>,
 }
 
 /// A wait for another queue.
@@ -83,18 +83,18 @@ pub(super) struct Barrier {
 
 /// An access of a step's work.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(super) struct Access {
     pub(super) resource: u32,
     pub(super) range: RangeId,
     pub(super) pairs: PairSet,
     pub(super) stages: StageSet,
     pub(super) layout: Layout,
     pub(super) kind: Kind,
-    /// What it does to contents, see [`touches::does`].
+    /// What it does to contents, see [`accesses::does`].
     pub(super) contents: u8,
 }
 
-/// What touches an image or buffer: barriers, too.
+/// What accesses an image or buffer: barriers, too.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Used {
     /// The first step that does; after `last` if there is none.
@@ -135,7 +135,7 @@ impl Program {
             memory_barriers: range(start.memory_barriers, end.memory_barriers),
             barriers: range(start.releases, end.barriers),
             releases: range(end.barriers, end.releases),
-            touches: range(start.touches, end.touches),
+            accesses: range(start.accesses, end.accesses),
         }
     }
 }
@@ -196,7 +196,7 @@ impl<'b, 'p> Builder<'b, 'p> {
         }
         step.image_barriers.iter().for_each(|barrier| self.barrier(barrier));
         let barriers = self.program.barriers.len() as u32;
-        touches::list(&step.work, self);
+        accesses::list(&step.work, self);
         step.releases.iter().for_each(|barrier| self.barrier(barrier));
         self.program.steps.push(Ends {
             queue: self.queue,
@@ -204,7 +204,7 @@ impl<'b, 'p> Builder<'b, 'p> {
             memory_barriers: self.program.memory_barriers.len() as u32,
             barriers,
             releases: self.program.barriers.len() as u32,
-            touches: self.program.touches.len() as u32,
+            accesses: self.program.accesses.len() as u32,
         });
     }
 
@@ -217,7 +217,7 @@ impl<'b, 'p> Builder<'b, 'p> {
 
     fn barrier(&mut self, barrier: &ImageBarrier) {
         let Some(range) = self.range(barrier.image, barrier.range) else { return };
-        self.touch(barrier.image.0, Some(barrier.range), true);
+        self.note(barrier.image.0, Some(barrier.range), true);
         self.program.barriers.push(Barrier {
             image: barrier.image.0,
             range,
@@ -234,30 +234,30 @@ impl<'b, 'p> Builder<'b, 'p> {
     }
 
     /// Adds an access to an image.
-    pub(super) fn image(&mut self, touch: ImageTouch) {
-        let ImageTouch { image, range, layout, stages, pairs, kind, contents, usage } = touch;
+    pub(super) fn image(&mut self, access: ImageAccess) {
+        let ImageAccess { image, range, layout, stages, pairs, kind, contents, usage } = access;
         let Some(number) = self.range(image, range) else { return };
-        self.touch(image.0, Some(range), false);
+        self.note(image.0, Some(range), false);
         let missing = usage.difference(self.plan.image(image).usage);
         if !missing.is_empty() {
             let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
             self.found.structure(Some(self.step), Some(image.0), what);
         }
-        self.program.touches.push(Touch { resource: image.0, range: number, pairs, stages, layout, kind, contents });
+        self.program.accesses.push(Access { resource: image.0, range: number, pairs, stages, layout, kind, contents });
     }
 
     /// Adds an access to a buffer.
-    pub(super) fn buffer(&mut self, touch: BufferTouch) {
-        let BufferTouch { buffer, stages, pairs, contents, usage } = touch;
+    pub(super) fn buffer(&mut self, access: BufferAccess) {
+        let BufferAccess { buffer, stages, pairs, contents, usage } = access;
         let resource = self.plan.images.len() as u32 + buffer.0;
-        self.touch(resource, None, false);
+        self.note(resource, None, false);
         let missing = usage.difference(self.plan.buffers[buffer.0 as usize].usage);
         if !missing.is_empty() {
             let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
             self.found.structure(Some(self.step), Some(resource), what);
         }
         let (range, layout, kind) = (RangeId::WHOLE, Layout::Undefined, Kind::Plain);
-        self.program.touches.push(Touch { resource, range, pairs, stages, layout, kind, contents });
+        self.program.accesses.push(Access { resource, range, pairs, stages, layout, kind, contents });
     }
 
     fn range(&mut self, image: ImageId, range: Subresources) -> Option<RangeId> {
@@ -271,7 +271,7 @@ impl<'b, 'p> Builder<'b, 'p> {
     }
 
     /// Barriers may stand before the stated lifetime: whether the memory is free by then is found out on the way.
-    fn touch(&mut self, resource: u32, range: Option<Subresources>, barrier: bool) {
+    fn note(&mut self, resource: u32, range: Option<Subresources>, barrier: bool) {
         let used = &mut self.program.used[resource as usize];
         if used.steps().is_none() {
             *used = Used { first: self.step.0, queue: self.queue, ..*used };

@@ -43,7 +43,7 @@ fn wrong(
     let tests = pass.depth == original.depth && pass.stencil == original.stencil && pass.stencil.is_none();
     let (Some(depth), Some(drawn)) = (&scope.depth, &of.depth) else { return Some("draws no depth again") };
     let [copy, image] = [depth, drawn].map(|attachment| plan.image(attachment.image));
-    let size = |image: &Image| (image.extent, image.room, image.rotation);
+    let size = |image: &Image| (image.extent, image.allocated, image.rotation);
     let same_size = size(copy) == size(image);
     let fewer = scope.samples == 1 && of.samples > 1 && copy.format == image.format && same_size;
     let alone = pass.accesses.len() == 1 && pass.buffers.is_empty() && scope.color.is_empty();

@@ -1,8 +1,8 @@
 //! Whether what is turned is turned all along: nothing in a frame but a draw turns a picture, and shaders and copies take what
 //! they read to be upright.
 
+use super::accesses::attachments;
 use super::findings::Findings;
-use super::touches::attachments;
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
 use crate::vulkan::{Accesses, Rotation, Shape};
 

@@ -85,7 +85,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     if !fits || image.shape == Shape::Cube && image.samples > 1 {
         wrong("has a size, layers or samples that its shape can't have");
     }
-    if let Some([width, height]) = image.room {
+    if let Some([width, height]) = image.allocated {
         if width < image.extent[0] || height < image.extent[1] {
             wrong("uses more than it has room for");
         }

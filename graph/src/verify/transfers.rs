@@ -4,8 +4,8 @@ use super::barriers::planes;
 use super::parts::overlap;
 use super::structure::{fill_fits, is_of_file};
 use super::work::{Check, mip_extent};
-use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Subresources, Transfer};
-use crate::vulkan::{Aspects, FillValue, Filter, Format, Layout};
+use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Transfer};
+use crate::vulkan::{Aspects, FillValue, Filter, Format, Layout, Subresources};
 
 /// The side of a transfer that is an image.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,8 @@
 //! What the checker reports: data first, a sentence where it is shown.
 
 use crate::plan::names::Shown;
-use crate::plan::{Plan, Queue, StepId, Subresources};
-use crate::vulkan::{Accesses, Layout, Stages, name_of};
+use crate::plan::{Plan, Queue, StepId};
+use crate::vulkan::{Accesses, Layout, Stages, Subresources, name_of};
 use std::fmt;
 use std::fmt::{Display, Formatter};
 use std::sync::Arc;
@@ -53,23 +53,23 @@ pub enum Rule {
     /// No execution dependency orders two accesses, of which one writes.
     Execution {
         /// The earlier one.
-        earlier: Touched,
+        earlier: Accessed,
         /// The later one.
-        later: Touched,
+        later: Accessed,
     },
     /// They are ordered, but the write isn't made available.
     Availability {
         /// The write.
-        earlier: Touched,
+        earlier: Accessed,
         /// The later access.
-        later: Touched,
+        later: Accessed,
     },
     /// The write is available, but not visible to the later access.
     Visibility {
         /// The write.
-        earlier: Touched,
+        earlier: Accessed,
         /// The later access.
-        later: Touched,
+        later: Accessed,
     },
     /// A read of contents that no step of the frame wrote.
     Uninitialised {
@@ -86,12 +86,12 @@ pub enum Rule {
         /// The other image.
         with: Arc<str>,
     },
-    /// Memory changes hands before its last occupant is done.
+    /// Memory changes hands before its last owner is done.
     HandOver {
-        /// The last occupant.
+        /// The last owner.
         from: Arc<str>,
         /// Its access.
-        earlier: Touched,
+        earlier: Accessed,
         /// Whether the access is waited for, but the write not made available.
         waited: bool,
     },
@@ -116,9 +116,9 @@ pub enum Rule {
     },
 }
 
-/// What touched an image.
+/// What accessed an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Touched {
+pub enum Accessed {
     /// An access.
     By(Stages, Accesses),
     /// Any read in a stage.
@@ -198,14 +198,14 @@ impl Display for StepName {
     }
 }
 
-impl Display for Touched {
+impl Display for Accessed {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Touched::By(stages, accesses) => write!(f, "{} in {}", name_of(accesses), name_of(stages)),
-            Touched::Read(stages) => write!(f, "the read in {}", name_of(stages)),
-            Touched::LayoutChange => f.write_str("the layout change"),
-            Touched::Wait(stages) => name_of(stages).fmt(f),
-            Touched::AfterFrame => f.write_str("what relies on the state after the frame"),
+            Accessed::By(stages, accesses) => write!(f, "{} in {}", name_of(accesses), name_of(stages)),
+            Accessed::Read(stages) => write!(f, "the read in {}", name_of(stages)),
+            Accessed::LayoutChange => f.write_str("the layout change"),
+            Accessed::Wait(stages) => name_of(stages).fmt(f),
+            Accessed::AfterFrame => f.write_str("what relies on the state after the frame"),
         }
     }
 }

@@ -1,18 +1,18 @@
 //! The walk over the steps, frame after frame.
 
-use super::cells::{Cell, Contents, Lost, Owner, Write};
+use super::accesses::Kind;
 use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
 use super::findings::{Finding, Findings, role};
 use super::frames::Frames;
 use super::memory::{Memory, Taking};
 use super::parts::Parts;
-use super::program::{Barrier, Program, Span, Touch};
+use super::program::{Access, Barrier, Program, Span};
 use super::scopes::{PairSet, StageSet};
-use super::touches::Kind;
+use super::subresources::{Contents, Lost, Owner, SubresourceState, Write};
 use super::violation::{Rule, StepName};
-use crate::plan::{Plan, Role, StepId, Subresources};
-use crate::vulkan::Layout;
+use crate::plan::{Plan, Role, StepId};
+use crate::vulkan::{Layout, Subresources};
 
 /// All that is known between two steps.
 pub(super) struct Walk<'w, 'p, const Q: usize> {
@@ -20,7 +20,7 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     pub(super) found: &'w mut Findings<'p>,
     pub(super) program: &'w Program,
     pub(super) parts: Parts,
-    pub(super) cells: Vec<Cell<Q>>,
+    pub(super) subresources: Vec<SubresourceState<Q>>,
     pub(super) memory: Memory,
     pub(super) clocks: Clocks<Q>,
     pub(super) frame: u32,
@@ -49,7 +49,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             plan,
             found,
             program,
-            cells: vec![Cell::FRESH; parts.count()],
+            subresources: vec![SubresourceState::FRESH; parts.count()],
             parts,
             memory: Memory::new(plan),
             clocks: Clocks::new(),
@@ -90,8 +90,8 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     /// stages that wait, lead on to them.
     fn wait(&mut self, span: &Span) {
         self.held = Clock::START;
-        let touches = &self.program.touches[span.touches.clone()];
-        let work = touches.iter().fold(StageSet::default(), |all, touch| all.union(touch.stages));
+        let accesses = &self.program.accesses[span.accesses.clone()];
+        let work = accesses.iter().fold(StageSet::default(), |all, access| all.union(access.stages));
         for wait in &self.program.waits[span.waits.clone()] {
             let signal = self.program.signals.binary_search(&wait.step);
             let frame = self.frame.checked_sub(wait.frames_ago).and_then(|frame| self.signalled.get(frame as usize));
@@ -173,9 +173,9 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         let available = Availability { time: self.now(id), stages: scopes.to, queue };
         let forgets = barrier.old == Layout::Undefined;
         if forgets {
-            self.occupy(id, barrier.image);
+            self.alias(id, barrier.image);
         }
-        let occupation = self.memory.occupation(barrier.image);
+        let generation = self.memory.generation(barrier.image);
         let frame_start = self.frame_start();
         let outlives = !matches!(role(self.plan, barrier.image), Role::Transient(_));
         let mut part = self.parts.of(barrier.image, barrier.range);
@@ -184,34 +184,34 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             if !forgets && !acquired {
                 self.check_layout(id, barrier.image, index, barrier.old);
                 if barrier.old == barrier.new && barrier.ownership.is_none() {
-                    let write = &mut self.cells[index].write;
+                    let write = &mut self.subresources[index].write;
                     if write.exists() && makes_available(write, before, scopes.source) {
                         write.shown(available, scopes.shown);
                     }
                     continue;
                 }
             }
-            let cell = &self.cells[index];
-            if cell.occupation != occupation {
+            let subresource = &self.subresources[index];
+            if subresource.generation != generation {
                 // What it did before it lost its bytes is what the image that took them had to wait for.
                 self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before));
-            } else if !cell.excused
-                && let Some(gap) = before_layout_change(cell, before, scopes.source)
+            } else if !subresource.excused
+                && let Some(gap) = before_layout_change(subresource, before, scopes.source)
             {
                 self.report(id, barrier.image, index, gap.rule(), gap.time);
             }
-            let cell = &mut self.cells[index];
-            cell.occupation = occupation;
-            cell.layout = barrier.new;
-            cell.write = Write::layout_change(available, scopes.shown);
-            cell.reads.clear();
-            cell.excused = false;
+            let subresource = &mut self.subresources[index];
+            subresource.generation = generation;
+            subresource.layout = barrier.new;
+            subresource.write = Write::layout_change(available, scopes.shown);
+            subresource.reads.clear();
+            subresource.excused = false;
             if forgets {
-                cell.contents = match cell.contents {
-                    Contents::Defined if outlives || cell.filled > frame_start => {
+                subresource.contents = match subresource.contents {
+                    Contents::Defined if outlives || subresource.filled > frame_start => {
                         Contents::Lost(Lost::Forgotten, available.time)
                     }
-                    Contents::Lost(_, time) if time > frame_start => cell.contents,
+                    Contents::Lost(_, time) if time > frame_start => subresource.contents,
                     _ => Contents::Unwritten,
                 };
             }
@@ -227,89 +227,89 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             while let Some(index) = self.parts.next(&mut part) {
                 self.use_on(id, queue, barrier.image, index);
                 self.check_layout(id, barrier.image, index, barrier.old);
-                let cell = &self.cells[index];
-                if !cell.excused
-                    && let Some(gap) = before_layout_change(cell, &before, barrier.scopes.source)
+                let subresource = &self.subresources[index];
+                if !subresource.excused
+                    && let Some(gap) = before_layout_change(subresource, &before, barrier.scopes.source)
                 {
                     self.report(id, barrier.image, index, gap.rule(), gap.time);
                 }
-                let cell = &mut self.cells[index];
-                cell.layout = barrier.new;
+                let subresource = &mut self.subresources[index];
+                subresource.layout = barrier.new;
                 // Its own second scope counts for nothing: only a semaphore leads on from here.
                 let released = Availability { time: now, stages: StageSet::ALL, queue };
-                cell.write = Write::layout_change(released, PairSet::default());
-                cell.reads.clear();
-                cell.excused = false;
-                cell.owner = Owner::Released(number);
+                subresource.write = Write::layout_change(released, PairSet::default());
+                subresource.reads.clear();
+                subresource.excused = false;
+                subresource.owner = Owner::Released(number);
             }
         }
     }
 
     fn work(&mut self, id: StepId, span: &Span) {
         let (now, queue) = (self.now(id), span.queue);
-        let touches = &self.program.touches[span.touches.clone()];
+        let accesses = &self.program.accesses[span.accesses.clone()];
         // Attachments of a scope are kept in order by rasterisation: its accesses are held against what came before
         // it, not against each other, and up to its own first write.
-        for touch in touches.iter().filter(|touch| touch.kind == Kind::Attachment) {
-            self.access(id, queue, touch);
-            if touch.pairs.reads().is_empty() && !touch.pairs.is_empty() {
-                let mut part = self.parts.of(touch.resource, touch.range);
+        for access in accesses.iter().filter(|access| access.kind == Kind::Attachment) {
+            self.access(id, queue, access);
+            if access.pairs.reads().is_empty() && !access.pairs.is_empty() {
+                let mut part = self.parts.of(access.resource, access.range);
                 while let Some(index) = self.parts.next(&mut part) {
-                    self.cells[index].rasterised = now;
+                    self.subresources[index].rasterised = now;
                 }
             }
         }
-        for touch in touches.iter().filter(|touch| touch.kind != Kind::Attachment) {
-            self.access(id, queue, touch);
-            self.record(queue, touch, now);
+        for access in accesses.iter().filter(|access| access.kind != Kind::Attachment) {
+            self.access(id, queue, access);
+            self.record(queue, access, now);
         }
-        for touch in touches.iter().filter(|touch| touch.kind == Kind::Attachment) {
-            self.record(queue, touch, now);
+        for access in accesses.iter().filter(|access| access.kind == Kind::Attachment) {
+            self.record(queue, access, now);
         }
-        for touch in touches.iter().filter(|touch| touch.contents != 0) {
-            self.contents(id, touch);
+        for access in accesses.iter().filter(|access| access.contents != 0) {
+            self.contents(id, access);
         }
     }
 
-    fn access(&mut self, step: StepId, queue: u8, touch: &Touch) {
-        if touch.resource as usize >= self.plan.images.len() {
-            self.occupy_buffer(step, queue, touch);
+    fn access(&mut self, step: StepId, queue: u8, access: &Access) {
+        if access.resource as usize >= self.plan.images.len() {
+            self.alias_buffer(step, queue, access);
         }
-        let mut part = self.parts.of(touch.resource, touch.range);
+        let mut part = self.parts.of(access.resource, access.range);
         while let Some(index) = self.parts.next(&mut part) {
             if Q > 1 {
-                self.use_on(step, queue, touch.resource, index);
+                self.use_on(step, queue, access.resource, index);
             }
-            self.check_layout(step, touch.resource, index, touch.layout);
-            let cell = &self.cells[index];
-            let ordered = match touch.kind {
+            self.check_layout(step, access.resource, index, access.layout);
+            let subresource = &self.subresources[index];
+            let ordered = match access.kind {
                 Kind::Plain => false,
-                Kind::Attachment => cell.rasterised == self.now(step),
+                Kind::Attachment => subresource.rasterised == self.now(step),
                 Kind::Local => true,
             };
             if !ordered
-                && !cell.excused
-                && let Some(gap) = before_access(cell, &self.clocks, queue, touch.stages, touch.pairs)
+                && !subresource.excused
+                && let Some(gap) = before_access(subresource, &self.clocks, queue, access.stages, access.pairs)
             {
-                self.cells[index].excused = true;
-                self.report(step, touch.resource, index, gap.rule(), gap.time);
+                self.subresources[index].excused = true;
+                self.report(step, access.resource, index, gap.rule(), gap.time);
             }
         }
     }
 
-    fn record(&mut self, queue: u8, touch: &Touch, now: Time) {
-        let mut part = self.parts.of(touch.resource, touch.range);
+    fn record(&mut self, queue: u8, access: &Access, now: Time) {
+        let mut part = self.parts.of(access.resource, access.range);
         while let Some(index) = self.parts.next(&mut part) {
-            self.cells[index].record(queue, touch.pairs, now);
+            self.subresources[index].record(queue, access.pairs, now);
         }
     }
 
     pub(super) fn check_layout(&mut self, step: StepId, resource: u32, index: usize, needed: Layout) {
-        let cell = &mut self.cells[index];
-        let found = std::mem::replace(&mut cell.layout, needed);
+        let subresource = &mut self.subresources[index];
+        let found = std::mem::replace(&mut subresource.layout, needed);
         if found != needed {
-            cell.excused = true;
-            let last = cell.last();
+            subresource.excused = true;
+            let last = subresource.last();
             self.report(step, resource, index, Rule::Layout { found, needed }, last);
         }
     }
@@ -321,7 +321,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         self.found.push(Finding { rule, step, other, resource, range, bytes });
     }
 
-    /// The part of an image that a cell stands for.
+    /// The part of an image that a subresource stands for.
     pub(super) fn range(&self, resource: u32, index: usize) -> Option<Subresources> {
         let image = self.plan.images.get(resource as usize)?;
         Some(self.parts.range(image, index))
@@ -343,7 +343,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         self.frame * (self.program.steps() + 1)
     }
 
-    /// The step at `time`; at the beginning of a frame, the step that touched it last in the frame before.
+    /// The step at `time`; at the beginning of a frame, the step that accessed it last in the frame before.
     pub(super) fn name_at(&self, time: Time, resource: u32) -> Option<StepName> {
         let frame = self.program.steps() + 1;
         let ago = self.frame.saturating_sub(time / frame);

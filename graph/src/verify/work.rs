@@ -3,19 +3,18 @@
 //! The render area of a scope is all of its attachments: otherwise a clear would be partial and nothing could be said
 //! about contents. On the way the steps get their dense form: a Plan is too large to be read several times.
 
+use super::accesses::{ATTACHMENT, attachments};
 use super::barriers;
 use super::findings::{Finding, Findings};
 use super::parts::overlap;
 use super::program::{Builder, Program};
-use super::touches::{ATTACHMENT, attachments};
-use super::violation::{Rule, StepName, Touched};
+use super::violation::{Accessed, Rule, StepName};
 use crate::frame::Draw;
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Subresources,
-    Work,
+    Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
 };
-use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, name_of};
+use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, Subresources, name_of};
 use std::collections::HashSet;
 
 /// Reports what is malformed in the steps; the steps in dense form, if they can be followed.
@@ -156,7 +155,7 @@ impl<'p> Check<'_, 'p> {
         self.demand(range.aspects == plane, image.id, "is attached with other planes than the one that is drawn to");
     }
 
-    /// Nothing in a scope may touch what another part of it writes, but for read-only depth and local reads.
+    /// Nothing in a scope may access what another part of it writes, but for read-only depth and local reads.
     fn exclusive(&mut self, scope: &RenderScope) {
         let resolves = || attachments(scope).filter_map(|(attachment, _)| attachment.resolve.as_ref());
         let targets = || {
@@ -249,7 +248,10 @@ impl<'p> Check<'_, 'p> {
     /// Two accesses of one scope that no local barrier keeps apart.
     fn apart(&mut self, image: ImageId, range: Subresources, [earlier, later]: [(Stages, Accesses); 2]) {
         self.found.push(Finding {
-            rule: Rule::Execution { earlier: Touched::By(earlier.0, earlier.1), later: Touched::By(later.0, later.1) },
+            rule: Rule::Execution {
+                earlier: Accessed::By(earlier.0, earlier.1),
+                later: Accessed::By(later.0, later.1),
+            },
             step: self.id,
             other: Some(StepName::new(self.plan, self.id, 0)),
             resource: image.0,

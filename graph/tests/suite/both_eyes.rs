@@ -154,16 +154,16 @@ fn a_compiler_that_remembers_the_last_frame_compiles_another_mode_anew() {
     let options = Options::default();
     for (at, (stereo, form)) in MODES.into_iter().chain(MODES).enumerate() {
         let frame = Arc::new(frame(stereo, form));
-        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("legal").clone();
+        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("valid").clone();
         assert_eq!(compiler.reuse(), Reuse::Nothing, "{at}: {stereo:?} {form:?}");
         assert_eq!(plan, compiled(&frame), "{stereo:?} {form:?}");
         // Another size is another placement, of both eyes' parts.
         let mut larger = Frame::clone(&frame);
         larger.images.iter_mut().for_each(|image| image.extent = [128, 128, 1]);
         let plan = compiler.compile(&Arc::new(larger.clone()), &device, &mut Estimated(&device), &options);
-        assert_eq!(*plan.expect("legal"), compiled(&larger), "{stereo:?} {form:?}");
+        assert_eq!(*plan.expect("valid"), compiled(&larger), "{stereo:?} {form:?}");
         assert!(compiler.reuse() > Reuse::Nothing, "{stereo:?} {form:?}");
-        compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("legal");
+        compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("valid");
     }
 }
 

@@ -191,7 +191,7 @@ fn an_unsupported_sample_count_is_lowered_and_said() {
         support.samples = if support.format == D32_SFLOAT { vec![1, 2] } else { vec![1, 2, 4] };
     }
     let plan = compile(&forward(8, true, true), &device, &mut Estimated(&device), &Options::default())
-        .expect("the frame is legal");
+        .expect("the frame is valid");
     let color = plan.images.iter().find(|image| &*image.name == "color").expect("there is a color");
     assert_eq!(color.samples, 2);
     let text = note(&plan, Stage::Fit, "color");
@@ -300,7 +300,7 @@ fn the_live_peak_is_that_of_all_heaps_together() {
     raster.full_screen("second").sample(near).color(far, Blend::Replace);
     raster.full_screen("last").sample(near).sample(far).color(screen, Blend::Replace);
     let plan = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default())
-        .expect("the frame is legal");
+        .expect("the frame is valid");
     assert_eq!(plan.heaps.len(), 2);
     assert_eq!(verify(&plan), [], "{}", plan.tree());
 }

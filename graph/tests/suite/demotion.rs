@@ -24,7 +24,7 @@ fn blurred(strength: u32) -> Frame {
 }
 
 fn compiled(frame: &Frame, demote: bool) -> Plan {
-    planned(frame, &raster::device(), &Options { demote, ..Options::default() }).expect("the frame is legal")
+    planned(frame, &raster::device(), &Options { demote, ..Options::default() }).expect("the frame is valid")
 }
 
 /// IQ-9: a blur of strength 5 takes three resolves as it is written, and one where its draws are moved; both Plans can be

@@ -95,7 +95,7 @@ fn iq_10_depth_is_averaged_only_where_its_image_says_so() {
         let mut frame = stripes.frame(mode);
         let output = Output { resource: depth, ..frame.outputs[0].clone() };
         frame.outputs.extend(leaves.then_some(output));
-        let plan = on(&frame, &device).expect("the frame is legal");
+        let plan = on(&frame, &device).expect("the frame is valid");
         scopes(&plan).into_iter().any(|scope| {
             let folded = scope.depth.as_ref().and_then(|depth| depth.resolve.as_ref());
             folded.is_some_and(|resolve| resolve.mode == ResolveMode::Average)
@@ -154,7 +154,7 @@ fn a_version_is_drawn_again_once_for_all_its_readers_and_anew_after_the_next_wri
 fn iq_14_a_mode_that_the_device_has_is_folded_into_the_scope_that_drew_the_depth() {
     for mode in [ResolveMode::SampleZero, ResolveMode::Min, ResolveMode::Max, ResolveMode::Average] {
         let frame = Stripes::new(4).frame(Some(Some(mode)));
-        let plan = on(&frame, &resolving(&[mode])).expect("the frame is legal");
+        let plan = on(&frame, &resolving(&[mode])).expect("the frame is valid");
         let resolve = scopes(&plan).into_iter().find_map(|scope| scope.depth.as_ref()?.resolve.as_ref());
         let resolve = resolve.unwrap_or_else(|| panic!("{}", plan.tree()));
         assert_eq!((resolve.mode, plan.totals.inserted_passes), (mode, 0));
@@ -168,7 +168,7 @@ fn a_mode_that_the_device_has_for_one_layer_only_is_drawn_for_both_eyes_layers_a
     let device = Profile { refuted_layered_depth_resolve: vec![ResolveMode::SampleZero], ..flat.clone() };
     let mut frame = Stripes::new(4).frame(Some(Some(ResolveMode::SampleZero)));
     let inserted =
-        |frame: &Frame, device: &Profile| on(frame, device).expect("the frame is legal").totals.inserted_passes;
+        |frame: &Frame, device: &Profile| on(frame, device).expect("the frame is valid").totals.inserted_passes;
     // Of one layer it is right.
     assert_eq!((inserted(&frame, &flat), inserted(&frame, &device)), (0, 0));
     frame.stereo = Stereo::Multiview;
@@ -176,7 +176,7 @@ fn a_mode_that_the_device_has_for_one_layer_only_is_drawn_for_both_eyes_layers_a
         image.eyes = Some(EyeForm::Layers);
     }
     assert_eq!(inserted(&frame, &flat), 0);
-    let plan = on(&frame, &device).expect("the frame is legal");
+    let plan = on(&frame, &device).expect("the frame is valid");
     assert_eq!(plan.totals.inserted_passes, 1, "{}", plan.tree());
     let resolved = plan.images.iter().find(|image| *image.name == *"depth (resolved)").expect("it is made");
     let said = "by a draw: `a device for tests` claims to resolve depth of several layers by SAMPLE_ZERO, and a test showed \
@@ -203,7 +203,7 @@ fn iq_14_a_mode_that_the_device_lacks_or_only_claims_is_drawn_and_the_reason_sai
         ),
     ];
     for (mode, device, shader, why) in cases {
-        let plan = on(&Stripes::new(4).frame(Some(Some(mode))), device).expect("the frame is legal");
+        let plan = on(&Stripes::new(4).frame(Some(Some(mode))), device).expect("the frame is valid");
         let passes = scopes(&plan).into_iter().flat_map(|scope| scope.passes.iter().map(move |pass| (scope, pass)));
         let (scope, pass) = passes.into_iter().find(|(_, pass)| &*pass.name == "depth (resolved)").expect("a draw");
         assert_eq!((&*pass.shader, pass.draw, scope.samples), (shader, Some(Draw::FullScreen), 1));

@@ -86,10 +86,10 @@ fn resolved_layers(plan: &Plan) -> Vec<(u32, u32)> {
 #[test]
 fn a_resolve_of_an_array_covers_the_layers_that_are_written_and_read() {
     for more in [false, true] {
-        let plan = compiled(&one_layer_read(more)).expect("it is legal");
+        let plan = compiled(&one_layer_read(more)).expect("it is valid");
         assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
     }
-    let plan = compiled(&two_layers(layer(0))).expect("it is legal");
+    let plan = compiled(&two_layers(layer(0))).expect("it is valid");
     assert_eq!(resolved_layers(&plan), [(0, 2)], "{}", plan.tree());
 }
 
@@ -100,7 +100,7 @@ fn a_layer_that_is_written_and_never_read_resolved_is_not_resolved() {
     frame.images[0].lifetime = Lifetime::Persistent { initial: FillValue::Color([0.0; 4]) };
     frame.passes[1].color[0].clear = None;
     frame.passes[1].color[0].blend = Blend::Additive;
-    let plan = compiled(&frame).expect("it is legal");
+    let plan = compiled(&frame).expect("it is valid");
     assert!(plan.tree().contains("more"), "{}", plan.tree());
     assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
 }
@@ -120,7 +120,7 @@ fn a_layer_that_is_read_resolved_only_after_a_later_write_is_resolved_then() {
         pair[0].color[0].range = layer(number);
         pair[1].sampled[0].range = layer(number);
     }
-    let plan = compiled(&frame).expect("it is legal");
+    let plan = compiled(&frame).expect("it is valid");
     let resolved = resolved_layers(&plan);
     assert_eq!((resolved[0], resolved.len()), ((0, 1), 2), "{}", plan.tree());
 }

@@ -32,7 +32,7 @@ fn device(local_read: bool) -> Profile {
 }
 
 fn compiled(frame: &Frame, device: &Profile) -> Plan {
-    planned(frame, device, &Options { demote: false, ..Options::default() }).expect("the frame is legal")
+    planned(frame, device, &Options { demote: false, ..Options::default() }).expect("the frame is valid")
 }
 
 fn note(plan: &Plan, subject: &str) -> String {
@@ -150,7 +150,7 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
     frame.passes.insert(2, marks);
     frame.outputs.push(Resource::Image(ImageIndex(0)).into());
     let options = Options { demote: false, order: Order::File, ..Options::default() };
-    let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");
+    let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is valid");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
     assert_eq!(barriers, [false, true, true], "{}", plan.tree());
@@ -178,8 +178,8 @@ fn sizes_that_come_apart_or_together_are_compiled_anew_where_a_local_read_depend
         [(64, 2, Reuse::Nothing), (32, 3, Reuse::Nothing), (16, 3, Reuse::Barriers), (64, 2, Reuse::Nothing)]
     {
         let frame = of(light);
-        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is legal");
-        assert_eq!(*plan, compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is legal"));
+        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is valid");
+        assert_eq!(*plan, compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is valid"));
         assert_eq!((scopes(plan).len(), compiler.reuse()), (count, reuse), "{light} texels");
     }
 }

@@ -159,7 +159,7 @@ fn an_empty_frame_is_an_empty_plan() {
 fn the_unchanged_frame_is_compiled() {
     let device = raster::device();
     let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
-    assert_eq!(verify(&plan.expect("it is legal")), []);
+    assert_eq!(verify(&plan.expect("it is valid")), []);
 }
 
 /// Of images that are forwarded with equal samples, both get as many as the device has for them together.
@@ -175,6 +175,6 @@ fn forwarded_images_are_lowered_together() {
     raster.objects("opaque").clear(color).clear(normal);
     raster.forward("glow", color, other);
     let plan = compile(&raster.output(other), &device, &mut Estimated(&device), &Options::default());
-    let plan = plan.expect("the frame is legal");
+    let plan = plan.expect("the frame is valid");
     assert_eq!(plan.totals.inserted_passes, 0, "{}", plan.tree());
 }

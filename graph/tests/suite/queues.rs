@@ -89,7 +89,7 @@ fn device(queues: Queues) -> Profile {
 
 fn compiled(frame: &Frame, queues: Queues) -> Plan {
     let options = Options { order: Order::File, ..Options::default() };
-    planned(frame, &device(queues), &options).expect("the frame is legal")
+    planned(frame, &device(queues), &options).expect("the frame is valid")
 }
 
 fn name(work: &plan::Work) -> String {
@@ -176,7 +176,7 @@ fn a_device_with_one_queue_and_a_compiler_told_to_use_one_make_the_same_plan() {
         let plan = |queues, used| {
             let device = device(queues);
             let options = Options { order, queues: used, ..Options::default() };
-            compile(&simulated(), &device, &mut Estimated(&device), &options).expect("the frame is legal")
+            compile(&simulated(), &device, &mut Estimated(&device), &options).expect("the frame is valid")
         };
         let one = plan(Queues::default(), true);
         assert_eq!(plan(EXCLUSIVE, false), one);

@@ -1,4 +1,4 @@
-//! Random legal frames: every Plan passes the checker, makes of its outputs what the frame says, and has no barrier too many.
+//! Random valid frames: every Plan passes the checker, makes of its outputs what the frame says, and has no barrier too many.
 
 use crate::testing::{raster, symbolic};
 use framewright_graph::base::{Diagnostic, Span};
@@ -29,7 +29,7 @@ const IMAGES: [(Format, u32); 10] = [
     (D32_SFLOAT, 4),
 ];
 
-/// Turns random bytes into a frame: every choice is made among what is legal at that point.
+/// Turns random bytes into a frame: every choice is made among what is valid at that point.
 struct Maker {
     frame: Frame,
     written: [bool; IMAGES.len()],
@@ -207,7 +207,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
     compile(frame, device, &mut Estimated(device), options)
-        .unwrap_or_else(|errors| panic!("the frame is legal: {errors:?}"))
+        .unwrap_or_else(|errors| panic!("the frame is valid: {errors:?}"))
 }
 
 fn passes() -> impl Strategy<Value = Vec<Vec<u8>>> {

@@ -291,10 +291,10 @@ fn a_frame_of_another_size_is_rotated_again_and_gives_what_compiling_anew_gives(
     let mut compile_next = |frame: Frame| {
         let frame = Arc::new(frame);
         let plan =
-            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("legal").clone();
+            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("valid").clone();
         assert_eq!(plan, compiled(&frame));
         let same =
-            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("legal").clone();
+            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("valid").clone();
         assert_eq!((plan.images.len(), compiler.reuse()), (same.images.len(), Reuse::Everything));
         plan
     };

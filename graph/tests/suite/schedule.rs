@@ -1,4 +1,4 @@
-//! Every order is legal and the same each time; the default one merges, batches and saves memory; the low-memory one saves
+//! Every order is valid and the same each time; the default one merges, batches and saves memory; the low-memory one saves
 //! more.
 
 use crate::testing::graphs::{self, Builder};

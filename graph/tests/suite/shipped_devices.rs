@@ -56,7 +56,7 @@ fn samples_are_those_that_the_shipped_device_has() {
     ] {
         let (_, profile) = shipped().find(|(name, _)| *name == device).expect("it is shipped");
         let plan = compile(&forward(8, true, true), &profile, &mut Estimated(&profile), &Options::default());
-        let plan = plan.expect("legal");
+        let plan = plan.expect("valid");
         assert_eq!(plan.images.iter().map(|image| image.samples).max(), Some(most), "{device}");
         assert_eq!(plan.notes.iter().any(|note| note.text.contains("samples instead of 8: ")), most < 8, "{device}");
     }
@@ -66,7 +66,7 @@ fn samples_are_those_that_the_shipped_device_has() {
 fn images_that_stay_in_their_scope_take_lazily_allocated_memory_where_there_is_such() {
     for (device, profile) in shipped() {
         let plan = compile(&forward(4, true, true), &profile, &mut Estimated(&profile), &Options::default());
-        let lazily = plan.expect("legal").heaps.iter().any(|heap| heap.lazily_allocated);
+        let lazily = plan.expect("valid").heaps.iter().any(|heap| heap.lazily_allocated);
         assert_eq!(lazily, profile.lazily_allocated_memory, "{device}");
     }
 }

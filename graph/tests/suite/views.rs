@@ -89,3 +89,17 @@ fn another_size_of_a_view_keeps_the_structure_and_another_camera_does_not() {
     frame.views[1].camera = None;
     assert_eq!(reuse(&frame), Reuse::Nothing);
 }
+
+#[test]
+fn a_compiler_that_remembers_the_last_frame_refuses_a_view_without_texels_too() {
+    let (device, options) = (Arc::new(raster::device()), Options::default());
+    let mut compiler = Compiler::new();
+    let mut compile = |frame: Frame| {
+        let plan = compiler.compile(&Arc::new(frame), &device, &mut Estimated(&device), &options);
+        plan.map(|_| ()).map_err(|errors| errors.into_iter().map(|error| error.message).collect::<Vec<_>>())
+    };
+    let (whole, mut empty) = (frame(), frame());
+    empty.views[1].extent[0] = 0;
+    assert_eq!(compile(whole), Ok(()));
+    assert_eq!(compile(empty), Err(vec!["view `map` is 0×16; each side has at least 1 texel".to_owned()]));
+}

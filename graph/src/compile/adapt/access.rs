@@ -1,20 +1,20 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
-use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
 use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
 use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 
 /// A reading use, from which the others are made.
-fn used(store: StoreIndex, range: u32, role: Role) -> Use {
+fn used(resource: PhysicalIndex, range: u32, role: Role) -> Use {
     Use {
-        store,
+        resource,
         range,
-        cell: Use::CELLS,
+        subresource: Use::SEVERAL,
         entry: 0,
         role,
-        start: Start::Keep,
+        contents: InitialContents::Keep,
         reads: true,
         writes: false,
         layout: Layout::Undefined,
@@ -23,9 +23,9 @@ fn used(store: StoreIndex, range: u32, role: Role) -> Use {
     }
 }
 
-pub(super) fn sampled(sampled: &Sampled, entry: u32, store: StoreIndex, range: u32) -> Use {
+pub(super) fn sampled(sampled: &Sampled, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
     let (layout, accesses) = (Layout::ShaderReadOnlyOptimal, Accesses::SHADER_SAMPLED_READ);
-    Use { entry, layout, stages: sampled.stages, accesses, ..used(store, range, Role::Sampled) }
+    Use { entry, layout, stages: sampled.stages, accesses, ..used(resource, range, Role::Sampled) }
 }
 
 /// Gives depth that is an attachment somewhere the layouts in which it can be sampled and tested at once.
@@ -34,17 +34,17 @@ pub(super) fn settle_depth(adapted: &mut Adapted) {
     if !adapted.uses.iter().any(attaches) {
         return;
     }
-    let mut attached = vec![false; adapted.stores.len()];
-    adapted.uses.iter().filter(|used| attaches(used)).for_each(|used| attached[used.store as usize] = true);
+    let mut attached = vec![false; adapted.resources.len()];
+    adapted.uses.iter().filter(|used| attaches(used)).for_each(|used| attached[used.resource as usize] = true);
     for op in adapted.ops.iter().filter(|op| matches!(op.kind, OpKind::Resolve { .. })) {
         // Depth is resolved where it is drawn, into an attachment.
         let uses = &adapted.uses[op.uses.start as usize..op.uses.end as usize];
-        uses.iter().for_each(|used| attached[used.store as usize] = true);
+        uses.iter().for_each(|used| attached[used.resource as usize] = true);
     }
     for at in 0..adapted.uses.len() {
         let used = &adapted.uses[at];
-        let Some(image) = adapted.stores[used.store as usize].image() else { continue };
-        if used.role == Role::Sampled && attached[used.store as usize] && image.format.is_depth() {
+        let Some(image) = adapted.resources[used.resource as usize].image() else { continue };
+        if used.role == Role::Sampled && attached[used.resource as usize] && image.format.is_depth() {
             let layout = read_only(image.format, adapted.range(used).aspects);
             adapted.uses[at].layout = layout;
         }
@@ -69,34 +69,47 @@ pub(crate) fn attached(format: Format, plane: Aspects) -> Layout {
     }
 }
 
-pub(super) fn storage(storage: &Storage, entry: u32, store: StoreIndex, range: u32) -> Use {
+pub(super) fn storage(storage: &Storage, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
     let mut accesses = Accesses::empty();
     accesses.set(Accesses::SHADER_STORAGE_READ, storage.read);
     accesses.set(Accesses::SHADER_STORAGE_WRITE, storage.write);
     let (reads, writes, stages) = (storage.read, storage.write, storage.stages);
-    Use { entry, reads, writes, layout: Layout::General, stages, accesses, ..used(store, range, Role::Storage) }
+    Use { entry, reads, writes, layout: Layout::General, stages, accesses, ..used(resource, range, Role::Storage) }
 }
 
-pub(super) fn color(target: &ColorTarget, entry: u32, store: StoreIndex, range: u32, start: Start) -> Use {
+pub(super) fn color(
+    target: &ColorTarget,
+    entry: u32,
+    resource: PhysicalIndex,
+    range: u32,
+    contents: InitialContents,
+) -> Use {
     let mut accesses = Accesses::COLOR_ATTACHMENT_WRITE;
     accesses.set(Accesses::COLOR_ATTACHMENT_READ, target.blend != Blend::Replace);
     let (stages, layout) = (Stages::COLOR_ATTACHMENT_OUTPUT, Layout::ColorAttachmentOptimal);
-    let reads = start == Start::Keep;
-    Use { entry, start, reads, writes: true, layout, stages, accesses, ..used(store, range, Role::Color) }
+    let reads = contents == InitialContents::Keep;
+    Use { entry, contents, reads, writes: true, layout, stages, accesses, ..used(resource, range, Role::Color) }
 }
 
-pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start, writes: bool, format: Format) -> Use {
+pub(super) fn depth(
+    plane: Aspects,
+    resource: PhysicalIndex,
+    range: u32,
+    contents: InitialContents,
+    writes: bool,
+    format: Format,
+) -> Use {
     let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
     let mut accesses = Accesses::empty();
     // A draw that covers passes every depth test, so that nothing is read.
-    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, start != Start::Discard);
+    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, contents != InitialContents::Discard);
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
     let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
-    let reads = start == Start::Keep;
-    Use { start, reads, writes, layout, stages: DEPTH_TESTS, accesses, ..used(store, range, role) }
+    let reads = contents == InitialContents::Keep;
+    Use { contents, reads, writes, layout, stages: DEPTH_TESTS, accesses, ..used(resource, range, role) }
 }
 
-pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
+pub(super) fn buffer(buffer: &BufferUse, entry: u32, resource: PhysicalIndex) -> Use {
     let (reads, writes) = (buffer.role.reads(), buffer.role.writes());
     let (stages, accesses) = match buffer.role {
         BufferRole::Uniform => (buffer.stages, Accesses::UNIFORM_READ),
@@ -110,32 +123,32 @@ pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
         BufferRole::Index => (Stages::VERTEX_INPUT, Accesses::INDEX_READ),
         BufferRole::Indirect => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
     };
-    Use { entry, reads, writes, stages, accesses, ..used(store, Use::ALL, Role::Buffer) }
+    Use { entry, reads, writes, stages, accesses, ..used(resource, Use::ALL, Role::Buffer) }
 }
 
 /// The use of an image or buffer by a transfer.
-pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: StoreIndex, range: u32) -> Use {
+pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
     let stages = match work {
         Work::Blit { .. } => Stages::BLIT,
         Work::Fill { .. } => Stages::CLEAR,
         Work::Copy => Stages::COPY,
         _ => Stages::COPY | Stages::BLIT | Stages::CLEAR,
     };
-    let made = if transfer.write { target(store, range, stages) } else { source(store, range, stages) };
+    let made = if transfer.write { target(resource, range, stages) } else { source(resource, range, stages) };
     let layout = if let Resource::Buffer(_) = transfer.resource { Layout::Undefined } else { made.layout };
     Use { entry, layout, ..made }
 }
 
-pub(super) fn source(store: StoreIndex, range: u32, stages: Stages) -> Use {
+pub(super) fn source(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {
     Use {
         layout: Layout::TransferSrcOptimal,
         stages,
         accesses: Accesses::TRANSFER_READ,
-        ..used(store, range, Role::Source)
+        ..used(resource, range, Role::Source)
     }
 }
 
-pub(super) fn target(store: StoreIndex, range: u32, stages: Stages) -> Use {
+pub(super) fn target(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {
     let accesses = Accesses::TRANSFER_WRITE;
     Use {
         reads: false,
@@ -143,24 +156,24 @@ pub(super) fn target(store: StoreIndex, range: u32, stages: Stages) -> Use {
         layout: Layout::TransferDstOptimal,
         stages,
         accesses,
-        ..used(store, range, Role::Target)
+        ..used(resource, range, Role::Target)
     }
 }
 
-/// The stage in which an inserted transfer happens, if no scope carries it.
+/// The stage in which an inserted transfer happens, if it is not folded into a scope.
 pub(super) fn transfer_stage(kind: &OpKind) -> Stages {
     if matches!(kind, OpKind::Resolve { .. }) { Stages::RESOLVE } else { Stages::COPY }
 }
 
 /// The uses of a full-screen draw that resolves depth into another image.
-pub(super) fn resolve_draw(source: StoreIndex, target: StoreIndex, range: u32, format: Format) -> [Use; 2] {
+pub(super) fn resolve_draw(source: PhysicalIndex, target: PhysicalIndex, range: u32, format: Format) -> [Use; 2] {
     let [read, _] = forward_draw(source, target);
-    let write = depth(Aspects::DEPTH, target, range, Start::Discard, true, format);
+    let write = depth(Aspects::DEPTH, target, range, InitialContents::Discard, true, format);
     [Use { range, ..read }, write]
 }
 
 /// The uses of a full-screen draw of one image into another.
-pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
+pub(super) fn forward_draw(source: PhysicalIndex, target: PhysicalIndex) -> [Use; 2] {
     let read = Use {
         layout: Layout::ShaderReadOnlyOptimal,
         stages: Stages::FRAGMENT_SHADER,
@@ -168,7 +181,7 @@ pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
         ..used(source, Use::ALL, Role::Sampled)
     };
     let write = Use {
-        start: Start::Discard,
+        contents: InitialContents::Discard,
         reads: false,
         writes: true,
         layout: Layout::ColorAttachmentOptimal,
@@ -182,5 +195,5 @@ pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
 /// Whether a pass with these uses draws colour into several samples.
 pub(crate) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
     let mut colors = uses.iter().filter(|used| used.role == Role::Color);
-    colors.any(|used| adapted.stores[used.store as usize].image().is_some_and(|image| image.samples > 1))
+    colors.any(|used| adapted.resources[used.resource as usize].image().is_some_and(|image| image.samples > 1))
 }

@@ -5,7 +5,7 @@ use super::demote::Demotions;
 use super::input::Input;
 use super::later::Later;
 use crate::base::{Diagnostic, Place, Span};
-use crate::compile::model::{Adapted, Op, OpKind, StoreIndex, Use};
+use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, Use};
 use crate::frame::{ImageIndex, ResolveWay};
 use crate::plan::{Inserted, Note, Stage};
 use crate::vulkan::Subresources;
@@ -16,15 +16,15 @@ use std::sync::Arc;
 pub(super) struct Adapter<'a> {
     pub(super) input: Input<'a>,
     /// The physical image that holds each image's current version. Those of earlier frames stand right behind it.
-    pub(super) store_of: Vec<Option<StoreIndex>>,
+    pub(super) resource_of: Vec<Option<PhysicalIndex>>,
     /// The same for buffers.
-    pub(super) buffer_store_of: Vec<Option<StoreIndex>>,
+    pub(super) buffer_resource_of: Vec<Option<PhysicalIndex>>,
     /// For each physical image its resolved copy of one sample and the way of resolving, if a pass asked for one.
-    pub(super) resolved_of: Vec<Option<(ResolveWay, StoreIndex)>>,
+    pub(super) resolved_of: Vec<Option<(ResolveWay, PhysicalIndex)>>,
     /// For each physical image its depth-only copy of one sample, if a pass asked for one.
-    pub(super) redrawn_of: Vec<Option<StoreIndex>>,
+    pub(super) redrawn_of: Vec<Option<PhysicalIndex>>,
     /// For each multisampled depth image the operations that wrote its current version.
-    pub(super) depth_writers: BTreeMap<StoreIndex, Vec<u32>>,
+    pub(super) depth_writers: BTreeMap<PhysicalIndex, Vec<u32>>,
     /// How often each pass is drawn again.
     pub(super) redrawn_times: BTreeMap<u32, u32>,
     /// Whether each image is an output.
@@ -32,7 +32,7 @@ pub(super) struct Adapter<'a> {
     /// How many resolved copies, copies and second images each image has had: they need distinct names.
     pub(super) inserted_for: BTreeMap<ImageIndex, u32>,
     /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
-    pub(super) known_as: BTreeMap<StoreIndex, Vec<ImageIndex>>,
+    pub(super) known_as: BTreeMap<PhysicalIndex, Vec<ImageIndex>>,
     /// The last accesses of images, if any is forwarded.
     pub(super) later: Later,
     /// Full-screen draws that move to single-sampled images.
@@ -49,7 +49,7 @@ pub(super) struct Adapter<'a> {
     /// Uses of the current pass.
     pub(super) scratch: Vec<Use>,
     /// Images that the current pass reads and writes: each one, and the copy that it reads.
-    pub(super) copies: Vec<(StoreIndex, StoreIndex)>,
+    pub(super) copies: Vec<(PhysicalIndex, PhysicalIndex)>,
 }
 
 impl<'a> Adapter<'a> {
@@ -57,8 +57,8 @@ impl<'a> Adapter<'a> {
         let frame = input.frame;
         Adapter {
             input,
-            store_of: vec![None; frame.images.len()],
-            buffer_store_of: vec![None; frame.buffers.len()],
+            resource_of: vec![None; frame.images.len()],
+            buffer_resource_of: vec![None; frame.buffers.len()],
             resolved_of: Vec::with_capacity(frame.images.len()),
             redrawn_of: Vec::with_capacity(frame.images.len()),
             depth_writers: BTreeMap::new(),
@@ -83,12 +83,13 @@ impl<'a> Adapter<'a> {
         let start = self.adapted.uses.len() as u32;
         for used in uses {
             if used.writes {
-                self.drawn[used.store as usize] = kind.draws();
+                self.drawn[used.resource as usize] = kind.draws();
                 self.note_depth_writer(used, kind.draws());
             }
-            let store = &self.adapted.stores[used.store as usize];
-            let cell = if store.grid(self.input.grids).is_none() { store.first_cell } else { Use::CELLS };
-            self.adapted.uses.push(Use { cell, ..*used });
+            let resource = &self.adapted.resources[used.resource as usize];
+            let subresource =
+                if resource.grid(self.input.grids).is_none() { resource.first_subresource } else { Use::SEVERAL };
+            self.adapted.uses.push(Use { subresource, ..*used });
         }
         let own = if kind.inserted().is_none() { kind.pass() } else { None };
         let side_effect = own.is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
@@ -96,7 +97,7 @@ impl<'a> Adapter<'a> {
     }
 
     /// Adds an operation from one image to another, whole, which have the same parts.
-    pub(super) fn push_transfer(&mut self, kind: OpKind, source: StoreIndex, target: StoreIndex, range: u32) {
+    pub(super) fn push_transfer(&mut self, kind: OpKind, source: PhysicalIndex, target: PhysicalIndex, range: u32) {
         let stage = access::transfer_stage(&kind);
         let uses = [access::source(source, range, stage), access::target(target, range, stage)];
         self.push(kind, &uses);

@@ -4,7 +4,7 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
+use crate::compile::model::{InitialContents, OpKind, PhysicalIndex, Role, Use};
 use crate::frame::{Draw, ImageIndex, ViewIndex, Work};
 use crate::vulkan::{Aspects, Subresources};
 use std::sync::Arc;
@@ -20,29 +20,29 @@ struct Unavailable {
 impl Adapter<'_> {
     /// Notes the operations that wrote the current version of multisampled depth.
     pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
-        let Use { store, start, role, .. } = *used;
-        let depth = self.adapted.stores[store as usize].image();
+        let Use { resource, contents, role, .. } = *used;
+        let depth = self.adapted.resources[resource as usize].image();
         if role == Role::Stencil || depth.is_none_or(|image| image.samples == 1 || !image.format.is_depth()) {
             return;
         }
         let op = self.adapted.ops.len() as u32;
-        let writers = self.depth_writers.entry(store).or_default();
+        let writers = self.depth_writers.entry(resource).or_default();
         // A clear or a draw that covers replaces earlier draws. Other operations replace them too, or can't be drawn again.
-        if start != Start::Keep || !draws {
+        if contents != InitialContents::Keep || !draws {
             writers.clear();
         }
         writers.push(op);
     }
 
     /// The view that the last writer of multisampled depth draws for.
-    pub(super) fn view_of_writer(&self, store: StoreIndex) -> ViewIndex {
-        let last = self.depth_writers.get(&store).and_then(|writers| writers.last());
+    pub(super) fn view_of_writer(&self, resource: PhysicalIndex) -> ViewIndex {
+        let last = self.depth_writers.get(&resource).and_then(|writers| writers.last());
         let pass = last.and_then(|op| self.adapted.ops[*op as usize].kind.pass());
         pass.map_or(ViewIndex::default(), |pass| self.input.frame.passes[pass as usize].view)
     }
 
     /// The single-sample depth that drawing the current version of `image` again leaves.
-    pub(super) fn redrawn(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
+    pub(super) fn redrawn(&mut self, image: ImageIndex, because: String, span: Span) -> Option<PhysicalIndex> {
         let source = self.current(image);
         if let Some(redrawn) = self.redrawn_of[source as usize] {
             return Some(redrawn);
@@ -71,8 +71,8 @@ impl Adapter<'_> {
         let why = self.reason(format!("{because}; what drew it is drawn again with 1"), span);
         let target = self.second(image, "depth only", why.clone(), 1);
         let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
-        for (pass, start) in passes {
-            let uses = [access::depth(Aspects::DEPTH, target, range, start, true, declared.format)];
+        for (pass, contents) in passes {
+            let uses = [access::depth(Aspects::DEPTH, target, range, contents, true, declared.format)];
             let name = self.depth_only_name(pass);
             self.push(OpKind::DepthOnly { pass, name, why: why.clone() }, &uses);
         }
@@ -93,9 +93,9 @@ impl Adapter<'_> {
     }
 
     /// The passes that drew all of the current version, each with what it starts from.
-    fn redrawable(&self, store: StoreIndex, layers: u32) -> Result<Vec<(u32, Start)>, Unavailable> {
+    fn redrawable(&self, resource: PhysicalIndex, layers: u32) -> Result<Vec<(u32, InitialContents)>, Unavailable> {
         let Adapter { adapted, input, .. } = self;
-        let writers = self.depth_writers.get(&store).map_or(&[][..], Vec::as_slice);
+        let writers = self.depth_writers.get(&resource).map_or(&[][..], Vec::as_slice);
         let mut passes = Vec::with_capacity(writers.len());
         for op in writers {
             let (kind, uses) = (&adapted.ops[*op as usize].kind, adapted.uses(*op));
@@ -122,11 +122,11 @@ impl Adapter<'_> {
                 return Err(unavailable(why));
             }
             let drawn = uses.iter().find(|used| used.role == Role::Depth);
-            let start = drawn.map_or(Start::Keep, |used| used.start);
-            if passes.is_empty() && start == Start::Keep {
+            let contents = drawn.map_or(InitialContents::Keep, |used| used.contents);
+            if passes.is_empty() && contents == InitialContents::Keep {
                 return Err(unavailable("draws onto what was there before the frame"));
             }
-            passes.push((*number, start));
+            passes.push((*number, contents));
         }
         match (passes.is_empty(), layers) {
             (true, _) => Err(Unavailable { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),

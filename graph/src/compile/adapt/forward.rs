@@ -3,7 +3,7 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::Diagnostic;
-use crate::compile::model::{OpKind, StoreIndex, Use};
+use crate::compile::model::{OpKind, PhysicalIndex, Use};
 use crate::device::ImageDescriptor;
 use crate::frame::{Image, ImageIndex, Pass, Resource, Work};
 use crate::vulkan::{Filter, Rotation};
@@ -24,7 +24,7 @@ impl Adapter<'_> {
         if moved && !target_image.lifetime.outlives_frame() {
             wanted = count;
         }
-        let size = |image: &Image| (image.extent, image.room, image.rotation, image.eyes);
+        let size = |image: &Image| (image.extent, image.allocated, image.rotation, image.eyes);
         let alike = (source_image.format, size(source_image)) == (target_image.format, size(target_image));
         let alike = alike && count == wanted;
         let resolves = count > 1 && !alike;
@@ -44,22 +44,22 @@ impl Adapter<'_> {
         } else {
             self.current(from)
         };
-        let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
+        let same = self.adapted.resources[source as usize].image().is_some_and(|held| {
             let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
-            let held = (extent, self.adapted.room(source), self.rotation(source), self.adapted.eyes(source));
+            let held = (extent, self.adapted.allocated(source), self.rotation(source), self.adapted.eyes(source));
             (format, shape, held) == (target_image.format, target_image.shape, size(target_image))
                 && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
         });
         if same && self.may_share(number, source, from, to) {
             let name = target_image.name.clone();
             let why_inserted = self.reason(why.clone(), pass.span);
-            let store = &mut self.adapted.stores[source as usize];
+            let resource = &mut self.adapted.resources[source as usize];
             if !resolves {
-                store.inserted = Some(why_inserted);
+                resource.inserted = Some(why_inserted);
             }
-            store.renamed = Some(name.clone());
+            resource.renamed = Some(name.clone());
             self.renamed = true;
-            self.store_of[to.0 as usize] = Some(source);
+            self.resource_of[to.0 as usize] = Some(source);
             let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
             return self.note(&name, format!("{why}: {what}"), pass.span);
         }
@@ -92,9 +92,9 @@ impl Adapter<'_> {
         }
     }
 
-    fn forward_by_draw(&mut self, number: u32, pass: &Pass, source: StoreIndex, to: ImageIndex, why: String) {
+    fn forward_by_draw(&mut self, number: u32, pass: &Pass, source: PhysicalIndex, to: ImageIndex, why: String) {
         let target_image = &self.input.frame.images[to.0 as usize];
-        let Some(held) = self.adapted.stores[source as usize].image().copied() else { return };
+        let Some(held) = self.adapted.resources[source as usize].image().copied() else { return };
         let drawable = |depth: bool, integer: bool| !depth && !integer;
         if !drawable(held.format.is_depth(), held.format.is_integer())
             || !drawable(target_image.format.is_depth(), target_image.format.is_integer())
@@ -108,7 +108,7 @@ impl Adapter<'_> {
         let rotation = self.rotation(source);
         let upright = |extent: [u32; 3], rotation: Rotation| rotation.extent([extent[0], extent[1]]);
         let same_size = upright(held.extent, rotation) == upright(target_image.extent, target_image.rotation)
-            && self.adapted.room(source) == target_image.room;
+            && self.adapted.allocated(source) == target_image.allocated;
         let filtered = !same_size && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
         let filter = if filtered { Filter::Linear } else { Filter::Nearest };
         let differ = match (held.format == target_image.format, same_size) {
@@ -124,29 +124,29 @@ impl Adapter<'_> {
         self.push(OpKind::ForwardDraw { pass: number, filter, why }, &uses);
     }
 
-    /// Whether `to` may share `store` from pass `number` on. It may not if a later pass writes the store under one name while
-    /// it is still used under another, or if one of the images has memory of its own.
-    fn may_share(&mut self, number: u32, store: StoreIndex, from: ImageIndex, to: ImageIndex) -> bool {
+    /// Whether `to` may share `resource` from pass `number` on. It may not if a later pass writes the resource under one
+    /// name while it is still used under another, or if one of the images has memory of its own.
+    fn may_share(&mut self, number: u32, resource: PhysicalIndex, from: ImageIndex, to: ImageIndex) -> bool {
         let images = &self.input.frame.images;
         let cut = self.input.grids.of(from) != self.input.grids.of(to);
         if cut || [from, to].iter().any(|image| images[image.0 as usize].lifetime.outlives_frame()) {
             return false;
         }
-        let Adapter { later, store_of, resolved_of, is_output, known_as, adapted, .. } = self;
+        let Adapter { later, resource_of, resolved_of, is_output, known_as, adapted, .. } = self;
         let after = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
-        let held = |image: ImageIndex| store_of[image.0 as usize] == Some(store) || image == to;
-        let first = match adapted.stores[store as usize].of {
+        let held = |image: ImageIndex| resource_of[image.0 as usize] == Some(resource) || image == to;
+        let first = match adapted.resources[resource as usize].of {
             Resource::Image(image) => vec![image],
             Resource::Buffer(_) => Vec::new(),
         };
-        let known = known_as.entry(store).or_insert(first);
+        let known = known_as.entry(resource).or_insert(first);
         // Names that are not used any more are dropped, so that a long chain of forwards makes no long list.
         let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
         let resolved = |image: ImageIndex| {
-            store_of[image.0 as usize].and_then(|held| resolved_of[held as usize]).map(|(_, resolved)| resolved)
+            resource_of[image.0 as usize].and_then(|held| resolved_of[held as usize]).map(|(_, resolved)| resolved)
         };
-        known.retain(|image| held(*image) || resolved(*image) == Some(store));
+        known.retain(|image| held(*image) || resolved(*image) == Some(resource));
         known.push(to);
         let both_leave = known.iter().filter(|image| is_output[image.0 as usize]).count() > 1;
         let told_apart =

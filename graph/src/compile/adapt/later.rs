@@ -3,7 +3,7 @@
 use crate::compile::cull::Live;
 use crate::frame::{Frame, ImageIndex};
 
-/// For each image of the frame the last pass that stays and touches it, and the last that writes it.
+/// For each image of the frame the last pass that stays and accesses it, and the last that writes it.
 #[derive(Debug, Default)]
 pub(super) struct Later {
     pub(super) access: Vec<Option<u32>>,
@@ -15,15 +15,11 @@ impl Later {
         let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
         for number in &live.passes {
             let pass = &frame.passes[*number as usize];
-            let mut touch = |image: ImageIndex, writes: bool| {
-                later.access[image.0 as usize] = Some(*number);
-                if writes {
-                    later.write[image.0 as usize] = Some(*number);
-                }
-            };
             pass.accesses().for_each(|access| {
-                if let Some(index) = access.image_index() {
-                    touch(index, access.writes(pass, Some(&frame.images[index.0 as usize])));
+                let Some(ImageIndex(image)) = access.image_index() else { return };
+                later.access[image as usize] = Some(*number);
+                if access.writes(pass, Some(&frame.images[image as usize])) {
+                    later.write[image as usize] = Some(*number);
                 }
             });
         }

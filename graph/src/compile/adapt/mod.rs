@@ -12,7 +12,7 @@ mod input;
 mod later;
 mod pass;
 mod resolve;
-mod stores;
+mod resources;
 mod versions;
 
 pub(super) use access::has_samples;
@@ -36,7 +36,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         adapter.later = Later::of(frame, live);
     }
     adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
-    adapter.adapted.stores.reserve(frame.images.len());
+    adapter.adapted.resources.reserve(frame.images.len());
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4 + frame.images.len());
     for pass in &live.passes {
@@ -46,7 +46,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         adapter.output(output);
     }
     if adapter.renamed {
-        stores::distinct_names(frame, &mut adapter.adapted.stores);
+        resources::distinct_names(frame, &mut adapter.adapted.resources);
     }
     access::settle_depth(&mut adapter.adapted);
     if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }

@@ -3,7 +3,7 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::Diagnostic;
-use crate::compile::model::{OpKind, Start, StoreIndex};
+use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
 use crate::frame::{Face, ImageIndex, Pass, Sampled, Work};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -18,52 +18,56 @@ impl Adapter<'_> {
         let mut uses = std::mem::take(&mut self.scratch);
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
-            if let Some(store) = self.sampled(number, pass, sampled) {
+            if let Some(resource) = self.sampled(number, pass, sampled) {
                 let range = frame.images[sampled.image.0 as usize].sampled_part(sampled.range);
                 let range = self.range(sampled.image, range);
-                uses.push(access::sampled(sampled, entry, store, range));
+                uses.push(access::sampled(sampled, entry, resource, range));
             }
         }
         for (entry, storage) in (0_u32..).zip(&pass.storage) {
-            let store = match storage.write {
+            let resource = match storage.write {
                 true => self.target(number, pass, storage.image, storage.range, storage.span, storage.read),
                 false => self.current(storage.image),
             };
             let range = self.range(storage.image, storage.range);
-            uses.push(access::storage(storage, entry, store, range));
+            uses.push(access::storage(storage, entry, resource, range));
         }
         for (entry, target) in (0_u32..).zip(&pass.color) {
-            let start = match target.clear {
-                Some(_) => Start::Clear,
-                None if pass.keeps_color(target, &frame.images[target.image.0 as usize]) => Start::Keep,
-                None => Start::Discard,
+            let contents = match target.clear {
+                Some(_) => InitialContents::Clear,
+                None if pass.keeps_color(target, &frame.images[target.image.0 as usize]) => InitialContents::Keep,
+                None => InitialContents::Discard,
             };
-            let store = self.target(number, pass, target.image, target.range, target.span, start == Start::Keep);
+            let resource =
+                self.target(number, pass, target.image, target.range, target.span, contents == InitialContents::Keep);
             let range = self.range(target.image, target.range);
-            uses.push(access::color(target, entry, store, range, start));
+            uses.push(access::color(target, entry, resource, range, contents));
         }
         if let Some(depth) = &pass.depth {
             let image = &frame.images[depth.image.0 as usize];
             for (plane, clears, writes) in depth.planes(image.format) {
-                let start = match clears {
-                    true => Start::Clear,
-                    false if pass.keeps_plane(depth, plane, image) => Start::Keep,
-                    false => Start::Discard,
+                let contents = match clears {
+                    true => InitialContents::Clear,
+                    false if pass.keeps_plane(depth, plane, image) => InitialContents::Keep,
+                    false => InitialContents::Discard,
                 };
-                let store =
-                    if writes { self.written(depth.image, start == Start::Keep) } else { self.current(depth.image) };
+                let resource = if writes {
+                    self.written(depth.image, contents == InitialContents::Keep)
+                } else {
+                    self.current(depth.image)
+                };
                 self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
                 let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
-                uses.push(access::depth(plane, store, range, start, writes, image.format));
+                uses.push(access::depth(plane, resource, range, contents, writes, image.format));
             }
         }
         for (entry, used) in (0_u32..).zip(&pass.buffers) {
-            let store = self.buffer(used.buffer, used.frames_ago);
-            uses.push(access::buffer(used, entry, store));
+            let resource = self.buffer(used.buffer, used.frames_ago);
+            uses.push(access::buffer(used, entry, resource));
         }
         for (entry, used) in (0_u32..).zip(&pass.transfers) {
-            if let Some((store, range)) = self.transferred(pass, used) {
-                uses.push(access::transfer(&pass.work, used, entry, store, range));
+            if let Some((resource, range)) = self.transferred(pass, used) {
+                uses.push(access::transfer(&pass.work, used, entry, resource, range));
             }
         }
         if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &uses) {
@@ -76,7 +80,7 @@ impl Adapter<'_> {
     }
 
     /// The physical image that a sampling pass reads.
-    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<PhysicalIndex> {
         let declared = &self.input.frame.images[sampled.image.0 as usize];
         if sampled.frames_ago > 0 {
             let earlier = self.current(sampled.image) + sampled.frames_ago;
@@ -115,7 +119,7 @@ impl Adapter<'_> {
     }
 
     /// Whether a shader can sample an earlier frame, which is never resolved. Reports it if not.
-    fn samples_unresolved(&mut self, pass: &Pass, sampled: &Sampled, earlier: StoreIndex) -> bool {
+    fn samples_unresolved(&mut self, pass: &Pass, sampled: &Sampled, earlier: PhysicalIndex) -> bool {
         let count = self.samples(earlier);
         if count == 1 || sampled.face == Face::Samples {
             return true;

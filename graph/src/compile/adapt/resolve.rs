@@ -7,7 +7,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::fit::drawn_together;
-use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
+use crate::compile::model::{OpKind, PhysicalIndex, ResolveShader, Use};
 use crate::compile::parts::join;
 use crate::device::Profile;
 use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
@@ -22,7 +22,7 @@ impl Adapter<'_> {
         face: Face,
         because: String,
         span: Span,
-    ) -> Option<StoreIndex> {
+    ) -> Option<PhysicalIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
             return self.color(image, because, span);
@@ -37,7 +37,12 @@ impl Adapter<'_> {
 
     /// The same for a copy, texel for texel, and for an output. Depth without a `resolve` is resolved to sample zero: the
     /// copy takes the contents, not what drawing them again would give.
-    pub(super) fn resolved_as_it_is(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
+    pub(super) fn resolved_as_it_is(
+        &mut self,
+        image: ImageIndex,
+        because: String,
+        span: Span,
+    ) -> Option<PhysicalIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
             return self.color(image, because, span);
@@ -74,7 +79,7 @@ impl Adapter<'_> {
     }
 
     /// Colour averaged or weighted, integers sample zero.
-    fn color(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
+    fn color(&mut self, image: ImageIndex, because: String, span: Span) -> Option<PhysicalIndex> {
         let source = self.current(image);
         let declared = &self.input.frame.images[image.0 as usize];
         let usual = if declared.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
@@ -110,11 +115,11 @@ impl Adapter<'_> {
     }
 
     /// Inserts a full-screen draw from one image into another.
-    fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> StoreIndex {
-        let [source, target] = [uses[0].store, uses[1].store];
-        let store = &self.adapted.stores[target as usize];
+    fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> PhysicalIndex {
+        let [source, target] = [uses[0].resource, uses[1].resource];
+        let resource = &self.adapted.resources[target as usize];
         // Inserted images have names of their own.
-        let name = store.renamed.clone().unwrap_or_default();
+        let name = resource.renamed.clone().unwrap_or_default();
         let view = self.view_of_writer(source);
         let way = match by {
             ResolveShader::Depth(mode) => ResolveWay::By(mode),
@@ -132,7 +137,7 @@ impl Adapter<'_> {
         mode: ResolveMode,
         because: String,
         span: Span,
-    ) -> Option<StoreIndex> {
+    ) -> Option<PhysicalIndex> {
         let source = self.current(image);
         if let Some(resolved) = self.resolved_so(source, ResolveWay::By(mode)) {
             return Some(resolved);
@@ -157,8 +162,8 @@ impl Adapter<'_> {
         Some(self.resolve_by_draw(ResolveShader::Depth(mode), why, uses))
     }
 
-    /// Inserts a resolve that a scope may carry.
-    fn resolve(&mut self, image: ImageIndex, mode: ResolveMode, because: String, span: Span) -> StoreIndex {
+    /// Inserts a resolve that may be folded into a scope.
+    fn resolve(&mut self, image: ImageIndex, mode: ResolveMode, because: String, span: Span) -> PhysicalIndex {
         let source = self.current(image);
         let why = self.reason(because, span);
         let target = self.second(image, "resolved", why.clone(), 1);
@@ -172,13 +177,13 @@ impl Adapter<'_> {
 
     /// The parts of an image that are worth resolving: written so far, and read by some pass of the frame. All of an image
     /// that isn't cut.
-    fn written_and_read(&self, image: ImageIndex, source: StoreIndex) -> Vec<Subresources> {
+    fn written_and_read(&self, image: ImageIndex, source: PhysicalIndex) -> Vec<Subresources> {
         let Adapter { adapted, input, .. } = self;
-        let store = &adapted.stores[source as usize];
-        let Some(grid) = store.grid(input.grids) else { return vec![Subresources::WHOLE] };
+        let resource = &adapted.resources[source as usize];
+        let Some(grid) = resource.grid(input.grids) else { return vec![Subresources::WHOLE] };
         let declared = &input.frame.images[image.0 as usize];
         let mut written = vec![declared.lifetime.outlives_frame(); grid.len() as usize];
-        for used in adapted.uses.iter().filter(|used| used.writes && used.store == source) {
+        for used in adapted.uses.iter().filter(|used| used.writes && used.resource == source) {
             grid.cover(adapted.range(used)).for_each(|part| written[part as usize] = true);
         }
         let mut read = vec![false; grid.len() as usize];
@@ -212,7 +217,7 @@ impl Adapter<'_> {
 
     /// The resolved copy of an image in a certain way, if there is one: images that are forwarded to each other may ask for
     /// different ways.
-    fn resolved_so(&self, source: StoreIndex, way: ResolveWay) -> Option<StoreIndex> {
+    fn resolved_so(&self, source: PhysicalIndex, way: ResolveWay) -> Option<PhysicalIndex> {
         self.resolved_of[source as usize].filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
     }
 }

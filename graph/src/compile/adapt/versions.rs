@@ -2,7 +2,7 @@
 
 use super::adapter::Adapter;
 use crate::base::Span;
-use crate::compile::model::{OpKind, StoreIndex};
+use crate::compile::model::{OpKind, PhysicalIndex};
 use crate::frame::{Face, ImageIndex, Pass, Sampled};
 use crate::vulkan::Subresources;
 
@@ -13,8 +13,8 @@ impl Adapter<'_> {
         number: u32,
         pass: &Pass,
         sampled: &Sampled,
-        before: StoreIndex,
-    ) -> StoreIndex {
+        before: PhysicalIndex,
+    ) -> PhysicalIndex {
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
             return *copy;
         }
@@ -25,7 +25,7 @@ impl Adapter<'_> {
     }
 
     /// A copy of the parts of `before` that a pass samples while it writes the image.
-    fn copied(&mut self, pass: &Pass, sampled: &Sampled, before: StoreIndex) -> StoreIndex {
+    fn copied(&mut self, pass: &Pass, sampled: &Sampled, before: PhysicalIndex) -> PhysicalIndex {
         let image = sampled.image;
         let declared = &self.input.frame.images[image.0 as usize];
         let because = format!("`{}` samples `{}` while it writes it", pass.name, declared.name);
@@ -78,7 +78,7 @@ impl Adapter<'_> {
         range: Subresources,
         span: Span,
         keeps: bool,
-    ) -> StoreIndex {
+    ) -> PhysicalIndex {
         let frame = self.input.frame;
         if self.demotions.moves(number, image) {
             return self.demoted(pass, image, span);
@@ -89,7 +89,7 @@ impl Adapter<'_> {
             let same = sampled.image == image && sampled.frames_ago == 0 && declared.overlap(sampled.range, range);
             same && (sampled.face == Face::Samples || wanted == 1)
         });
-        let there = self.store_of[image.0 as usize].is_some() && self.current_samples(image) == wanted;
+        let there = self.resource_of[image.0 as usize].is_some() && self.current_samples(image) == wanted;
         if samples_it && there && self.moves_on(number, image, range, keeps) {
             let because = format!("`{}` samples `{}` while it replaces it", pass.name, declared.name);
             let why = self.reason(because, span);
@@ -99,9 +99,9 @@ impl Adapter<'_> {
     }
 
     /// The single-sampled image that a demoted draw goes on in.
-    fn demoted(&mut self, pass: &Pass, image: ImageIndex, span: Span) -> StoreIndex {
+    fn demoted(&mut self, pass: &Pass, image: ImageIndex, span: Span) -> PhysicalIndex {
         let samples_it = pass.sampled.iter().any(|sampled| sampled.image == image && sampled.frames_ago == 0);
-        if self.store_of[image.0 as usize].is_some() && self.current_samples(image) == 1 && !samples_it {
+        if self.resource_of[image.0 as usize].is_some() && self.current_samples(image) == 1 && !samples_it {
             return self.continued(image);
         }
         let name = &self.input.frame.images[image.0 as usize].name;

@@ -10,7 +10,7 @@ use crate::vulkan::{Layout, LoadOp, StoreOp};
 
 pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(parts, scope);
-    let attachments = parts.retained.of(step);
+    let attachments = parts.load_store.of(step);
     let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
     let plane = |role: Role| attachments.iter().find(|ops| ops.role == role);
     RenderScope {
@@ -64,12 +64,12 @@ fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps])
 
 /// Width and height, layers and samples of a scope's attachments.
 pub(super) fn shape(parts: &Parts<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
-    let stores = &parts.adapted.stores;
+    let resources = &parts.adapted.resources;
     let first = scope.targets().next();
-    let shape = first.and_then(|target| Some((stores[target.store as usize].image()?, target.range)));
+    let shape = first.and_then(|target| Some((resources[target.resource as usize].image()?, target.range)));
     shape.map_or(([1, 1], 1, 1), |(image, range)| {
-        let side = |at: usize| (image.extent[at] >> range.base_mip.min(31)).max(1);
-        ([side(0), side(1)], range.layers, image.samples)
+        let [width, height, _] = image.extent_at(range.base_mip);
+        ([width, height], range.layers, image.samples)
     })
 }
 
@@ -77,7 +77,7 @@ fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Op
     let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
     let used = uses.find(|used| used.role == ops.role && Target::of(parts.adapted, used) == ops.target);
     Attachment {
-        image: ImageId(parts.adapted.stores[ops.target.store as usize].id),
+        image: ImageId(parts.adapted.resources[ops.target.resource as usize].id),
         range: ops.target.range,
         layout: used.map_or(Layout::General, |used| used.layout),
         load: ops.load,
@@ -92,12 +92,18 @@ fn attachment_resolve(parts: &Parts<'_>, number: u32) -> Option<AttachmentResolv
     let op = &parts.adapted.ops[number as usize];
     let OpKind::Resolve { mode, .. } = op.kind else { return None };
     let target = parts.adapted.uses(number).get(1)?;
-    let store = &parts.adapted.stores[target.store as usize];
-    let layout = match store.image()?.format.is_depth() {
+    let resource = &parts.adapted.resources[target.resource as usize];
+    let layout = match resource.image()?.format.is_depth() {
         true => Layout::DepthStencilAttachmentOptimal,
         false => Layout::ColorAttachmentOptimal,
     };
-    Some(AttachmentResolve { image: ImageId(store.id), range: store.all(), layout, mode, cause: cause(parts, op) })
+    Some(AttachmentResolve {
+        image: ImageId(resource.id),
+        range: resource.all(),
+        layout,
+        mode,
+        cause: cause(parts, op),
+    })
 }
 
 fn name<'n>(parts: &'n Parts<'_>, op: u32) -> &'n str {

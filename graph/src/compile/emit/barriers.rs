@@ -1,11 +1,11 @@
-//! Barriers of each step: those of neighbouring cells become one.
+//! Barriers of each step: those of neighbouring subresources become one.
 
-use super::parts::{Parts, resource};
+use super::parts::{Parts, resource_id};
 use crate::compile::parts::join;
 use crate::compile::steps::NEVER;
-use crate::compile::sync::{Batched, CellBarrier};
-use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
-use crate::vulkan::Accesses;
+use crate::compile::sync::{Batched, SubresourceBarrier};
+use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
+use crate::vulkan::{Accesses, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct StepBarriers<'p, 'a> {
@@ -29,14 +29,16 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
             && *at == step
         {
             self.memory += 1;
-            let stores = &self.parts.adapted.stores;
-            let hand_overs = scopes.stores.iter();
+            let resources = &self.parts.adapted.resources;
+            let hand_overs = scopes.resources.iter();
             memory.push(MemoryBarrier {
                 src_stages: scopes.src_stages,
                 src_accesses: scopes.src_accesses,
                 dst_stages: scopes.dst_stages,
                 dst_accesses: Accesses::empty(),
-                hand_overs: hand_overs.map(|pair| pair.map(|store| resource(&stores[store as usize]))).collect(),
+                hand_overs: hand_overs
+                    .map(|pair| pair.map(|resource| resource_id(&resources[resource as usize])))
+                    .collect(),
                 buffers: Vec::new(),
             });
         }
@@ -44,7 +46,7 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
         let mut buffers: Option<MemoryBarrier> = None;
         for it in here {
             let barrier = &self.parts.sync.barriers[it.barrier as usize];
-            let subject = &self.parts.subjects[barrier.store as usize];
+            let subject = &self.parts.subjects[barrier.resource as usize];
             if !subject.is_image {
                 add_buffer(&mut buffers, barrier, subject.id);
                 continue;
@@ -53,7 +55,11 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
                 // It is emitted with its other half: see `ownership`.
                 continue;
             }
-            let range = if subject.is_cut { self.parts.subresources(barrier.store, barrier.cell) } else { subject.all };
+            let range = if subject.is_cut {
+                self.parts.subresources(barrier.resource, barrier.subresource)
+            } else {
+                subject.all
+            };
             add(&mut images, image_barrier(barrier, subject.id, range));
         }
         memory.extend(buffers);
@@ -61,16 +67,16 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
     }
 }
 
-fn after(barrier: &CellBarrier) -> Option<StepId> {
+fn after(barrier: &SubresourceBarrier) -> Option<StepId> {
     (barrier.after != NEVER).then_some(StepId(barrier.after))
 }
 
 /// The step that needs a barrier; `None` for one that leaves a final state.
-fn needed_by(barrier: &CellBarrier) -> Option<StepId> {
+fn needed_by(barrier: &SubresourceBarrier) -> Option<StepId> {
     (barrier.hazard != Hazard::Export).then_some(StepId(barrier.step))
 }
 
-fn image_barrier(barrier: &CellBarrier, image: u32, range: Subresources) -> ImageBarrier {
+fn image_barrier(barrier: &SubresourceBarrier, image: u32, range: Subresources) -> ImageBarrier {
     ImageBarrier {
         image: ImageId(image),
         range,
@@ -108,7 +114,7 @@ fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
 }
 
 /// All buffers of a step share one memory barrier.
-fn add_buffer(shared: &mut Option<MemoryBarrier>, barrier: &CellBarrier, buffer: u32) {
+fn add_buffer(shared: &mut Option<MemoryBarrier>, barrier: &SubresourceBarrier, buffer: u32) {
     let shared = shared.get_or_insert_with(|| MemoryBarrier {
         src_stages: barrier.src_stages,
         src_accesses: barrier.src_accesses,

@@ -1,6 +1,6 @@
 //! Outputs of the Plan, and where each gets its encoding.
 
-use super::parts::{Parts, resource};
+use super::parts::{Parts, resource_id};
 use crate::frame::{Frame, ImageIndex, Pass, Resource as Declared, Work};
 use crate::plan::Output;
 use crate::vulkan::{Encoding, Format, Numeric};
@@ -8,9 +8,9 @@ use crate::vulkan::{Encoding, Format, Numeric};
 /// The outputs in the frame's order.
 pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
     let frame = parts.frame;
-    let stores = parts.adapted.outputs.iter().map(|store| &parts.adapted.stores[*store as usize]);
-    let outputs = stores.zip(&frame.outputs).map(|(store, declared)| {
-        let format = store.image().map(|image| image.format);
+    let resources = parts.adapted.outputs.iter().map(|resource| &parts.adapted.resources[*resource as usize]);
+    let outputs = resources.zip(&frame.outputs).map(|(resource, declared)| {
+        let format = resource.image().map(|image| image.format);
         let encoding = declared.encoding.or_else(|| format.and_then(Encoding::of));
         let encoded = match (declared.resource, format, encoding) {
             (Declared::Image(image), Some(format), Some(Encoding::Srgb | Encoding::Hdr10)) => {
@@ -18,7 +18,7 @@ pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
             }
             _ => None,
         };
-        Output { resource: resource(store), encoding, encoded, eye: declared.eye }
+        Output { resource: resource_id(resource), encoding, encoded, eye: declared.eye }
     });
     outputs.collect()
 }

@@ -30,8 +30,8 @@ impl Transfer {
 /// All ownership transfers, in the order of the steps that acquire.
 pub(super) fn transfers(parts: &Parts<'_>) -> Vec<Transfer> {
     let mut transfers: Vec<Transfer> = Vec::new();
-    for of_cell in parts.sync.queues.transfers() {
-        let mut new = transfer(parts, of_cell);
+    for of_subresource in parts.sync.queues.transfers() {
+        let mut new = transfer(parts, of_subresource);
         while let Some(joined) = transfers.last().and_then(|last| last.join(&new)) {
             new = joined;
             transfers.pop();
@@ -41,10 +41,10 @@ pub(super) fn transfers(parts: &Parts<'_>) -> Vec<Transfer> {
     transfers
 }
 
-fn transfer(parts: &Parts<'_>, of_cell: &OwnershipTransfer) -> Transfer {
-    let (queues, acquiring) = (&parts.sync.queues, &parts.sync.barriers[of_cell.barrier as usize]);
-    let image = ImageId(parts.subjects[acquiring.store as usize].id);
-    let range = parts.subresources(acquiring.store, acquiring.cell);
+fn transfer(parts: &Parts<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
+    let (queues, acquiring) = (&parts.sync.queues, &parts.sync.barriers[of_subresource.barrier as usize]);
+    let image = ImageId(parts.subjects[acquiring.resource as usize].id);
+    let range = parts.subresources(acquiring.resource, acquiring.subresource);
     let barrier = |after, src: (Stages, Accesses), dst: (Stages, Accesses)| ImageBarrier {
         image,
         range,
@@ -54,18 +54,18 @@ fn transfer(parts: &Parts<'_>, of_cell: &OwnershipTransfer) -> Transfer {
         dst_accesses: dst.1,
         old_layout: acquiring.old_layout,
         new_layout: acquiring.new_layout,
-        ownership: Some([queues.of(of_cell.from), queues.of(acquiring.step)]),
+        ownership: Some([queues.queue(of_subresource.from), queues.queue(acquiring.step)]),
         hazard: Hazard::Ownership,
         after,
         needed_by: Some(StepId(acquiring.step)),
     };
     let nothing = (Stages::empty(), Accesses::empty());
     Transfer {
-        from: of_cell.from,
-        release: barrier(Some(StepId(of_cell.from)), (of_cell.stages, of_cell.accesses), nothing),
+        from: of_subresource.from,
+        release: barrier(Some(StepId(of_subresource.from)), (of_subresource.stages, of_subresource.accesses), nothing),
         to: acquiring.step,
         acquire: barrier(
-            Some(StepId(of_cell.from)),
+            Some(StepId(of_subresource.from)),
             (acquiring.src_stages, Accesses::empty()),
             (acquiring.dst_stages, acquiring.dst_accesses),
         ),

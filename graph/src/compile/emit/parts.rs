@@ -2,15 +2,16 @@
 
 use crate::base::Place;
 use crate::compile::memory::Placed;
-use crate::compile::model::{Adapted, CellIndex, Kind, Op, Store, StoreIndex};
+use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::parts::Grids;
-use crate::compile::retain::Retained;
+use crate::compile::retain::LoadStoreOps;
 use crate::compile::scope::Scoped;
 use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
-use crate::plan::{BufferId, Cause, ImageId, Resource, Subresources};
+use crate::plan::{BufferId, Cause, ImageId, Resource};
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// The results of all stages.
@@ -21,7 +22,7 @@ pub(in crate::compile) struct Parts<'a> {
     pub(super) grids: &'a Grids,
     pub(super) adapted: &'a Adapted,
     pub(super) scoped: &'a Scoped,
-    pub(super) retained: &'a Retained,
+    pub(super) load_store: &'a LoadStoreOps,
     pub(super) placed: &'a Placed,
     pub(super) sync: &'a Barriers,
     pub(super) exact_memory: bool,
@@ -38,23 +39,19 @@ impl<'a> Parts<'a> {
         structure: &'a Structure,
         settled: &'a Settled,
     ) -> Parts<'a> {
-        let Structure { grids, adapted, scoped, retained, .. } = structure;
-        let Settled { placed, barriers: sync, exact_memory, .. } = settled;
-        let subjects = Subject::of(adapted, grids);
-        let (exact_memory, nothing) = (*exact_memory, Arc::default());
         Parts {
             frame,
             device,
             structure,
-            grids,
-            adapted,
-            scoped,
-            retained,
-            placed,
-            sync,
-            exact_memory,
-            subjects,
-            nothing,
+            grids: &structure.grids,
+            adapted: &structure.adapted,
+            scoped: &structure.scoped,
+            load_store: &structure.load_store,
+            placed: &settled.placed,
+            sync: &settled.barriers,
+            exact_memory: settled.exact_memory,
+            subjects: Subject::of(&structure.adapted, &structure.grids),
+            nothing: Arc::default(),
         }
     }
 }
@@ -63,7 +60,7 @@ impl<'a> Parts<'a> {
 pub(super) struct Subject {
     pub(super) id: u32,
     pub(super) is_image: bool,
-    /// Whether it has several cells.
+    /// Whether it has several subresources.
     pub(super) is_cut: bool,
     pub(super) all: Subresources,
 }
@@ -71,29 +68,29 @@ pub(super) struct Subject {
 impl Subject {
     /// One for each physical resource.
     fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
-        let subject = |store: &Store| Subject {
-            id: store.id,
-            is_image: store.image().is_some(),
-            is_cut: store.grid(grids).is_some(),
-            all: store.all(),
+        let subject = |resource: &PhysicalResource| Subject {
+            id: resource.id,
+            is_image: resource.image().is_some(),
+            is_cut: resource.grid(grids).is_some(),
+            all: resource.all(),
         };
-        adapted.stores.iter().map(subject).collect()
+        adapted.resources.iter().map(subject).collect()
     }
 }
 
 impl Parts<'_> {
-    /// The subresources that a cell is.
-    pub(super) fn subresources(&self, store: StoreIndex, cell: CellIndex) -> Subresources {
-        let store = &self.adapted.stores[store as usize];
-        store.grid(self.grids).map_or(store.all(), |grid| grid.range(cell - store.first_cell))
+    /// The subresources that a subresource is.
+    pub(super) fn subresources(&self, resource: PhysicalIndex, subresource: SubresourceIndex) -> Subresources {
+        let resource = &self.adapted.resources[resource as usize];
+        resource.grid(self.grids).map_or(resource.all(), |grid| grid.range(subresource - resource.first_subresource))
     }
 }
 
 /// The id of a physical resource in the Plan.
-pub(super) fn resource(store: &Store) -> Resource {
-    match store.kind {
-        Kind::Image(_) => Resource::Image(ImageId(store.id)),
-        Kind::Buffer(_) => Resource::Buffer(BufferId(store.id)),
+pub(super) fn resource_id(resource: &PhysicalResource) -> Resource {
+    match resource.kind {
+        Kind::Image(_) => Resource::Image(ImageId(resource.id)),
+        Kind::Buffer(_) => Resource::Buffer(BufferId(resource.id)),
     }
 }
 

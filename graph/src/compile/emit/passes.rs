@@ -75,20 +75,20 @@ pub(super) fn sides(parts: &Parts<'_>, number: u32) -> [Side; 2] {
 
 /// Bytes of the texels that a transfer moves from or to the image that is used here.
 fn texel_bytes(parts: &Parts<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
-    let image = parts.adapted.stores[used.store as usize].image();
+    let image = parts.adapted.resources[used.resource as usize].image();
     let bytes = image.and_then(|image| image.format.plane_bytes(parts.adapted.range(used).aspects)).unwrap_or(0);
     extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
 }
 
 fn side(parts: &Parts<'_>, used: &Use) -> Side {
-    let store = &parts.adapted.stores[used.store as usize];
-    match &store.kind {
+    let resource = &parts.adapted.resources[used.resource as usize];
+    match &resource.kind {
         Kind::Image(image) => {
             let range = parts.adapted.range(used);
-            let extent = image.extent.map(|side| (side >> range.base_mip.min(31)).max(1));
-            Side::Image { image: ImageId(store.id), range, extent, layout: used.layout }
+            let (image, extent) = (ImageId(resource.id), image.extent_at(range.base_mip));
+            Side::Image { image, range, extent, layout: used.layout }
         }
-        Kind::Buffer(buffer) => Side::Buffer { buffer: BufferId(store.id), bytes: buffer.bytes },
+        Kind::Buffer(buffer) => Side::Buffer { buffer: BufferId(resource.id), bytes: buffer.bytes },
     }
 }
 
@@ -128,7 +128,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     planned.view = view(parts, declared.view);
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
-        if parts.subjects[used.store as usize].is_image {
+        if parts.subjects[used.resource as usize].is_image {
             let eye = if used.role == Role::Sampled { declared.sampled[used.entry as usize].eye } else { None };
             planned.accesses.push(Access { eye, ..access(parts, used, binding(parts, used, declared)) });
         } else {
@@ -263,13 +263,13 @@ fn binding(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> Option<Bindin
 
 /// The texture that an adapting shader declares: multisampled only if the image has several samples.
 fn adapted(parts: &Parts<'_>, used: &Use, texture: ImageShape) -> ImageShape {
-    let samples = parts.adapted.stores[used.store as usize].image().map_or(1, |image| image.samples);
+    let samples = parts.adapted.resources[used.resource as usize].image().map_or(1, |image| image.samples);
     ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }
 }
 
 /// One access of a pass; load, store and resolve operations are the scope's.
 fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
-    let subject = &parts.subjects[used.store as usize];
+    let subject = &parts.subjects[used.resource as usize];
     let range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     let image = ImageId(subject.id);
     Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
@@ -278,7 +278,7 @@ fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
 fn buffer_access(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
     let named = declared.buffers.get(used.entry as usize).filter(|_| used.role == Role::Buffer);
     BufferAccess {
-        buffer: BufferId(parts.adapted.stores[used.store as usize].id),
+        buffer: BufferId(parts.adapted.resources[used.resource as usize].id),
         role: named.map(|named| named.role),
         stages: used.stages,
         accesses: used.accesses,

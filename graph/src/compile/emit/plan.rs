@@ -32,19 +32,18 @@ pub(in crate::compile) fn emit(parts: &Parts<'_>, (images, buffers): Resources) 
 
 fn steps(parts: &Parts<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = parts.sync;
-    let mut steps = Vec::with_capacity(*count as usize);
     let mut barriers = StepBarriers::new(parts);
-    let grouped = parts.scoped.steps.iter().chain([&Grouped::Export]);
-    for (step, number) in grouped.zip(0..*count) {
+    let step = |number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
-        let work = match step {
-            Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
-            Grouped::Single(op) => passes::single(parts, *op),
-            Grouped::Export => Work::Export,
+        let work = match parts.scoped.steps.get(number as usize) {
+            Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
+            Some(Grouped::Single(op)) => passes::single(parts, *op),
+            Some(Grouped::BarriersOnly) | None => Work::Export,
         };
-        let (queue, waits, releases) = (queues.of(number), queues.waits(number), Vec::new());
-        steps.push(Step { queue, waits, memory_barriers, image_barriers, work, releases });
-    }
+        let (queue, waits, releases) = (queues.queue(number), queues.waits(number), Vec::new());
+        Step { queue, waits, memory_barriers, image_barriers, work, releases }
+    };
+    let mut steps: Vec<Step> = (0..*count).map(step).collect();
     for Transfer { from, release, to, acquire } in ownership::transfers(parts) {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);

@@ -1,7 +1,7 @@
 //! Images and buffers of the Plan.
 
-use crate::compile::model::{Adapted, Kind, MemorySource, Store};
-use crate::compile::scope::store_name;
+use crate::compile::model::{Adapted, Kind, MemorySource, PhysicalResource};
+use crate::compile::scope::resource_name;
 use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::States;
 use crate::frame::{Frame, Lifetime, Resource};
@@ -13,33 +13,33 @@ pub(in crate::compile) type Resources = (Vec<Image>, Vec<Buffer>);
 
 pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> Resources {
     let Structure { adapted, timeline, .. } = structure;
-    let (mut images, mut buffers) = (Vec::with_capacity(adapted.stores.len()), Vec::new());
+    let (mut images, mut buffers) = (Vec::with_capacity(adapted.resources.len()), Vec::new());
     let mut chosen = settled.placed.chosen.iter().peekable();
-    let stores = adapted.stores.iter().zip(0_u32..).zip(&timeline.states).zip(&settled.placed.placements);
-    for (((store, at), states), placement) in stores {
-        let name = store_name(frame, adapted, at).clone();
-        let (span, rotation, eyes) = match store.of {
+    let resources = adapted.resources.iter().zip(0_u32..).zip(&timeline.states).zip(&settled.placed.placements);
+    for (((resource, at), states), placement) in resources {
+        let name = resource_name(frame, adapted, at).clone();
+        let (span, rotation, eyes) = match resource.of {
             Resource::Image(image) => {
                 let declared = &frame.images[image.0 as usize];
                 (declared.span, declared.rotation, declared.eyes)
             }
             Resource::Buffer(buffer) => (frame.buffers[buffer.0 as usize].span, Rotation::Identity, None),
         };
-        let cause = match &store.inserted {
+        let cause = match &resource.inserted {
             Some(why) => Cause::Inserted(why.clone()),
             None => Cause::Written(frame.sources.place(span)),
         };
-        let role = role(frame, adapted, store, *states, placement.as_ref());
-        match &store.kind {
+        let role = role(frame, adapted, resource, *states, placement.as_ref());
+        match &resource.kind {
             Kind::Image(image) => images.push(Image {
-                id: ImageId(store.id),
+                id: ImageId(resource.id),
                 name,
                 cause,
                 format: image.format,
-                chosen: chosen.next_if(|(of, _)| *of == at).and_then(|(_, more)| chosen_format(frame, store, *more)),
+                chosen: chosen.next_if(|(of, _)| *of == at).and_then(|(_, more)| chosen_format(frame, resource, *more)),
                 shape: image.shape,
                 extent: image.extent,
-                room: adapted.room(at),
+                allocated: adapted.allocated(at),
                 rotation,
                 eyes,
                 mips: image.mips,
@@ -50,7 +50,7 @@ pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settle
                 role,
             }),
             Kind::Buffer(buffer) => buffers.push(Buffer {
-                id: BufferId(store.id),
+                id: BufferId(resource.id),
                 name,
                 cause,
                 bytes: buffer.bytes,
@@ -64,8 +64,8 @@ pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settle
 }
 
 /// The format that the pipeline chose, with its cost.
-fn chosen_format(frame: &Frame, store: &Store, more_bytes: i64) -> Option<ChosenFormat> {
-    let Resource::Image(image) = store.of else { return None };
+fn chosen_format(frame: &Frame, resource: &PhysicalResource, more_bytes: i64) -> Option<ChosenFormat> {
+    let Resource::Image(image) = resource.of else { return None };
     let chosen = frame.images[image.0 as usize].chosen.as_ref()?;
     Some(ChosenFormat { because: chosen.because.clone(), usual: chosen.usual, more_bytes })
 }
@@ -73,16 +73,16 @@ fn chosen_format(frame: &Frame, store: &Store, more_bytes: i64) -> Option<Chosen
 fn role(
     frame: &Frame,
     adapted: &Adapted,
-    store: &Store,
+    resource: &PhysicalResource,
     states: Option<States>,
     placement: Option<&Placement>,
 ) -> Role {
     let nothing = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
     let States { before, after } = states.unwrap_or(States { before: nothing, after: nothing });
-    match (store.memory, placement) {
+    match (resource.memory, placement) {
         (MemorySource::Persistent { becomes, initial }, _) => {
-            let initial = initial.map_or_else(|| file(frame, store), Initial::Value);
-            Role::Persistent { becomes: adapted.stores[becomes as usize].id, initial, before, after }
+            let initial = initial.map_or_else(|| file(frame, resource), Initial::Value);
+            Role::Persistent { becomes: adapted.resources[becomes as usize].id, initial, before, after }
         }
         (MemorySource::Transient, Some(placement)) => Role::Transient(placement.clone()),
         (MemorySource::Transient | MemorySource::Output | MemorySource::Imported { .. }, _) => {
@@ -92,8 +92,8 @@ fn role(
 }
 
 /// The initial contents of a resource without an initial value: its file.
-fn file(frame: &Frame, store: &Store) -> Initial {
-    match store.of {
+fn file(frame: &Frame, resource: &PhysicalResource) -> Initial {
+    match resource.of {
         Resource::Image(image) => match &frame.images[image.0 as usize].lifetime {
             Lifetime::File(file) => Initial::File(file.clone()),
             _ => Initial::Value(FillValue::Bits([0; 4])),

@@ -17,7 +17,7 @@ pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
                 let attachments = planned.color.iter_mut().chain(&mut planned.depth).chain(&mut planned.stencil);
-                for (attachment, ops) in attachments.zip(parts.retained.of(number)) {
+                for (attachment, ops) in attachments.zip(parts.load_store.of(number)) {
                     attachment.clear = ops.clear;
                 }
                 for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
@@ -56,15 +56,15 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
 pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
     let Plan { images, buffers, .. } = plan;
-    for ((store, placement), index) in parts.adapted.stores.iter().zip(&parts.placed.placements).zip(0..) {
-        let role = match &store.kind {
+    for ((resource, placement), index) in parts.adapted.resources.iter().zip(&parts.placed.placements).zip(0..) {
+        let role = match &resource.kind {
             Kind::Image(image) => {
-                let planned = &mut images[store.id as usize];
-                (planned.extent, planned.room) = (image.extent, parts.adapted.room(index));
+                let planned = &mut images[resource.id as usize];
+                (planned.extent, planned.allocated) = (image.extent, parts.adapted.allocated(index));
                 &mut planned.role
             }
             Kind::Buffer(buffer) => {
-                let planned = &mut buffers[store.id as usize];
+                let planned = &mut buffers[resource.id as usize];
                 planned.bytes = buffer.bytes;
                 &mut planned.role
             }
@@ -73,8 +73,8 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
             planned.clone_from(placement);
         }
     }
-    for (store, more_bytes) in &parts.placed.chosen {
-        let image = images.get_mut(parts.adapted.stores[*store as usize].id as usize);
+    for (resource, more_bytes) in &parts.placed.chosen {
+        let image = images.get_mut(parts.adapted.resources[*resource as usize].id as usize);
         if let Some(chosen) = image.and_then(|image| image.chosen.as_mut()) {
             chosen.more_bytes = *more_bytes;
         }

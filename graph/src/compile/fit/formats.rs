@@ -1,9 +1,9 @@
 //! Format fallback: where the device can't use a format as the frame does, another one that holds at least as much.
 //!
-//! A format that the pipeline chose by a policy gives way to the one that there would be without it. Else only images that
-//! nobody outside of the frame sees, and whose texels no shader or program is told the layout of: neither
-//! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes. An output
-//! that is encoded for HDR10 may have 16 bits instead of 10.
+//! A format that the pipeline chose by a policy is replaced by the format that it would have without the policy. Any other
+//! format is replaced only if nothing outside of the frame sees the image, and no shader or program is told the layout of
+//! its texels. So imported images, outputs and storage images keep their formats, and so do images that are copied to or
+//! from buffers or by custom passes. An output that is encoded for HDR10 may have 16 bits instead of 10.
 
 use super::needs::{Needs, Supports};
 use crate::device::Profile;

@@ -13,7 +13,10 @@ pub(super) struct Supports<'d> {
 
 impl<'d> Supports<'d> {
     pub(super) fn new(device: &'d Profile) -> Supports<'d> {
-        Supports { device, of: Format::ALL.iter().map(|format| device.format(*format)).collect() }
+        let mut of = vec![None; Format::ALL.len()];
+        // Of several entries the first counts.
+        device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
+        Supports { device, of }
     }
 
     pub(super) fn of(&self, format: Format) -> Option<&'d FormatSupport> {
@@ -92,7 +95,7 @@ impl Needs {
 fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
-        (image.format, image.extent, image.room, image.eyes)
+        (image.format, image.extent, image.allocated, image.eyes)
     };
     shape(from) != shape(to)
 }

@@ -107,10 +107,10 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
     let first = attached.next()?;
     let other = attached.find(|other| shape(*other) != shape(first))?;
     let words = |part| {
-        let TargetShape { extent: [width, height, _], room, layers, samples, .. } = shape(part);
-        let room = room.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
+        let TargetShape { extent: [width, height, _], allocated, layers, samples, .. } = shape(part);
+        let allocated = allocated.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
         let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
-        format!("{width}×{height}{room}{layers} with {samples} samples")
+        format!("{width}×{height}{allocated}{layers} with {samples} samples")
     };
     let (a, b) = (&frame.images[first.0.0 as usize], &frame.images[other.0.0 as usize]);
     Some(

@@ -2,8 +2,8 @@
 //! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, MemorySource, OpKind, Role, Store, StoreIndex};
-use crate::compile::scope::{Scoped, Step, store_name};
+use crate::compile::model::{Adapted, MemorySource, OpKind, PhysicalIndex, PhysicalResource, Role};
+use crate::compile::scope::{Scoped, Step, resource_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
 use crate::plan::Inserted;
@@ -25,8 +25,8 @@ pub(crate) fn check_support(
         }
     };
     let mut errors = Vec::new();
-    for (store, at) in adapted.stores.iter().zip(0..) {
-        let Some(image) = store.image() else { continue };
+    for (resource, at) in adapted.resources.iter().zip(0..) {
+        let Some(image) = resource.image() else { continue };
         let missing = image.usage.difference(FOLLOWS).difference(supported(image.format));
         if !missing.is_empty() {
             errors.push(refusal(frame, adapted, device, at, (image, missing)));
@@ -36,12 +36,12 @@ pub(crate) fn check_support(
         if !matches!(adapted.ops[op as usize].kind, OpKind::Resolve { .. }) {
             continue;
         }
-        // A resolve that no scope carries needs a format that can be an attachment.
+        // A resolve that is not folded needs a format that can be an attachment.
         let Some(target) = adapted.uses(op).iter().find(|used| used.role == Role::Target) else { continue };
-        let Some(image) = adapted.stores[target.store as usize].image() else { continue };
+        let Some(image) = adapted.resources[target.resource as usize].image() else { continue };
         let missing = Usage::COLOR_ATTACHMENT.difference(supported(image.format));
         if !missing.is_empty() {
-            errors.push(refusal(frame, adapted, device, target.store, (image, missing)));
+            errors.push(refusal(frame, adapted, device, target.resource, (image, missing)));
         }
     }
     if errors.is_empty() { Ok(()) } else { Err(errors) }
@@ -54,29 +54,29 @@ fn refusal(
     frame: &Frame,
     adapted: &Adapted,
     device: &Profile,
-    at: StoreIndex,
+    at: PhysicalIndex,
     (image, missing): (&ImageDescriptor, Usage),
 ) -> Diagnostic {
-    let store = &adapted.stores[at as usize];
-    let span = match store.of {
+    let resource = &adapted.resources[at as usize];
+    let span = match resource.of {
         Resource::Image(image) => frame.images[image.0 as usize].span,
         Resource::Buffer(_) => Span::NONE,
     };
-    let name = store_name(frame, adapted, at);
+    let name = resource_name(frame, adapted, at);
     let missing = missing.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
     let message = format!("`{name}` can't be {} on `{}`: no {missing}", image.format, device.name);
-    let help = format!("it takes that since {}; choose another format", why(adapted, store, at));
+    let help = format!("it takes that since {}; choose another format", why(adapted, resource, at));
     Diagnostic::new(span, message).help(help)
 }
 
-/// Why a store has its usages: an inserted operation that uses it, or where it comes from and goes.
-fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
+/// Why a resource has its usages: an inserted operation that uses it, or where it comes from and goes.
+fn why<'a>(adapted: &'a Adapted, resource: &'a PhysicalResource, at: PhysicalIndex) -> &'a str {
     let inserted = |number: u32| -> Option<&Inserted> {
         let why = adapted.ops[number as usize].kind.inserted()?;
-        adapted.uses(number).iter().any(|used| used.store == at).then_some(why)
+        adapted.uses(number).iter().any(|used| used.resource == at).then_some(why)
     };
-    let because = (0..adapted.ops.len() as u32).find_map(inserted).or(store.inserted.as_deref());
-    match (because, store.memory) {
+    let because = (0..adapted.ops.len() as u32).find_map(inserted).or(resource.inserted.as_deref());
+    match (because, resource.memory) {
         (Some(reason), _) => &reason.because,
         (None, MemorySource::Transient) => "memory that is shared may be filled before it is used",
         (None, MemorySource::Output) => "outputs can be copied",

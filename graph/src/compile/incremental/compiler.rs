@@ -21,9 +21,9 @@ use std::sync::Arc;
 ///   A frame behind an `Arc` doesn't change, and the last one is kept, so no other frame can have its address.
 /// - An equal frame: it is compared, pass by pass.
 /// - Other values (clear and fill values, parameters, counts of workgroups, texts of settings): they replace the old ones.
-/// - Other sizes (of images and buffers): memory is placed anew, and order and scopes are reused. If alias edges are the same,
-///   barriers are reused too, else they are found again. The frame is compiled anew if another order might score best, if
-///   scopes might differ, if passes that are off forward between images of other proportions, or if alias edges differ on
+/// - Other sizes (of images and buffers): memory is placed anew, and order and scopes are reused. If alias edges are the
+///   same, barriers are reused too, else they are found again. The frame is compiled anew if another order might score best,
+///   if scopes might differ, if passes that are off forward between images of other proportions, or if alias edges differ on
 ///   several queues.
 /// - Anything else: the frame is compiled anew.
 #[derive(Debug, Default)]
@@ -177,7 +177,7 @@ impl Last {
             return false;
         }
         let Last { structure, settled, device, plan, .. } = self;
-        retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
+        retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
         emit::values(&Parts::new(frame, device, structure, settled), plan);
         true
     }
@@ -193,7 +193,7 @@ impl Last {
         if !validate::still_holds(frame) || !structure.still_holds(frame, device, options) {
             return Ok(false);
         }
-        retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
+        retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
         let settling = structure.settle_again(settled, device, memory, options)?;
         let parts = Parts::new(frame, device, structure, settled);
         match settling {

@@ -80,7 +80,7 @@ fn image(old: &Image, new: &Image) -> Difference {
         format,
         shape,
         extent,
-        room,
+        allocated,
         rotation,
         eyes,
         mips,
@@ -95,9 +95,9 @@ fn image(old: &Image, new: &Image) -> Difference {
         && (&old.resolve, &old.chosen) == (resolve, chosen)
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
         && (old.rotation, old.eyes) == (*rotation, *eyes)
-        && old.room.is_some() == room.is_some()
+        && old.allocated.is_some() == allocated.is_some()
         && same_lifetime(&old.lifetime, lifetime);
-    if same { unless((old.extent, old.room) == (*extent, *room), Sizes) } else { Structure }
+    if same { unless((old.extent, old.allocated) == (*extent, *allocated), Sizes) } else { Structure }
 }
 
 fn buffer(old: &Buffer, new: &Buffer) -> Difference {
@@ -232,8 +232,12 @@ pub(super) fn forwards(frame: &Frame) -> bool {
 
 /// Whether images that had one size have one size again, and others have others.
 pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
-    let mut sizes: Vec<_> =
-        old.images.iter().zip(&new.images).map(|(old, new)| ((old.extent, old.room), (new.extent, new.room))).collect();
+    let mut sizes: Vec<_> = old
+        .images
+        .iter()
+        .zip(&new.images)
+        .map(|(old, new)| ((old.extent, old.allocated), (new.extent, new.allocated)))
+        .collect();
     sizes.sort_unstable();
     sizes.dedup();
     let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();

@@ -1,14 +1,14 @@
 //! Aliasing: which transient image or buffer had the memory of another one before, within the frame and across frames.
 
 use super::place::Placed;
-use crate::compile::model::StoreIndex;
+use crate::compile::model::PhysicalIndex;
 use crate::compile::steps::NEVER;
 
-/// An alias edge: `store` takes bytes of `from`.
+/// An alias edge: `resource` takes bytes of `from`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::compile) struct AliasEdge {
-    pub(in crate::compile) store: StoreIndex,
-    pub(in crate::compile) from: StoreIndex,
+    pub(in crate::compile) resource: PhysicalIndex,
+    pub(in crate::compile) from: PhysicalIndex,
     /// Whether `from` had the bytes in this frame, or in the one before.
     pub(in crate::compile) this_frame: bool,
 }
@@ -24,7 +24,7 @@ pub(in crate::compile) struct Aliasing {
 /// An end of a placement.
 #[derive(Debug, Clone, Copy)]
 struct End {
-    store: StoreIndex,
+    resource: PhysicalIndex,
     upper: bool,
     above: Above,
 }
@@ -66,7 +66,7 @@ impl Aliasing {
     pub(in crate::compile) fn still_holds(&self, placed: &Placed) -> bool {
         let mut before = None;
         self.ends.iter().all(|end| {
-            let Some(placement) = &placed.placements[end.store as usize] else { return false };
+            let Some(placement) = &placed.placements[end.resource as usize] else { return false };
             let now = (placement.heap, placement.offset + if end.upper { placement.bytes } else { 0 });
             Above::of(before.replace(now), now) == Some(end.above)
         })
@@ -76,12 +76,12 @@ impl Aliasing {
     ///
     /// `by_first_step`: what has a place, in the order of first steps. `pieces`: for each physical resource its first piece,
     /// and the first one behind it.
-    fn heap(&mut self, placed: &Placed, by_first_step: &[StoreIndex], heap: u32, pieces: &mut [[u32; 2]]) {
-        let mut ends: Vec<(u64, StoreIndex, bool)> = Vec::with_capacity(2 * placed.placements.len());
-        for (placement, store) in placed.placements.iter().zip(0_u32..) {
+    fn heap(&mut self, placed: &Placed, by_first_step: &[PhysicalIndex], heap: u32, pieces: &mut [[u32; 2]]) {
+        let mut ends: Vec<(u64, PhysicalIndex, bool)> = Vec::with_capacity(2 * placed.placements.len());
+        for (placement, resource) in placed.placements.iter().zip(0_u32..) {
             if let Some(placement) = placement.as_ref().filter(|placement| placement.heap == heap) {
-                ends.push((placement.offset, store, false));
-                ends.push((placement.offset + placement.bytes, store, true));
+                ends.push((placement.offset, resource, false));
+                ends.push((placement.offset + placement.bytes, resource, true));
             }
         }
         ends.sort_by_key(|(offset, ..)| *offset);
@@ -89,40 +89,41 @@ impl Aliasing {
         self.edges.reserve(ends.len());
         let mut piece = 0;
         let mut before = None;
-        for (offset, store, upper) in ends {
+        for (offset, resource, upper) in ends {
             let now = (heap, offset);
             let above = Above::of(before.replace(now), now).unwrap_or(Above::Another);
             piece += u32::from(above == Above::Higher);
-            pieces[store as usize][usize::from(upper)] = piece;
-            self.ends.push(End { store, upper, above });
+            pieces[resource as usize][usize::from(upper)] = piece;
+            self.ends.push(End { resource, upper, above });
         }
         let mut owners = vec![NEVER; piece as usize];
-        let mut from_frame_before: Vec<(StoreIndex, u32)> = Vec::new();
-        let mut known: Vec<StoreIndex> = Vec::new();
-        let is_here =
-            |store: &&StoreIndex| placed.placements[**store as usize].as_ref().is_some_and(|it| it.heap == heap);
-        for store in by_first_step.iter().filter(is_here) {
-            let [first, end] = pieces[*store as usize];
+        let mut from_frame_before: Vec<(PhysicalIndex, u32)> = Vec::new();
+        let mut known: Vec<PhysicalIndex> = Vec::new();
+        let is_here = |resource: &&PhysicalIndex| {
+            placed.placements[**resource as usize].as_ref().is_some_and(|it| it.heap == heap)
+        };
+        for resource in by_first_step.iter().filter(is_here) {
+            let [first, end] = pieces[*resource as usize];
             known.clear();
             for piece in first..end {
-                let owner = std::mem::replace(&mut owners[piece as usize], *store);
+                let owner = std::mem::replace(&mut owners[piece as usize], *resource);
                 if owner == NEVER {
-                    from_frame_before.push((*store, piece));
+                    from_frame_before.push((*resource, piece));
                 } else if !known.contains(&owner) {
                     known.push(owner);
-                    self.edges.push(AliasEdge { store: *store, from: owner, this_frame: true });
+                    self.edges.push(AliasEdge { resource: *resource, from: owner, this_frame: true });
                 }
             }
         }
         let mut taker = NEVER;
-        for (store, piece) in from_frame_before {
-            if std::mem::replace(&mut taker, store) != store {
+        for (resource, piece) in from_frame_before {
+            if std::mem::replace(&mut taker, resource) != resource {
                 known.clear();
             }
             let from = owners[piece as usize];
             if !known.contains(&from) {
                 known.push(from);
-                self.edges.push(AliasEdge { store, from, this_frame: false });
+                self.edges.push(AliasEdge { resource, from, this_frame: false });
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::pack::{Block, Measured, Packing};
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, Kind, StoreIndex};
+use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::steps::NEVER;
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
@@ -22,16 +22,19 @@ pub(in crate::compile) struct Placed {
     /// Bytes of what outlives the frame.
     pub(in crate::compile) kept_bytes: u64,
     /// The images whose format the pipeline chose, rising, with the bytes that it takes beyond the usual format.
-    pub(in crate::compile) chosen: Vec<(StoreIndex, i64)>,
+    pub(in crate::compile) chosen: Vec<(PhysicalIndex, i64)>,
 }
 
 impl Placed {
     /// All placed resources, in the order of first steps, then by index.
-    pub(super) fn by_first_step(&self, lifetimes: &[[u32; 2]]) -> Vec<StoreIndex> {
-        let placed =
-            self.placements.iter().zip(0_u32..).filter_map(|(placement, store)| placement.as_ref().map(|_| store));
-        let first = |store: &StoreIndex| lifetimes[*store as usize][0];
-        let mut order: Vec<StoreIndex> = Vec::with_capacity(self.placements.len());
+    pub(super) fn by_first_step(&self, lifetimes: &[[u32; 2]]) -> Vec<PhysicalIndex> {
+        let placed = self
+            .placements
+            .iter()
+            .zip(0_u32..)
+            .filter_map(|(placement, resource)| placement.as_ref().map(|_| resource));
+        let first = |resource: &PhysicalIndex| lifetimes[*resource as usize][0];
+        let mut order: Vec<PhysicalIndex> = Vec::with_capacity(self.placements.len());
         order.extend(placed);
         if order.is_sorted_by_key(first) {
             return order;
@@ -39,15 +42,15 @@ impl Placed {
         // For each step the resources that begin there, as linked lists.
         let mut heads = vec![NEVER; order.iter().map(first).max().map_or(0, |last| last as usize + 1)];
         let mut next = vec![NEVER; self.placements.len()];
-        for store in order.iter().rev() {
-            next[*store as usize] = std::mem::replace(&mut heads[first(store) as usize], *store);
+        for resource in order.iter().rev() {
+            next[*resource as usize] = std::mem::replace(&mut heads[first(resource) as usize], *resource);
         }
         order.clear();
         for head in heads {
-            let mut store = head;
-            while store != NEVER {
-                order.push(store);
-                store = next[store as usize];
+            let mut resource = head;
+            while resource != NEVER {
+                order.push(resource);
+                resource = next[resource as usize];
             }
         }
         order
@@ -60,11 +63,12 @@ struct Members {
     images: bool,
     count: usize,
     /// In the order of their first steps.
-    stores: Vec<StoreIndex>,
+    resources: Vec<PhysicalIndex>,
     blocks: Vec<Block>,
 }
 
-/// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by side.
+/// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by
+/// side.
 pub(in crate::compile) fn place(
     adapted: &Adapted,
     lifetimes: &[[u32; 2]],
@@ -75,7 +79,7 @@ pub(in crate::compile) fn place(
 ) -> Result<Placed, Vec<Diagnostic>> {
     let mut placed = Placed {
         heaps: Vec::new(),
-        placements: Vec::with_capacity(adapted.stores.len()),
+        placements: Vec::with_capacity(adapted.resources.len()),
         transient_bytes: 0,
         live_peak_bytes: 0,
         kept_bytes: 0,
@@ -85,12 +89,12 @@ pub(in crate::compile) fn place(
     let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
     // Images often follow others of the same descriptor.
     let mut last_needs: Option<(ImageDescriptor, MemoryNeeds)> = None;
-    for ((store, at), [first, last]) in adapted.stores.iter().zip(0..).zip(lifetimes) {
-        if *first == NEVER && store.is_transient() {
+    for ((resource, at), [first, last]) in adapted.resources.iter().zip(0..).zip(lifetimes) {
+        if *first == NEVER && resource.is_transient() {
             placed.placements.push(None);
             continue;
         }
-        let (needs, lazily) = match &store.kind {
+        let (needs, lazily) = match &resource.kind {
             Kind::Image(image) => {
                 let made = adapted.made(at, image);
                 let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
@@ -99,7 +103,7 @@ pub(in crate::compile) fn place(
                     _ => memory.image(&made),
                 };
                 last_needs = Some((made, needs));
-                if let Some(usual) = store.usual {
+                if let Some(usual) = resource.usual {
                     let usual = usual_needs(&made, usual, device, memory);
                     placed.chosen.push((at, needs.bytes.cast_signed().saturating_sub(usual.bytes.cast_signed())));
                 }
@@ -107,12 +111,12 @@ pub(in crate::compile) fn place(
             }
             Kind::Buffer(buffer) => (memory.buffer(buffer), false),
         };
-        if !store.is_transient() {
+        if !resource.is_transient() {
             placed.kept_bytes = placed.kept_bytes.saturating_add(needs.bytes);
             placed.placements.push(None);
             continue;
         }
-        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
+        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, resource.image().is_some());
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
         placed.placements.push(Some(Placement {
             heap: heap as u32,
@@ -131,34 +135,34 @@ pub(in crate::compile) fn place(
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
         return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
     }
-    for Members { count, stores, blocks, .. } in &mut members {
-        (*stores, *blocks) = (Vec::with_capacity(*count), Vec::with_capacity(*count));
+    for Members { count, resources, blocks, .. } in &mut members {
+        (*resources, *blocks) = (Vec::with_capacity(*count), Vec::with_capacity(*count));
     }
-    for store in placed.by_first_step(spans) {
-        if let Some(Placement { heap, bytes, alignment, .. }) = placed.placements[store as usize] {
-            let [first, last] = spans[store as usize];
-            let Members { stores, blocks, .. } = &mut members[heap as usize];
-            stores.push(store);
+    for resource in placed.by_first_step(spans) {
+        if let Some(Placement { heap, bytes, alignment, .. }) = placed.placements[resource as usize] {
+            let [first, last] = spans[resource as usize];
+            let Members { resources, blocks, .. } = &mut members[heap as usize];
+            resources.push(resource);
             blocks.push(Block { first, last, bytes, alignment });
         }
     }
-    for (heap, Members { stores, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
+    for (heap, Members { resources, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
         let measured = Measured::of(blocks);
         let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
         heap.bytes = packing.height;
-        for (store, offset) in stores.iter().zip(packing.offsets) {
-            if let Some(placement) = &mut placed.placements[*store as usize] {
+        for (resource, offset) in resources.iter().zip(packing.offsets) {
+            if let Some(placement) = &mut placed.placements[*resource as usize] {
                 placement.offset = offset;
             }
         }
         placed.live_peak_bytes = measured.live_peak();
     }
     if members.len() > 1 || overlaps {
-        let alive = |(store, block): (&StoreIndex, &Block)| {
-            let [first, last] = lifetimes[*store as usize];
+        let alive = |(resource, block): (&PhysicalIndex, &Block)| {
+            let [first, last] = lifetimes[*resource as usize];
             Block { first, last, ..*block }
         };
-        let all = members.iter().flat_map(|Members { stores, blocks, .. }| stores.iter().zip(blocks).map(alive));
+        let all = members.iter().flat_map(|Members { resources, blocks, .. }| resources.iter().zip(blocks).map(alive));
         placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
     }
     Ok(placed)
@@ -191,7 +195,7 @@ fn choose_heap(
     };
     let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
         heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
-        members.push(Members { images, count: 0, stores: Vec::new(), blocks: Vec::new() });
+        members.push(Members { images, count: 0, resources: Vec::new(), blocks: Vec::new() });
         heaps.len() - 1
     });
     members[at].count += 1;

@@ -8,15 +8,15 @@
 use super::crossing::Crossing;
 use super::eligible::{Bound, Eligible};
 use super::layout_changes;
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::state::Queues;
 use super::step_uses::uses_of;
 use super::windows::Steps;
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, Kind, MemorySource, OpKind, StoreIndex};
+use crate::compile::model::{Adapted, Kind, MemorySource, OpKind, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::parts::Grids;
-use crate::compile::scope::{Scoped, Step, op_name, store_name};
+use crate::compile::scope::{Scoped, Step, op_name, resource_name};
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::{Note, Queue, Stage};
@@ -38,7 +38,7 @@ pub(in crate::compile) struct Assigned {
     pub(in crate::compile) queues: Queues,
     pub(in crate::compile) notes: Vec<Note>,
     /// Physical resources that are used on other queues than graphics, with their sharing.
-    pub(in crate::compile) sharing: Vec<(StoreIndex, Sharing)>,
+    pub(in crate::compile) sharing: Vec<(PhysicalIndex, Sharing)>,
 }
 
 /// Gives each step its queue, and inserts steps that change layouts.
@@ -87,7 +87,7 @@ pub(in crate::compile) fn assign(
     }
     let (crossings, sharing) = share(adapted, &scoped, device, &queues);
     let changes = layout_changes::insert(grids, adapted, &mut scoped, &mut queues, &crossings);
-    Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.cells), notes, sharing }
+    Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
 }
 
 /// All steps on graphics.
@@ -98,17 +98,17 @@ fn one_queue(scoped: Scoped, notes: Vec<Note>) -> Assigned {
 /// The queue that each step would leave graphics for. A transfer of what dispatches use goes to the compute queue: that
 /// saves waits.
 fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
-    let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(number);
-    let mut dispatched = vec![false; adapted.stores.len()];
+    let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(|queue| queue as usize);
+    let mut dispatched = vec![false; adapted.resources.len()];
     for (step, able) in scoped.steps.iter().zip(bound) {
         if able.is_ok_and(|able| able[compute]) && is_dispatch(frame, adapted, step) {
-            uses(adapted, step).for_each(|(store, ..)| dispatched[store as usize] = true);
+            uses(adapted, step).for_each(|(resource, ..)| dispatched[resource as usize] = true);
         }
     }
     let choose = |(step, able): (&Step, &Result<[bool; QUEUES], Bound>)| match able {
         Err(_) => Queue::Graphics,
         Ok(able) if able[transfer] => {
-            let beside = able[compute] && uses(adapted, step).any(|(store, ..)| dispatched[store as usize]);
+            let beside = able[compute] && uses(adapted, step).any(|(resource, ..)| dispatched[resource as usize]);
             if beside { Queue::Compute } else { Queue::Transfer }
         }
         Ok(_) => Queue::Compute,
@@ -122,8 +122,8 @@ fn is_dispatch(frame: &Frame, adapted: &Adapted, step: &Step) -> bool {
 }
 
 /// Every image and buffer that a step uses, whether it writes it, and in which layout.
-fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (StoreIndex, bool, Layout)> + 'a {
-    uses_of(adapted, step).map(|used| (used.store, used.writes, used.layout))
+fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (PhysicalIndex, bool, Layout)> + 'a {
+    uses_of(adapted, step).map(|used| (used.resource, used.writes, used.layout))
 }
 
 /// The graphics steps of a window, without eligible ones that stay.
@@ -134,18 +134,18 @@ fn beside(bound: &[Result<[bool; QUEUES], Bound>], [from, to]: [u32; 2]) -> impl
 /// What is imported is used on one queue, or on graphics: its state before the frame names the stages of one queue.
 fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut [bool]) {
     let is_imported =
-        |store: StoreIndex| matches!(adapted.stores[store as usize].memory, MemorySource::Imported { .. });
-    let mut user: Vec<Option<Queue>> = vec![None; adapted.stores.len()];
-    let mut split = vec![false; adapted.stores.len()];
+        |resource: PhysicalIndex| matches!(adapted.resources[resource as usize].memory, MemorySource::Imported { .. });
+    let mut user: Vec<Option<Queue>> = vec![None; adapted.resources.len()];
+    let mut split = vec![false; adapted.resources.len()];
     for (step, at) in scoped.steps.iter().zip(0..) {
         let queue = if stays[at] { Queue::Graphics } else { queues[at] };
-        for (store, ..) in uses(adapted, step).filter(|(store, ..)| is_imported(*store)) {
-            split[store as usize] |= user[store as usize].replace(queue).is_some_and(|other| other != queue);
+        for (resource, ..) in uses(adapted, step).filter(|(resource, ..)| is_imported(*resource)) {
+            split[resource as usize] |= user[resource as usize].replace(queue).is_some_and(|other| other != queue);
         }
     }
     for (step, at) in scoped.steps.iter().zip(0..) {
         let moves = queues[at] != Queue::Graphics;
-        stays[at] |= moves && uses(adapted, step).any(|(store, ..)| split[store as usize]);
+        stays[at] |= moves && uses(adapted, step).any(|(resource, ..)| split[resource as usize]);
     }
 }
 
@@ -193,7 +193,7 @@ fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option
     let named = step.ops().iter().find_map(|op| op_name(frame, adapted, *op));
     let transferred = || {
         let used = adapted.uses(*step.ops().first()?).first()?;
-        Some(store_name(frame, adapted, used.store))
+        Some(resource_name(frame, adapted, used.resource))
     };
     named.or_else(transferred).map(|name| &**name)
 }
@@ -204,25 +204,25 @@ fn share(
     scoped: &Scoped,
     device: &Profile,
     of: &[Queue],
-) -> (Vec<Option<Crossing>>, Vec<(StoreIndex, Sharing)>) {
-    let count = adapted.stores.len();
+) -> (Vec<Option<Crossing>>, Vec<(PhysicalIndex, Sharing)>) {
+    let count = adapted.resources.len();
     let mut users = vec![[false; QUEUES]; count];
     let mut layouts: Vec<Option<Layout>> = vec![None; count];
     let mut constant = vec![true; count];
     for (step, queue) in scoped.steps.iter().zip(of) {
-        for (store, writes, layout) in uses(adapted, step) {
-            let store = store as usize;
-            users[store][number(*queue)] = true;
+        for (resource, writes, layout) in uses(adapted, step) {
+            let resource = resource as usize;
+            users[resource][*queue as usize] = true;
             // Between frames all planes have one layout.
-            let stays = adapted.stores[store].layout_of_all_planes(layout) == layout;
-            let same = layouts[store].replace(layout).is_none_or(|other| other == layout);
-            constant[store] &= !writes && stays && same;
+            let stays = adapted.resources[resource].layout_of_all_planes(layout) == layout;
+            let same = layouts[resource].replace(layout).is_none_or(|other| other == layout);
+            constant[resource] &= !writes && stays && same;
         }
     }
     // The members of a history ring are used by each other's queues.
     let mut first = 0;
     while first < count {
-        let last = last_of_ring(adapted, first as StoreIndex) as usize;
+        let last = last_of_ring(adapted, first as PhysicalIndex) as usize;
         if last > first {
             let all = users[first..=last].iter().fold([false; QUEUES], |all, users| {
                 let mut all = all;
@@ -236,20 +236,20 @@ fn share(
     }
     let mut crossings = vec![None; count];
     let mut sharing = Vec::new();
-    for (store, at) in adapted.stores.iter().zip(0..) {
+    for (resource, at) in adapted.resources.iter().zip(0..) {
         let beside = users[at][1..].contains(&true);
         let several = users[at].iter().filter(|uses| **uses).count() > 1;
-        let transient = store.is_transient();
-        let persistent = matches!(store.memory, MemorySource::Persistent { .. });
+        let transient = resource.is_transient();
+        let persistent = matches!(resource.memory, MemorySource::Persistent { .. });
         // What outlives the frame is prepared and read on graphics.
-        let shared = match (transient, &store.kind) {
+        let shared = match (transient, &resource.kind) {
             (true, Kind::Image(_)) if several => device.queues.sharing,
             (true, Kind::Buffer(_)) if several => Sharing::Concurrent,
             (false, _) if beside => Sharing::Concurrent,
             _ => continue,
         };
-        sharing.push((at as StoreIndex, shared));
-        let crossing = match (&store.kind, shared) {
+        sharing.push((at as PhysicalIndex, shared));
+        let crossing = match (&resource.kind, shared) {
             _ if persistent && constant[at] => Crossing::Constant,
             (Kind::Buffer(_), _) => Crossing::Buffer,
             (Kind::Image(_), Sharing::Concurrent) => Crossing::Image,

@@ -1,7 +1,7 @@
 //! How queues share images and buffers.
 
 use super::number::QUEUES;
-use crate::compile::model::{CellIndex, StoreIndex};
+use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::vulkan::{Accesses, Layout, Stages};
 
 /// How several queues share an image or buffer.
@@ -17,7 +17,7 @@ pub(in crate::compile) enum Crossing {
     Constant,
 }
 
-/// How queues use a cell since its last write or change of layout.
+/// How queues use a subresource since its last write or change of layout.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::compile) struct QueueUses {
     pub(in crate::compile) by: [QueueUse; QUEUES],
@@ -27,7 +27,7 @@ pub(in crate::compile) struct QueueUses {
     pub(in crate::compile) unread: bool,
 }
 
-/// How one queue uses a cell.
+/// How one queue uses a subresource.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::compile) struct QueueUse {
     pub(in crate::compile) stages: Stages,
@@ -41,12 +41,12 @@ pub(in crate::compile) struct QueueUse {
 /// A change of layout in a step of its own, before several queues read.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::compile) struct LayoutChange {
-    pub(in crate::compile) cell: CellIndex,
-    pub(in crate::compile) store: StoreIndex,
+    pub(in crate::compile) subresource: SubresourceIndex,
+    pub(in crate::compile) resource: PhysicalIndex,
     pub(in crate::compile) layout: Layout,
 }
 
-/// A queue family ownership transfer: one queue acquires a cell, with its contents, that another one releases.
+/// A queue family ownership transfer: one queue acquires a subresource, with its contents, that another one releases.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::compile) struct OwnershipTransfer {
     /// The barrier that acquires it.

@@ -3,7 +3,7 @@
 //! Drawing, blits and resolves need a graphics queue; so do copies and fills of depth, stencil and multisampled images.
 //! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least.
 
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use crate::compile::model::{Adapted, MemorySource, OpKind, Use};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
@@ -86,38 +86,38 @@ impl Eligible<'_> {
         if uses.iter().any(|used| self.is_outside(used)) {
             return Err(Bound::Outside);
         }
-        let images = || uses.iter().filter(|used| self.adapted.stores[used.store as usize].image().is_some());
+        let images = || uses.iter().filter(|used| self.adapted.resources[used.resource as usize].image().is_some());
         // Poison fills images wherever they are used first.
         let fills_images = (fills || self.options.poison) && images().next().is_some();
         let mut eligible = [false; QUEUES];
         let queues = [(Queue::Compute, self.device.queues.compute), (Queue::Transfer, self.device.queues.transfer)];
         for (queue, has) in queues {
             let has_stages = uses.iter().all(|used| stages(queue).contains(used.stages) && self.is_found(used, queue));
-            eligible[number(queue)] = has && has_stages && !(queue == Queue::Transfer && fills_images);
+            eligible[queue as usize] = has && has_stages && !(queue == Queue::Transfer && fills_images);
         }
         if eligible.contains(&true) { Ok(eligible) } else { Err(Bound::NoQueue) }
     }
 
     fn is_depth_or_multisampled(&self, used: &Use) -> bool {
-        let image = self.adapted.stores[used.store as usize].image();
+        let image = self.adapted.resources[used.resource as usize].image();
         image.is_some_and(|image| image.format.is_depth() || image.samples > 1)
     }
 
     /// Whether something outside of the frame uses the same image or buffer. Imported buffers can be used on any one queue.
     fn is_outside(&self, used: &Use) -> bool {
-        let store = &self.adapted.stores[used.store as usize];
-        match store.memory {
+        let resource = &self.adapted.resources[used.resource as usize];
+        match resource.memory {
             MemorySource::Transient => false,
             MemorySource::Output => true,
-            MemorySource::Imported { .. } => store.image().is_some() || store.after.is_some(),
+            MemorySource::Imported { .. } => resource.image().is_some() || resource.after.is_some(),
             // The reader of an output comes after one queue.
-            MemorySource::Persistent { .. } => self.adapted.outputs.contains(&used.store),
+            MemorySource::Persistent { .. } => self.adapted.outputs.contains(&used.resource),
         }
     }
 
     /// Whether a queue can wait for what was done before the frame.
     fn is_found(&self, used: &Use, queue: Queue) -> bool {
-        match self.adapted.stores[used.store as usize].memory {
+        match self.adapted.resources[used.resource as usize].memory {
             MemorySource::Imported { before } => stages(queue).contains(before.stages),
             _ => true,
         }

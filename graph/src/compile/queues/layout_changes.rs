@@ -4,15 +4,15 @@
 //! own, directly behind the write and on the queue of the write, changes the layout, and no reader waits for another one.
 
 use super::crossing::{Crossing, LayoutChange};
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::step_uses::uses_of;
-use crate::compile::model::{Adapted, CellIndex, StoreIndex};
+use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step};
 use crate::plan::Queue;
 use crate::vulkan::Layout;
 
-/// The last use of a cell: a write, or reads in one layout.
+/// The last use of a subresource: a write, or reads in one layout.
 #[derive(Debug, Clone, Copy)]
 struct LastUse {
     layout: Layout,
@@ -39,11 +39,11 @@ pub(super) fn insert(
 ) -> Vec<(u32, LayoutChange)> {
     let mut candidates = candidates(grids, adapted, scoped, queues, crossings);
     candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
-    candidates.sort_by_key(|it| (it.behind, it.change.cell));
+    candidates.sort_by_key(|it| (it.behind, it.change.subresource));
     let mut changes = Vec::with_capacity(candidates.len());
     for (same, inserted) in candidates.chunk_by(|one, other| one.behind == other.behind).zip(1..) {
         let at = same[0].behind + inserted;
-        scoped.steps.insert(at as usize, Step::Export);
+        scoped.steps.insert(at as usize, Step::BarriersOnly);
         queues.insert(at as usize, queues[at as usize - 1]);
         changes.extend(same.iter().map(|it| (at, it.change)));
     }
@@ -57,27 +57,28 @@ fn candidates(
     queues: &[Queue],
     crossings: &[Option<Crossing>],
 ) -> Vec<Candidate> {
-    let mut cells = vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.cells as usize];
+    let mut subresources =
+        vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.subresources as usize];
     let mut candidates: Vec<Candidate> = Vec::new();
     for ((step, at), queue) in scoped.steps.iter().zip(0..).zip(queues) {
         for used in uses_of(adapted, step) {
-            if crossings[used.store as usize] != Some(Crossing::Image) {
+            if crossings[used.resource as usize] != Some(Crossing::Image) {
                 continue;
             }
-            let store: StoreIndex = used.store;
-            adapted.for_each_cell(grids, used, |number_of_cell: CellIndex| {
-                let cell = &mut cells[number_of_cell as usize];
+            let resource: PhysicalIndex = used.resource;
+            adapted.for_each_subresource(grids, used, |index: SubresourceIndex| {
+                let subresource = &mut subresources[index as usize];
                 if used.writes {
-                    *cell = LastUse { layout: used.layout, written: Some(at), change: None };
-                } else if cell.layout != used.layout {
-                    let change = LayoutChange { cell: number_of_cell, store, layout: used.layout };
-                    let behind = cell.written.take().filter(|written| *written != at);
+                    *subresource = LastUse { layout: used.layout, written: Some(at), change: None };
+                } else if subresource.layout != used.layout {
+                    let change = LayoutChange { subresource: index, resource, layout: used.layout };
+                    let behind = subresource.written.take().filter(|written| *written != at);
                     let next = candidates.len() as u32;
                     candidates.extend(behind.map(|behind| Candidate { behind, change, readers: [false; QUEUES] }));
-                    (cell.layout, cell.change) = (used.layout, behind.map(|_| next));
+                    (subresource.layout, subresource.change) = (used.layout, behind.map(|_| next));
                 }
-                if let Some(candidate) = cell.change.and_then(|change| candidates.get_mut(change as usize)) {
-                    candidate.readers[number(*queue)] = true;
+                if let Some(candidate) = subresource.change.and_then(|change| candidates.get_mut(change as usize)) {
+                    candidate.readers[*queue as usize] = true;
                 }
             });
         }

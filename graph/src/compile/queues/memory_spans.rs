@@ -2,7 +2,8 @@
 
 use super::number::QUEUES;
 use super::state::Queues;
-use crate::compile::model::{Adapted, StoreIndex};
+use super::step_uses::uses_of;
+use crate::compile::model::{Adapted, PhysicalIndex};
 use crate::compile::scope::Scoped;
 use crate::compile::steps::NEVER;
 
@@ -24,25 +25,22 @@ impl Queues {
         let mut spans = lifetimes.to_vec();
         let count = scoped.steps.len() as u32;
         let mut on: [Vec<u32>; QUEUES] = Default::default();
-        (0..count).for_each(|step| on[self.at(step)].push(step));
+        (0..count).for_each(|step| on[self.queue_number(step)].push(step));
         let mut beside = vec![false; spans.len()];
-        let used = |step: u32| {
-            let ops = scoped.steps[step as usize].ops().iter();
-            ops.flat_map(|op| adapted.uses(*op)).map(|used| used.store)
-        };
+        let used = |step: u32| uses_of(adapted, &scoped.steps[step as usize]).map(|used| used.resource);
         for step in on[1..].iter().flatten() {
-            used(*step).for_each(|store: StoreIndex| beside[store as usize] = true);
+            used(*step).for_each(|resource: PhysicalIndex| beside[resource as usize] = true);
         }
         for step in 0..count {
-            let queue = self.at(step);
+            let queue = self.queue_number(step);
             let known = self.known(step)[0];
             let early = match on[0].get(on[0].partition_point(|graphics| *graphics < known)) {
                 Some(graphics) if queue != 0 => (*graphics).min(step),
                 _ => step,
             };
             let late = self.last_beside(&on, step, queue);
-            for store in used(step).filter(|store| beside[*store as usize]) {
-                let [first, last] = &mut spans[store as usize];
+            for resource in used(step).filter(|resource| beside[*resource as usize]) {
+                let [first, last] = &mut spans[resource as usize];
                 if *first != NEVER {
                     (*first, *last) = ((*first).min(early), (*last).max(late));
                 }

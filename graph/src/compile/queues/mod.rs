@@ -4,8 +4,8 @@
 //! on graphics: then no image or buffer is crossed, no step waits, and [`Queues`] allocates nothing.
 //!
 //! - A step waits for steps of other queues (`clocks`), but only for those that its queue doesn't know to be done.
-//! - A semaphore makes every write available and visible. A cell that another queue used takes a barrier only for a change of
-//!   layout, or of the owner of an image that isn't concurrent (`sync::crossed`).
+//! - A semaphore makes every write available and visible. A subresource that another queue used takes a barrier only for a
+//!   change of layout, or of the owner of an image that isn't concurrent (`sync::crossed`).
 //! - Steps of different queues run side by side, so memory is shared only between what waits keep apart (`memory_spans`).
 
 mod assign;

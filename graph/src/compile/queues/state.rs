@@ -2,8 +2,8 @@
 
 use super::clocks::{Clocks, EarlierStep};
 use super::crossing::{Crossing, LayoutChange, OwnershipTransfer, QueueUses};
-use super::number::{Steps, number};
-use crate::compile::model::{CellIndex, StoreIndex};
+use super::number::Steps;
+use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::compile::steps::of_step;
 use crate::plan::{Queue, Wait};
 
@@ -17,7 +17,7 @@ pub(in crate::compile) struct Queues {
     /// Steps that only change layouts, each with what they change, in order.
     changes: Vec<(u32, LayoutChange)>,
     clocks: Clocks,
-    /// For each cell how the queues use it, if it is crossed.
+    /// For each subresource how the queues use it, if it is crossed.
     uses: Vec<QueueUses>,
     /// For each barrier whether it must stand directly before its step.
     held: Vec<bool>,
@@ -32,10 +32,17 @@ impl Queues {
         of: Vec<Queue>,
         crossings: Vec<Option<Crossing>>,
         changes: Vec<(u32, LayoutChange)>,
-        cells: u32,
+        subresources: u32,
     ) -> Queues {
         let clocks = Clocks::new(of.len() as u32 + 1);
-        Queues { of, crossings, changes, clocks, uses: vec![QueueUses::default(); cells as usize], ..Queues::default() }
+        Queues {
+            of,
+            crossings,
+            changes,
+            clocks,
+            uses: vec![QueueUses::default(); subresources as usize],
+            ..Queues::default()
+        }
     }
 
     /// Whether all steps are on graphics.
@@ -44,23 +51,23 @@ impl Queues {
     }
 
     /// The queue of a step.
-    pub(in crate::compile) fn of(&self, step: u32) -> Queue {
+    pub(in crate::compile) fn queue(&self, step: u32) -> Queue {
         self.of.get(step as usize).copied().unwrap_or(Queue::Graphics)
     }
 
     /// The number of the queue of a step.
-    pub(in crate::compile) fn at(&self, step: u32) -> usize {
-        number(self.of(step))
+    pub(in crate::compile) fn queue_number(&self, step: u32) -> usize {
+        self.queue(step) as usize
     }
 
     /// How several queues share a physical resource; `None` if only one uses it.
-    pub(in crate::compile) fn crossing(&self, store: StoreIndex) -> Option<Crossing> {
-        self.crossings.get(store as usize).copied().flatten()
+    pub(in crate::compile) fn crossing(&self, resource: PhysicalIndex) -> Option<Crossing> {
+        self.crossings.get(resource as usize).copied().flatten()
     }
 
     /// Whether several queues use a physical resource.
-    pub(in crate::compile) fn is_crossed(&self, store: StoreIndex) -> bool {
-        self.crossing(store).is_some()
+    pub(in crate::compile) fn is_crossed(&self, resource: PhysicalIndex) -> bool {
+        self.crossing(resource).is_some()
     }
 
     /// The changes of layout of a step that does nothing else.
@@ -68,18 +75,18 @@ impl Queues {
         of_step(&self.changes, step, |(at, _)| *at)
     }
 
-    /// How the queues use a crossed cell.
-    pub(in crate::compile) fn uses(&self, cell: CellIndex) -> &QueueUses {
-        &self.uses[cell as usize]
+    /// How the queues use a crossed subresource.
+    pub(in crate::compile) fn uses(&self, subresource: SubresourceIndex) -> &QueueUses {
+        &self.uses[subresource as usize]
     }
 
-    pub(in crate::compile) fn uses_mut(&mut self, cell: CellIndex) -> &mut QueueUses {
-        &mut self.uses[cell as usize]
+    pub(in crate::compile) fn uses_mut(&mut self, subresource: SubresourceIndex) -> &mut QueueUses {
+        &mut self.uses[subresource as usize]
     }
 
     /// Lets a step wait for these steps of other queues, as far as its queue doesn't know them to be done.
     pub(in crate::compile) fn require(&mut self, step: u32, required: Steps) {
-        let queue = self.at(step);
+        let queue = self.queue_number(step);
         self.clocks.require(step, queue, required);
     }
 
@@ -129,7 +136,7 @@ impl Queues {
             self.require(steps, Steps::default());
         }
         self.earlier.sort_unstable();
-        let queues: Vec<usize> = (0..=steps).map(|step| self.at(step)).collect();
+        let queues: Vec<usize> = (0..=steps).map(|step| self.queue_number(step)).collect();
         let earlier = std::mem::take(&mut self.earlier);
         for same in earlier.chunk_by(|one, other| one.frames_ago == other.frames_ago) {
             // Within a frame, memory spans keep the owners of memory apart.
@@ -140,7 +147,7 @@ impl Queues {
     }
 
     /// The waits of a step.
-    #[inline]
+    #[inline(always)]
     pub(in crate::compile) fn waits(&self, step: u32) -> Vec<Wait> {
         if self.is_one() { Vec::new() } else { self.clocks.waits(step) }
     }

@@ -3,9 +3,9 @@
 use crate::compile::model::{Adapted, Use};
 use crate::compile::scope::Step;
 
-/// Every use of a step, those of the resolves that its scope carries too.
+/// Every use of a step, those of the resolves folded into its scope too.
 pub(super) fn uses_of<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = &'a Use> + 'a {
-    let carried = if let Step::Scope(scope) = step { Some(scope.carries()) } else { None };
-    let ops = step.ops().iter().copied().chain(carried.into_iter().flatten());
+    let resolve_targets = if let Step::Scope(scope) = step { Some(scope.folded_resolves()) } else { None };
+    let ops = step.ops().iter().copied().chain(resolve_targets.into_iter().flatten());
     ops.flat_map(|op| adapted.uses(op))
 }

@@ -1,6 +1,6 @@
 //! Windows: the graphics steps that can run beside each step that may leave the graphics queue.
 
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::parts::Grids;
@@ -8,8 +8,8 @@ use crate::compile::scope::Step;
 use crate::plan::Queue;
 use crate::vulkan::{Layout, Sharing};
 
-/// The reaches of a cell in a walk in one direction. A reach is one more than the rank of the last graphics step that a use
-/// depends on.
+/// The reaches of a subresource in a walk in one direction. A reach is one more than the rank of the last graphics step that
+/// a use depends on.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
     /// The reach of the last write, or of reads in an earlier layout.
@@ -43,7 +43,7 @@ impl Steps<'_> {
         // Steps of one queue follow each other.
         let mut latest = [0; QUEUES];
         for (window, queue) in windows.iter_mut().zip(self.queues) {
-            let latest = &mut latest[number(*queue)];
+            let latest = &mut latest[*queue as usize];
             *latest = window[0].max(*latest);
             window[0] = *latest;
         }
@@ -53,7 +53,7 @@ impl Steps<'_> {
     /// For each step its reach, in one direction.
     fn walk(&self, order: impl Iterator<Item = u32>, rank: impl Fn(u32) -> u32) -> Vec<u32> {
         let none = Reach { before: 0, readers: 0, graphics: 0, layout: Layout::Undefined };
-        let mut cells = vec![none; self.adapted.cells as usize];
+        let mut subresources = vec![none; self.adapted.subresources as usize];
         let mut behind = vec![0; self.steps.len()];
         for step in order {
             let on_graphics = self.queues[step as usize] == Queue::Graphics;
@@ -61,29 +61,34 @@ impl Steps<'_> {
             if !on_graphics {
                 self.for_each_use(step, |used| {
                     let exclusive = self.is_exclusive_image(used);
-                    self.adapted.for_each_cell(self.grids, used, |cell| {
-                        let cell = &cells[cell as usize];
-                        let joins = !used.writes && cell.layout == used.layout;
-                        most = most.max(if joins { cell.before } else { cell.before.max(cell.readers) });
-                        most = if exclusive { most.max(cell.graphics) } else { most };
+                    self.adapted.for_each_subresource(self.grids, used, |subresource| {
+                        let subresource = &subresources[subresource as usize];
+                        let joins = !used.writes && subresource.layout == used.layout;
+                        most = most.max(if joins {
+                            subresource.before
+                        } else {
+                            subresource.before.max(subresource.readers)
+                        });
+                        most = if exclusive { most.max(subresource.graphics) } else { most };
                     });
                 });
             }
             behind[step as usize] = most;
             let reach = if on_graphics { rank(step) } else { most };
             self.for_each_use(step, |used| {
-                self.adapted.for_each_cell(self.grids, used, |cell| {
-                    let cell = &mut cells[cell as usize];
+                self.adapted.for_each_subresource(self.grids, used, |subresource| {
+                    let subresource = &mut subresources[subresource as usize];
                     if used.writes {
-                        (cell.before, cell.readers) = (cell.before.max(reach), 0);
-                    } else if cell.layout == used.layout {
-                        cell.readers = cell.readers.max(reach);
+                        (subresource.before, subresource.readers) = (subresource.before.max(reach), 0);
+                    } else if subresource.layout == used.layout {
+                        subresource.readers = subresource.readers.max(reach);
                     } else {
-                        (cell.before, cell.readers) = (cell.before.max(cell.readers), reach);
+                        (subresource.before, subresource.readers) =
+                            (subresource.before.max(subresource.readers), reach);
                     }
-                    cell.layout = used.layout;
+                    subresource.layout = used.layout;
                     if on_graphics {
-                        cell.graphics = cell.graphics.max(reach);
+                        subresource.graphics = subresource.graphics.max(reach);
                     }
                 });
             });
@@ -92,8 +97,8 @@ impl Steps<'_> {
     }
 
     fn is_exclusive_image(&self, used: &Use) -> bool {
-        let store = &self.adapted.stores[used.store as usize];
-        self.sharing == Sharing::Exclusive && store.is_transient() && store.image().is_some()
+        let resource = &self.adapted.resources[used.resource as usize];
+        self.sharing == Sharing::Exclusive && resource.is_transient() && resource.image().is_some()
     }
 
     fn for_each_use(&self, step: u32, visit: impl FnMut(&Use)) {

@@ -121,7 +121,7 @@ impl Turner {
             let [width, height, depth] = image.extent;
             let [width, height] = rotation.extent([width, height]);
             image.extent = [width, height, depth];
-            image.room = image.room.map(|room| rotation.extent(room));
+            image.allocated = image.allocated.map(|allocated| rotation.extent(allocated));
             image.rotation = rotation;
         }
     }

@@ -4,8 +4,8 @@ use crate::base::Span;
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
 use std::sync::Arc;
 
-/// The frame with an upright image in place of `image` up to where it is drawn anew, and not read after that; `None`: there is
-/// no such place.
+/// The frame with an upright image in place of `image` up to where it is drawn anew, and not read after that; `None`: there
+/// is no such place.
 pub(super) fn where_drawn_anew(frame: &Frame, live: &[u32], image: ImageIndex) -> Option<Frame> {
     let declared = &frame.images[image.0 as usize];
     if !matches!(declared.lifetime, Lifetime::Transient | Lifetime::Imported { .. }) {
@@ -30,7 +30,8 @@ pub(super) fn where_drawn_anew(frame: &Frame, live: &[u32], image: ImageIndex) -
     Some(split)
 }
 
-/// Has all passes use an upright image in place of `image`, and adds one that draws it into `image`. Returns that one's number.
+/// Has all passes use an upright image in place of `image`, and adds one that draws it into `image`. Returns that one's
+/// number.
 pub(super) fn draw_upright(frame: &mut Frame, live: &[u32], image: ImageIndex, why: String, at: Span) -> u32 {
     let upright = upright_of(frame, image);
     frame.passes.iter_mut().for_each(|pass| rename(pass, image, upright));

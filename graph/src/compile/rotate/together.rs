@@ -14,13 +14,13 @@ pub(super) enum Hindrance {
     Wrong(Box<Diagnostic>),
 }
 
-/// Whether an image that is still upright is forwarded to another by nothing but a resolve, once both are turned: a draw would
-/// read it.
+/// Whether an image that is still upright is forwarded to another by nothing but a resolve, once both are turned: a draw
+/// would read it.
 pub(super) fn becomes(from: &Image, to: &Image, rotation: Rotation) -> bool {
     let upright = |extent: [u32; 2]| if to.rotation.turns() { rotation.extent(extent) } else { extent };
     (from.format, from.shape, from.layers, from.mips) == (to.format, to.shape, to.layers, to.mips)
         && [from.extent[0], from.extent[1]] == upright([to.extent[0], to.extent[1]])
-        && from.room == to.room.map(upright)
+        && from.allocated == to.allocated.map(upright)
         && (to.samples == 1 || to.samples == from.samples)
 }
 

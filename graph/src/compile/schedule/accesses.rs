@@ -1,13 +1,13 @@
-//! The accesses of all operations to cells, listed once because scheduling walks them often.
+//! The accesses of all operations to subresources, listed once because scheduling walks them often.
 
-use crate::compile::model::{Adapted, CellIndex};
+use crate::compile::model::{Adapted, SubresourceIndex};
 use crate::compile::parts::Grids;
 use crate::vulkan::Layout;
 
-/// An access of an operation to a cell.
+/// An access of an operation to a subresource.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Access {
-    pub(super) cell: CellIndex,
+    pub(super) subresource: SubresourceIndex,
     pub(super) writes: bool,
     pub(super) layout: Layout,
 }
@@ -18,8 +18,8 @@ pub(super) struct Accesses {
     list: Vec<Access>,
     /// For each operation where its accesses begin, and where those of the last one end.
     starts: Vec<u32>,
-    /// Number of cells.
-    pub(super) cells: usize,
+    /// Number of subresources.
+    pub(super) subresources: usize,
 }
 
 impl Accesses {
@@ -29,16 +29,16 @@ impl Accesses {
         for (op, number) in adapted.ops.iter().zip(0_u32..) {
             starts.push(list.len() as u32);
             for used in adapted.uses(number) {
-                let access = |cell| Access { cell, writes: used.writes, layout: used.layout };
-                adapted.for_each_cell(grids, used, |cell| list.push(access(cell)));
+                let access = |subresource| Access { subresource, writes: used.writes, layout: used.layout };
+                adapted.for_each_subresource(grids, used, |subresource| list.push(access(subresource)));
             }
             if op.side_effect {
-                // Effects that nothing shows are writes of a cell behind all others.
-                list.push(Access { cell: adapted.cells, writes: true, layout: Layout::Undefined });
+                // Effects that nothing shows are writes of a subresource behind all others.
+                list.push(Access { subresource: adapted.subresources, writes: true, layout: Layout::Undefined });
             }
         }
         starts.push(list.len() as u32);
-        Accesses { list, starts, cells: adapted.cells as usize + 1 }
+        Accesses { list, starts, subresources: adapted.subresources as usize + 1 }
     }
 
     /// Those of one operation.

@@ -15,9 +15,9 @@ pub(super) struct Dependencies {
     followers: Vec<u32>,
 }
 
-/// The last write of a cell, and a list of the reads since.
+/// The last write of a subresource, and a list of the reads since.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+struct SubresourceState {
     writer: u32,
     /// Into a list of readers, each with the next one's place.
     readers: u32,
@@ -26,25 +26,25 @@ struct Cell {
 impl Dependencies {
     /// The dependencies between `runs`.
     pub(super) fn between(accesses: &Accesses, runs: &Runs) -> Dependencies {
-        let mut cells = vec![Cell { writer: NONE, readers: NONE }; accesses.cells];
+        let mut subresources = vec![SubresourceState { writer: NONE, readers: NONE }; accesses.subresources];
         let mut readers: Vec<(u32, u32)> = Vec::new();
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
-            for Access { cell, writes, .. } in runs.run(run).iter().flat_map(|op| accesses.op(*op)) {
-                let cell = &mut cells[*cell as usize];
-                if cell.writer != NONE {
-                    pairs.push((cell.writer, run));
+            for Access { subresource, writes, .. } in runs.run(run).iter().flat_map(|op| accesses.op(*op)) {
+                let subresource = &mut subresources[*subresource as usize];
+                if subresource.writer != NONE {
+                    pairs.push((subresource.writer, run));
                 }
                 if !writes {
-                    readers.push((run, cell.readers));
-                    cell.readers = readers.len() as u32 - 1;
+                    readers.push((run, subresource.readers));
+                    subresource.readers = readers.len() as u32 - 1;
                     continue;
                 }
-                while let Some((reader, next)) = readers.get(cell.readers as usize) {
+                while let Some((reader, next)) = readers.get(subresource.readers as usize) {
                     pairs.push((*reader, run));
-                    cell.readers = *next;
+                    subresource.readers = *next;
                 }
-                cell.writer = run;
+                subresource.writer = run;
             }
         }
         pairs.retain(|(before, after)| before != after);
@@ -77,7 +77,7 @@ impl Dependencies {
         counts
     }
 
-    /// Any legal order, the same for the same seed.
+    /// Any valid order, the same for the same seed.
     pub(super) fn random_order(&self, seed: u64) -> Vec<u32> {
         let mut waits_for = self.counts();
         let mut ready: Vec<u32> = (0..self.len()).filter(|run| waits_for[*run as usize] == 0).collect();

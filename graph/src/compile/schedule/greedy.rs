@@ -1,9 +1,9 @@
 //! Orders that keep little memory alive: the next run is always the one that adds fewest bytes, those that it begins less
 //! those that it ends.
 //!
-//! The rule works in both directions: from the last run to the first, the last reader of a store begins it. The choice among
-//! equal runs matters much. A good one is the order that was found in the other direction, so the directions take turns, and
-//! each ranks equal runs by their places in the order before.
+//! The rule works in both directions: from the last run to the first, the last reader of a resource begins it. The choice
+//! among equal runs matters much. A good one is the order that was found in the other direction, so the directions take
+//! turns, and each ranks equal runs by their places in the order before.
 
 use super::dependencies::Dependencies;
 use super::memory::{Lifetimes, Memory, lists};
@@ -23,9 +23,9 @@ pub(super) struct Greedy<'a> {
     /// What depends on what, from the first to the last and from the last to the first.
     forwards: Dependencies,
     backwards: Dependencies,
-    /// For each store the runs that use it, and for each run the stores: where each list starts, and the lists.
+    /// For each resource the runs that use it, and for each run the resources: where each list starts, and the lists.
     users: (Vec<u32>, Vec<u32>),
-    stores: (Vec<u32>, Vec<u32>),
+    resources: (Vec<u32>, Vec<u32>),
 }
 
 impl<'a> Greedy<'a> {
@@ -33,18 +33,18 @@ impl<'a> Greedy<'a> {
         let mut uses: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
         for run in 0..runs.len() {
             runs.for_each_use(adapted, run, |used| {
-                if memory.bytes(used.store) > 0 {
-                    uses.push((used.store, run));
+                if memory.bytes(used.resource) > 0 {
+                    uses.push((used.resource, run));
                 }
             });
         }
         uses.sort_unstable();
         uses.dedup();
-        let users = lists(&uses, adapted.stores.len() as u32);
-        uses.iter_mut().for_each(|(store, run)| std::mem::swap(store, run));
-        let stores = lists(&uses, runs.len());
+        let users = lists(&uses, adapted.resources.len() as u32);
+        uses.iter_mut().for_each(|(resource, run)| std::mem::swap(resource, run));
+        let resources = lists(&uses, runs.len());
         let backwards = forwards.reversed();
-        Greedy { adapted, runs, memory, forwards, backwards, users, stores }
+        Greedy { adapted, runs, memory, forwards, backwards, users, resources }
     }
 
     /// Of several orders, `others` among them, that in which the least memory is alive at one time.
@@ -75,10 +75,10 @@ impl<'a> Greedy<'a> {
             ranks,
             heap: BinaryHeap::new(),
         };
-        // For each store how many runs are still to use it, and the sum of their numbers: of one, it is its number.
-        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.adapted.stores.len());
-        for store in 0..self.adapted.stores.len() as u32 {
-            let (users, bytes) = (of(&self.users, store), i128::from(self.memory.bytes(store)));
+        // For each resource how many runs are still to use it, and the sum of their numbers: of one, it is its number.
+        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.adapted.resources.len());
+        for resource in 0..self.adapted.resources.len() as u32 {
+            let (users, bytes) = (of(&self.users, resource), i128::from(self.memory.bytes(resource)));
             users.iter().for_each(|user| queue.costs[*user as usize] += bytes);
             if let [user] = users {
                 queue.costs[*user as usize] -= bytes;
@@ -90,12 +90,12 @@ impl<'a> Greedy<'a> {
         let mut order = Vec::with_capacity(count);
         while let Some(run) = queue.next() {
             order.push(run);
-            for store in of(&self.stores, run) {
-                let bytes = i128::from(self.memory.bytes(*store));
-                if !std::mem::replace(&mut begun[*store as usize], true) {
-                    of(&self.users, *store).iter().for_each(|user| queue.cheaper(*user, bytes));
+            for resource in of(&self.resources, run) {
+                let bytes = i128::from(self.memory.bytes(*resource));
+                if !std::mem::replace(&mut begun[*resource as usize], true) {
+                    of(&self.users, *resource).iter().for_each(|user| queue.cheaper(*user, bytes));
                 }
-                let (count, sum) = &mut remaining[*store as usize];
+                let (count, sum) = &mut remaining[*resource as usize];
                 (*count, *sum) = (*count - 1, sum.wrapping_sub(run));
                 if *count == 1 {
                     queue.cheaper(*sum, bytes);

@@ -7,43 +7,52 @@ use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
 use crate::vulkan::Layout;
 
-/// The runs level by level; `None` if there is no level with more than one. Decisions that sizes made go into
-/// `weighed`, if they are to be kept.
+/// The least level of each run.
+pub(super) struct Levels {
+    least: Vec<u32>,
+    top: u32,
+}
+
+/// The least level of each run; `None` if there is no level with more than one.
+pub(super) fn levels(accesses: &Accesses, runs: &Runs) -> Option<Levels> {
+    let mut upwards = Walk::new(accesses, runs);
+    let mut least: Vec<u32> = Vec::with_capacity(runs.len() as usize);
+    for run in 0..runs.len() {
+        let level = upwards.least(run);
+        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
+        least.push(level);
+    }
+    let top = least.iter().copied().max()?;
+    (top + 1 != runs.len()).then_some(Levels { least, top })
+}
+
+/// The runs level by level. Decisions that sizes made go into `weighed`, if they are to be kept.
 pub(super) fn by_level(
     adapted: &Adapted,
     accesses: &Accesses,
     runs: &Runs,
+    Levels { least: mut keys, top }: Levels,
     memory: &Memory,
     mut weighed: Option<&mut Weighed>,
-) -> Option<Vec<u32>> {
-    let mut upwards = Walk::new(accesses, runs);
-    let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
-    // For each store the first run that uses it.
-    let mut begins = vec![u32::MAX; adapted.stores.len()];
+) -> Vec<u32> {
+    // For each resource the first run that uses it.
+    let mut begins = vec![u32::MAX; adapted.resources.len()];
     for run in 0..runs.len() {
-        let level = upwards.least(run);
-        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
-        levels.push(level);
         runs.for_each_use(adapted, run, |used| {
-            let first = &mut begins[used.store as usize];
+            let first = &mut begins[used.resource as usize];
             *first = run.min(*first);
         });
     }
-    let top = levels.iter().copied().max()?;
-    if top + 1 == runs.len() {
-        return None;
-    }
     let mut downwards = Walk::new(accesses, runs);
-    // For each store one more than the level of its last use, as far as that is known.
-    let mut ends = vec![0_u32; adapted.stores.len()];
-    let mut keys = levels;
+    // For each resource one more than the level of its last use, as far as that is known.
+    let mut ends = vec![0_u32; adapted.resources.len()];
     for run in (0..runs.len()).rev() {
         let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
         let mut sums = Sums::default();
         runs.for_each_use(adapted, run, |used| {
-            let (store, begun) = (used.store as usize, begins[used.store as usize] == run);
-            let (ended, held) = (ends[store] <= lowest + 1, ends[store] <= highest && !begun);
-            let weight = Weight { store: used.store, begun, ended, held };
+            let (resource, begun) = (used.resource as usize, begins[used.resource as usize] == run);
+            let (ended, held) = (ends[resource] <= lowest + 1, ends[resource] <= highest && !begun);
+            let weight = Weight { resource: used.resource, begun, ended, held };
             sums.add(weight, memory);
             if let Some(weighed) = &mut weighed {
                 weighed.weigh(weight);
@@ -56,13 +65,13 @@ pub(super) fn by_level(
         let level = if decision.rises { highest } else { lowest };
         runs.run(run).iter().rev().for_each(|op| downwards.put(*op, top - level));
         runs.for_each_use(adapted, run, |used| {
-            let end = &mut ends[used.store as usize];
+            let end = &mut ends[used.resource as usize];
             *end = (level + 1).max(*end);
         });
         // In a level first what ends more than it begins: what comes next then finds its memory free.
         keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
-    Some(counting_sort(&keys, 3 * top + 3))
+    counting_sort(&keys, 3 * top + 3)
 }
 
 /// The numbers of `keys`, all below `bound`, in the order of the keys; equal ones as they are.
@@ -85,13 +94,13 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 struct Walk<'a> {
     accesses: &'a Accesses,
     runs: &'a Runs,
-    cells: Vec<Cell>,
+    subresources: Vec<SubresourceState>,
 }
 
-/// One more than the highest level of what was done to a cell, 0 if nothing was: as in `runs`, reads in one layout don't
-/// depend on each other.
+/// One more than the highest level of what was done to a subresource, 0 if nothing was: as in `runs`, reads in one layout
+/// don't depend on each other.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+struct SubresourceState {
     before: u32,
     readers: u32,
     layout: Layout,
@@ -99,8 +108,8 @@ struct Cell {
 
 impl<'a> Walk<'a> {
     fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
-        let cell = Cell { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { accesses, runs, cells: vec![cell; accesses.cells] }
+        let subresource = SubresourceState { before: 0, readers: 0, layout: Layout::Undefined };
+        Walk { accesses, runs, subresources: vec![subresource; accesses.subresources] }
     }
 
     /// The least level of a run behind all that it depends on.
@@ -108,9 +117,9 @@ impl<'a> Walk<'a> {
         let mut least = 0;
         for op in self.runs.run(run) {
             for access in self.accesses.op(*op) {
-                let cell = &self.cells[access.cell as usize];
-                let joins = !access.writes && cell.layout == access.layout;
-                least = least.max(if joins { cell.before } else { cell.before.max(cell.readers) });
+                let subresource = &self.subresources[access.subresource as usize];
+                let joins = !access.writes && subresource.layout == access.layout;
+                least = least.max(if joins { subresource.before } else { subresource.before.max(subresource.readers) });
             }
         }
         least
@@ -119,14 +128,15 @@ impl<'a> Walk<'a> {
     /// Notes the level of an operation.
     fn put(&mut self, op: u32, level: u32) {
         let behind = level + 1;
-        for Access { cell, writes, layout } in self.accesses.op(op).iter().copied() {
-            let cell = &mut self.cells[cell as usize];
+        for Access { subresource, writes, layout } in self.accesses.op(op).iter().copied() {
+            let subresource = &mut self.subresources[subresource as usize];
             if writes {
-                *cell = Cell { before: behind, readers: 0, layout };
-            } else if cell.readers != 0 && cell.layout == layout {
-                cell.readers = cell.readers.max(behind);
+                *subresource = SubresourceState { before: behind, readers: 0, layout };
+            } else if subresource.readers != 0 && subresource.layout == layout {
+                subresource.readers = subresource.readers.max(behind);
             } else {
-                *cell = Cell { before: cell.before.max(cell.readers), readers: behind, layout };
+                *subresource =
+                    SubresourceState { before: subresource.before.max(subresource.readers), readers: behind, layout };
             }
         }
     }

@@ -1,30 +1,30 @@
 //! How much memory an order keeps alive, and an order that keeps little.
 
 use super::runs::Runs;
-use crate::compile::model::{Adapted, Kind, StoreIndex};
+use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 
-/// Bytes of each store in shared memory, counted in texels: the device's alignment and padding are not known here.
+/// Bytes of each resource in shared memory, counted in texels: the device's alignment and padding are not known here.
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Vec<u64>,
 }
 
-/// The lifetime of each store in an order.
+/// The lifetime of each resource in an order.
 #[derive(Debug)]
 pub(super) struct Lifetimes {
     /// Number of places in the order.
     places: u32,
-    /// For each store the first and the last place that use it.
+    /// For each resource the first and the last place that use it.
     of: Vec<[u32; 2]>,
 }
 
 impl Lifetimes {
     /// In an order of runs.
     pub(super) fn of(adapted: &Adapted, runs: &Runs, order: &[u32]) -> Lifetimes {
-        let mut of = vec![[u32::MAX, 0]; adapted.stores.len()];
+        let mut of = vec![[u32::MAX, 0]; adapted.resources.len()];
         for (run, place) in order.iter().zip(0_u32..) {
             runs.for_each_use(adapted, *run, |used| {
-                let [first, last] = &mut of[used.store as usize];
+                let [first, last] = &mut of[used.resource as usize];
                 (*first, *last) = (place.min(*first), place);
             });
         }
@@ -34,8 +34,8 @@ impl Lifetimes {
 
 impl Memory {
     pub(super) fn of(adapted: &Adapted) -> Memory {
-        let bytes = adapted.stores.iter().zip(0..).map(|(store, index)| match &store.kind {
-            _ if !store.is_transient() => 0,
+        let bytes = adapted.resources.iter().zip(0..).map(|(resource, index)| match &resource.kind {
+            _ if !resource.is_transient() => 0,
             Kind::Buffer(buffer) => buffer.bytes,
             Kind::Image(image) => {
                 let made = adapted.made(index, image);
@@ -49,9 +49,9 @@ impl Memory {
         Memory { bytes: bytes.collect() }
     }
 
-    /// Bytes of one store, 0 if it has memory of its own.
-    pub(super) fn bytes(&self, store: StoreIndex) -> u64 {
-        self.bytes[store as usize]
+    /// Bytes of one resource, 0 if it has memory of its own.
+    pub(super) fn bytes(&self, resource: PhysicalIndex) -> u64 {
+        self.bytes[resource as usize]
     }
 
     /// The most bytes that are alive at one place of an order.

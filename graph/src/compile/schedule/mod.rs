@@ -1,13 +1,13 @@
 //! `schedule`: the order in which operations run.
 //!
-//! An operation depends on an earlier one if both use a cell and at least one of them writes it, or if both have effects
-//! that nothing shows. Each order that keeps every operation behind those that it depends on is legal, and gives the same
-//! picture. The default order is scored by, from what counts most:
+//! An operation depends on an earlier one if both use a subresource and at least one of them writes it, or if both have
+//! effects that nothing shows. Each order that keeps every operation behind those that it depends on is valid, and gives the
+//! same picture. The default order is scored by, from what counts most:
 //!
-//! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is legal. Sharing a
+//! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is valid. Sharing a
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
 //! 2. *Batching and overlap* (`levels`): an operation is one level above the highest that it depends on, and levels follow
-//!    each other. All barriers between two levels fit into one call, no legal order has fewer such calls, and what follows
+//!    each other. All barriers between two levels fit into one call, no valid order has fewer such calls, and what follows
 //!    a barrier depends on nothing in its own level, so the device overlaps it.
 //! 3. *Memory*: what begins more bytes than it ends moves up to the last level that leaves the number of levels as it is,
 //!    and stands in its level behind what ends bytes. If the most that is alive at one time is still more than a fiftieth
@@ -50,8 +50,10 @@ pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bo
         Order::Default => {
             let accesses = accesses();
             let runs = Runs::gather(grids, adapted, &accesses);
-            let keep = keeps.then_some(&mut weighed);
-            runs.operations(&scored(adapted, &accesses, &runs, &Memory::of(adapted), keep))
+            match scored(adapted, &accesses, &runs, keeps.then_some(&mut weighed)) {
+                Some(order) => runs.operations(&order),
+                None => runs.into_operations(),
+            }
         }
         Order::LowMemory => {
             let accesses = accesses();
@@ -75,27 +77,24 @@ impl Scheduled {
     }
 }
 
-/// The runs in the order that scores best.
-fn scored(
-    adapted: &Adapted,
-    accesses: &Accesses,
-    runs: &Runs,
-    memory: &Memory,
-    mut keep: Option<&mut Weighed>,
-) -> Vec<u32> {
+/// The runs in the order that scores best; `None`: as they are.
+fn scored(adapted: &Adapted, accesses: &Accesses, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
+    let levels = levels::levels(accesses, runs)?;
+    let memory = Memory::of(adapted);
+    let order = levels::by_level(adapted, accesses, runs, levels, &memory, keep.as_deref_mut());
     let file: Vec<u32> = (0..runs.len()).collect();
-    let Some(order) = levels::by_level(adapted, accesses, runs, memory, keep.as_deref_mut()) else { return file };
     let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
-    let takes_levels = weighed::takes_levels(memory, &in_file, &in_levels);
+    let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
         weighed.took(in_file, in_levels, takes_levels);
     }
-    if takes_levels { order } else { file }
+    takes_levels.then_some(order)
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
 fn small(adapted: &Adapted, accesses: &Accesses, runs: &Runs) -> Vec<u32> {
+    let file: Vec<u32> = (0..runs.len()).collect();
+    let scored = scored(adapted, accesses, runs, None).unwrap_or_else(|| file.clone());
     let memory = Memory::of(adapted);
-    let others = vec![(0..runs.len()).collect(), scored(adapted, accesses, runs, &memory, None)];
-    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(others)
+    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(vec![file, scored])
 }

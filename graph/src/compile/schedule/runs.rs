@@ -1,14 +1,14 @@
 //! Draws that may share a rendering scope are brought together, and from then on stay together.
 
 use super::accesses::{Access, Accesses};
-use crate::compile::model::{Adapted, Role, Start, Use};
+use crate::compile::model::{Adapted, InitialContents, Role, Use};
 use crate::compile::parts::Grids;
 use crate::vulkan::Layout;
 
 /// No run.
 const NONE: u32 = u32::MAX;
 
-/// Operations in an order that is legal, in runs: draws into the same attachments, or one operation.
+/// Operations in an order that is valid, in runs: draws into the same attachments, or one operation.
 #[derive(Debug)]
 pub(super) struct Runs {
     ops: Vec<u32>,
@@ -34,7 +34,10 @@ impl Runs {
             accesses,
             runs: Vec::new(),
             run_of: Vec::with_capacity(adapted.ops.len()),
-            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; accesses.cells],
+            subresources: vec![
+                SubresourceState { before: NONE, readers: NONE, layout: Layout::Undefined };
+                accesses.subresources
+            ],
             places: 0,
         };
         for op in 0..adapted.ops.len() as u32 {
@@ -67,6 +70,11 @@ impl Runs {
         }
     }
 
+    /// The operations of all runs.
+    pub(super) fn into_operations(self) -> Vec<u32> {
+        self.ops
+    }
+
     /// The operations of all runs, in the given order of runs.
     pub(super) fn operations(&self, order: &[u32]) -> Vec<u32> {
         let mut ops = Vec::with_capacity(self.ops.len());
@@ -75,10 +83,10 @@ impl Runs {
     }
 }
 
-/// The accesses to a cell so far: a write, then reads in one layout. A read in another layout than the one before it comes
-/// behind it, as a write would: changing the order of layouts could only add barriers.
+/// The accesses to a subresource so far: a write, then reads in one layout. A read in another layout than the one before it
+/// comes behind it, as a write would: changing the order of layouts could only add barriers.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+struct SubresourceState {
     /// The run that wrote it, or read it in an earlier layout.
     before: u32,
     /// The rearmost of the runs that read it since.
@@ -102,18 +110,19 @@ struct Gatherer<'a> {
     accesses: &'a Accesses,
     runs: Vec<Run>,
     run_of: Vec<u32>,
-    cells: Vec<Cell>,
+    subresources: Vec<SubresourceState>,
     places: u32,
 }
 
 impl Gatherer<'_> {
     fn op(&mut self, op: u32) {
-        let Gatherer { grids, adapted, accesses, runs, cells, .. } = self;
-        let candidate = candidate(grids, adapted, cells, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
+        let Gatherer { grids, adapted, accesses, runs, subresources, .. } = self;
+        let candidate =
+            candidate(grids, adapted, subresources, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
-        for Access { cell, writes, layout } in accesses.op(op) {
-            let Cell { before, readers, layout: current } = cells[*cell as usize];
+        for Access { subresource, writes, layout } in accesses.op(op) {
+            let SubresourceState { before, readers, layout: current } = subresources[*subresource as usize];
             let readers = if *writes || current != *layout { readers } else { NONE };
             for run in [before, readers] {
                 if run != NONE && Some(run) != candidate {
@@ -142,30 +151,30 @@ impl Gatherer<'_> {
         runs[run as usize].last = op;
         self.run_of.push(run);
         for access in accesses.op(op) {
-            note(runs, &mut cells[access.cell as usize], run, access.writes, access.layout);
+            note(runs, &mut subresources[access.subresource as usize], run, access.writes, access.layout);
         }
     }
 }
 
-/// Notes what a run does to a cell.
-fn note(runs: &mut [Run], cell: &mut Cell, run: u32, writes: bool, layout: Layout) {
+/// Notes what a run does to a subresource.
+fn note(runs: &mut [Run], subresource: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
     if writes {
-        *cell = Cell { before: run, readers: NONE, layout };
-    } else if cell.readers == NONE || cell.layout != layout {
-        let before = if cell.readers == NONE { cell.before } else { cell.readers };
-        *cell = Cell { before, readers: run, layout };
-    } else if cell.readers != run {
+        *subresource = SubresourceState { before: run, readers: NONE, layout };
+    } else if subresource.readers == NONE || subresource.layout != layout {
+        let before = if subresource.readers == NONE { subresource.before } else { subresource.readers };
+        *subresource = SubresourceState { before, readers: run, layout };
+    } else if subresource.readers != run {
         // Only the rearmost reader is known from here on, so none of them may move any more.
-        runs[cell.readers as usize].fixed = true;
+        runs[subresource.readers as usize].fixed = true;
         runs[run as usize].fixed = true;
-        if runs[run as usize].place > runs[cell.readers as usize].place {
-            cell.readers = run;
+        if runs[run as usize].place > runs[subresource.readers as usize].place {
+            subresource.readers = run;
         }
     }
 }
 
 /// The run whose last write an operation draws on top of.
-fn candidate(grids: &Grids, adapted: &Adapted, cells: &[Cell], op: u32) -> Option<u32> {
+fn candidate(grids: &Grids, adapted: &Adapted, subresources: &[SubresourceState], op: u32) -> Option<u32> {
     if !adapted.ops[op as usize].kind.draws() {
         return None;
     }
@@ -173,12 +182,12 @@ fn candidate(grids: &Grids, adapted: &Adapted, cells: &[Cell], op: u32) -> Optio
     let attached = |used: &&Use| used.role.is_attachment();
     let run_before = |used: &Use| {
         let mut run = NONE;
-        adapted.for_each_cell(grids, used, |cell| run = cells[cell as usize].before);
+        adapted.for_each_subresource(grids, used, |subresource| run = subresources[subresource as usize].before);
         run
     };
     let run = run_before(uses.iter().find(attached)?);
     // A scope neither clears what it drew nor samples it.
-    let forbids = |used: &Use| !used.role.is_attachment() || used.start != Start::Keep;
+    let forbids = |used: &Use| !used.role.is_attachment() || used.contents != InitialContents::Keep;
     let apart = uses.iter().any(|used| forbids(used) && run_before(used) == run);
     (run != NONE && !apart).then_some(run)
 }
@@ -187,7 +196,7 @@ fn candidate(grids: &Grids, adapted: &Adapted, cells: &[Cell], op: u32) -> Optio
 fn meet(adapted: &Adapted, one: u32, other: u32) -> bool {
     let all = |op, role| {
         let uses = adapted.uses(op).iter().filter(move |used| used.role == role);
-        uses.map(|used| (used.store, adapted.range(used)))
+        uses.map(|used| (used.resource, adapted.range(used)))
     };
     let same = |role| match (all(one, role).next(), all(other, role).next()) {
         (Some(one), Some(other)) => one == other,

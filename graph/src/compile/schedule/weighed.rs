@@ -1,7 +1,7 @@
 //! The decisions that sizes in bytes made about an order, so that they can be tested against other sizes.
 
 use super::memory::{Lifetimes, Memory};
-use crate::compile::model::StoreIndex;
+use crate::compile::model::PhysicalIndex;
 use std::cmp::Ordering;
 
 /// The comparisons of bytes that led to an order, in the sequence in which they were made; none if bytes decided nothing.
@@ -10,23 +10,23 @@ use std::cmp::Ordering;
 #[derive(Debug, Default)]
 pub(super) struct Weighed {
     runs: Vec<Run>,
-    stores: Vec<Weight>,
+    resources: Vec<Weight>,
     peaks: Option<Peaks>,
 }
 
 /// The decision about one run.
 #[derive(Debug, Clone, Copy)]
 struct Run {
-    /// Where its part of the list of stores ends.
+    /// Where its part of the list of resources ends.
     end: u32,
     may_rise: bool,
     decision: Decision,
 }
 
-/// A store that a run uses.
+/// A resource that a run uses.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weight {
-    pub(super) store: StoreIndex,
+    pub(super) resource: PhysicalIndex,
     /// Whether the run begins it.
     pub(super) begun: bool,
     /// Whether the run ends it where it is.
@@ -35,7 +35,7 @@ pub(super) struct Weight {
     pub(super) held: bool,
 }
 
-/// Bytes of the stores that a run uses.
+/// Bytes of the resources that a run uses.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
     begun: u64,
@@ -62,7 +62,7 @@ struct Peaks {
 
 impl Sums {
     pub(super) fn add(&mut self, weight: Weight, memory: &Memory) {
-        let bytes = memory.bytes(weight.store);
+        let bytes = memory.bytes(weight.resource);
         let of = |counts: bool| if counts { bytes } else { 0 };
         self.begun = self.begun.saturating_add(of(weight.begun));
         self.ended = self.ended.saturating_add(of(weight.ended));
@@ -82,14 +82,14 @@ pub(super) fn takes_levels(memory: &Memory, file: &Lifetimes, levels: &Lifetimes
 }
 
 impl Weighed {
-    /// Notes a store that the current run uses.
+    /// Notes a resource that the current run uses.
     pub(super) fn weigh(&mut self, weight: Weight) {
-        self.stores.push(weight);
+        self.resources.push(weight);
     }
 
     /// Notes the decision about the current run.
     pub(super) fn decided(&mut self, may_rise: bool, decision: Decision) {
-        self.runs.push(Run { end: self.stores.len() as u32, may_rise, decision });
+        self.runs.push(Run { end: self.resources.len() as u32, may_rise, decision });
     }
 
     /// Notes which of both orders was taken.
@@ -102,7 +102,7 @@ impl Weighed {
         let mut start = 0;
         let same_runs = self.runs.iter().all(|run| {
             let mut sums = Sums::default();
-            self.stores[start..run.end as usize].iter().for_each(|weight| sums.add(*weight, memory));
+            self.resources[start..run.end as usize].iter().for_each(|weight| sums.add(*weight, memory));
             start = run.end as usize;
             sums.decide(run.may_rise) == run.decision
         });

@@ -1,11 +1,11 @@
 //! Groups operations, in execution order, into steps.
 
+use super::can_join::Refusal;
 use super::gain::Gain;
 use super::local;
-use super::meeting::{Meeting, Refusal};
-use super::step::{Scope, Step, colors_of, op_name, plane_of, store_name};
+use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
 use super::trace::{Trace, Ways};
-use crate::compile::model::{Adapted, OpKind, Role, StoreIndex, Use};
+use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
 use crate::compile::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
@@ -18,7 +18,7 @@ pub(super) struct Builder<'a> {
     adapted: &'a Adapted,
     pub(super) steps: Vec<Step>,
     pub(super) gains: Vec<Option<Gain>>,
-    /// For each cell what is known of it.
+    /// For each subresource what is known of it.
     traces: Vec<Trace>,
     pub(super) notes: Vec<Note>,
     /// Uses that read at their own position what their scope drew.
@@ -34,7 +34,7 @@ impl<'a> Builder<'a> {
             adapted,
             steps: Vec::with_capacity(adapted.ops.len() + 1),
             gains: vec![None; adapted.ops.len()],
-            traces: vec![Trace::default(); adapted.cells as usize],
+            traces: vec![Trace::default(); adapted.subresources as usize],
             notes: Vec::new(),
             local: Vec::new(),
         }
@@ -46,7 +46,7 @@ impl<'a> Builder<'a> {
             OpKind::Resolve { .. } => match self.fold(op) {
                 Ok(()) => {}
                 Err(why) => {
-                    let subject = self.name(self.adapted.uses(op)[0].store).into();
+                    let subject = self.name(self.adapted.uses(op)[0].resource).into();
                     let text = format!("is resolved by a step of its own: {why}");
                     self.notes.push(Note { stage: Stage::Scope, subject, text, at: None });
                     self.single(op);
@@ -70,8 +70,8 @@ impl<'a> Builder<'a> {
             if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }
-            adapted.for_each_cell(grids, used, |cell| {
-                let trace = &mut traces[cell as usize];
+            adapted.for_each_subresource(grids, used, |subresource| {
+                let trace = &mut traces[subresource as usize];
                 if trace.used != Some(at) {
                     trace.ways = Ways::default();
                 }
@@ -92,23 +92,23 @@ impl<'a> Builder<'a> {
         let reads_locally = |scope: &Scope, used: &Use| {
             wishes && self.device.local_read && local::possible(self.frame, adapted, op, used, &scope.color)
         };
-        let neighbour = match self.steps.last() {
+        let joins = match self.steps.last() {
             Some(Step::Scope(scope)) => {
                 let most = self.device.max_color_attachments as usize;
                 let clashes = |used: &Use| {
                     let mut clashes = false;
-                    adapted.for_each_cell(self.grids, used, |cell| {
-                        let trace = &self.traces[cell as usize];
+                    adapted.for_each_subresource(self.grids, used, |subresource| {
+                        let trace = &self.traces[subresource as usize];
                         clashes |= trace.used == Some(self.steps.len() - 1) && trace.ways.clash(used);
                     });
                     clashes
                 };
-                Some(scope.compare(adapted, uses, most, |used| reads_locally(scope, used), clashes))
+                scope.can_join(adapted, uses, most, |used| reads_locally(scope, used), clashes)
             }
-            _ => None,
+            _ => Err(None),
         };
-        match neighbour {
-            Some(Meeting::Merge) => {
+        match joins {
+            Ok(()) => {
                 let first = adapted.ops[op as usize].uses.start;
                 let Some(Step::Scope(scope)) = self.steps.last() else { return };
                 let local: Vec<(u32, &Use)> =
@@ -135,16 +135,10 @@ impl<'a> Builder<'a> {
                     self.explain(op);
                 }
             }
-            Some(Meeting::Apart(why)) => {
+            Err(why) => {
                 if let Some(why) = why {
                     self.refuse(op, why);
                 }
-                if wishes {
-                    self.explain(op);
-                }
-                self.open(op);
-            }
-            None => {
                 if wishes {
                     self.explain(op);
                 }
@@ -169,20 +163,20 @@ impl<'a> Builder<'a> {
         })));
     }
 
-    fn name(&self, store: StoreIndex) -> &str {
-        store_name(self.frame, self.adapted, store)
+    fn name(&self, resource: PhysicalIndex) -> &str {
+        resource_name(self.frame, self.adapted, resource)
     }
 
     fn refuse(&mut self, op: u32, why: Refusal) {
         let Some(name) = op_name(self.frame, self.adapted, op) else { return };
-        let store = |store: StoreIndex| self.name(store);
+        let resource = |resource: PhysicalIndex| self.name(resource);
         let why = match why {
             Refusal::OtherAttachments => "its attachments are not the same".to_owned(),
-            Refusal::Clears(image) => format!("it starts by clearing `{}`", store(image)),
-            Refusal::Samples(image) => format!("it samples `{}`, which the scope before it writes", store(image)),
-            Refusal::Uses(image) => format!("it uses `{}`, which the scope before it writes", store(image)),
-            Refusal::Writes(image) => format!("it writes `{}`, which the scope before it uses", store(image)),
-            Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", store(image)),
+            Refusal::Clears(image) => format!("it starts by clearing `{}`", resource(image)),
+            Refusal::Samples(image) => format!("it samples `{}`, which the scope before it writes", resource(image)),
+            Refusal::Uses(image) => format!("it uses `{}`, which the scope before it writes", resource(image)),
+            Refusal::Writes(image) => format!("it writes `{}`, which the scope before it uses", resource(image)),
+            Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", resource(image)),
         };
         let OpKind::Draw(pass) = self.adapted.ops[op as usize].kind else { return };
         self.notes.push(Note {
@@ -193,18 +187,19 @@ impl<'a> Builder<'a> {
         });
     }
 
-    /// Lets the scope that wrote the source last carry the resolve, or says why it can't.
+    /// Lets the scope that wrote the source last take the resolve, or says why it can't.
     fn fold(&mut self, op: u32) -> Result<(), &'static str> {
         let [source, target] = self.adapted.uses(op) else { return Err("it is no resolve from image to image") };
-        let (source, target) = (source.store, target.store);
-        let [source_store, target_store] = [source, target].map(|store| &self.adapted.stores[store as usize]);
-        if source_store.grid(self.grids).is_some() || source_store.image().is_none_or(|image| image.layers > 1) {
+        let (source, target) = (source.resource, target.resource);
+        let [source_resource, target_resource] =
+            [source, target].map(|resource| &self.adapted.resources[resource as usize]);
+        if source_resource.grid(self.grids).is_some() || source_resource.image().is_none_or(|image| image.layers > 1) {
             return Err("it has several layers");
         }
-        let Trace { drawn, written, .. } = self.traces[source_store.first_cell as usize];
-        let target_cell = target_store.first_cell as usize;
+        let Trace { drawn, written, .. } = self.traces[source_resource.first_subresource as usize];
+        let target_subresource = target_resource.first_subresource as usize;
         let Some(at) = drawn else { return Err("no rendering scope drew it") };
-        if written != drawn || self.traces[target_cell].used >= drawn {
+        if written != drawn || self.traces[target_subresource].used >= drawn {
             return Err("its target is in use since it was drawn, or it was written by other means");
         }
         let Step::Scope(scope) = &mut self.steps[at] else { return Err("no rendering scope drew it") };
@@ -213,7 +208,7 @@ impl<'a> Builder<'a> {
             _ => return Err("the scope that drew it resolves it into another image"),
         }
         debug_assert_ne!(source, target);
-        let trace = &mut self.traces[target_cell];
+        let trace = &mut self.traces[target_subresource];
         (trace.used, trace.written) = (Some(at), Some(at));
         Ok(())
     }
@@ -231,7 +226,7 @@ impl<'a> Builder<'a> {
         } else {
             "it doesn't share the scope that draws it".to_owned()
         };
-        let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.store));
+        let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.resource));
         let at = self.frame.sources.place(sampled.span);
         self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
     }

@@ -1,6 +1,6 @@
 //! What passes gain by sharing a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
 
-use super::step::{Scope, Target, op_name, store_name};
+use super::step::{Scope, Target, op_name, resource_name};
 use crate::compile::model::{Adapted, Use};
 use crate::frame::Frame;
 
@@ -31,7 +31,7 @@ impl Gain {
 
     pub(super) fn words(&self, frame: &Frame, adapted: &Adapted) -> String {
         let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
-        let name = |target: &Target| store_name(frame, adapted, target.store);
+        let name = |target: &Target| resource_name(frame, adapted, target.resource);
         match self {
             Gain::Shared { before, attachments } => {
                 let bytes = attachments.iter().map(|target| bytes(adapted, target)).fold(0, u64::saturating_add);
@@ -54,7 +54,7 @@ impl Gain {
 
 /// Bytes of a part of an image.
 fn bytes(adapted: &Adapted, target: &Target) -> u64 {
-    let Some(image) = adapted.stores[target.store as usize].image() else { return 0 };
+    let Some(image) = adapted.resources[target.resource as usize].image() else { return 0 };
     let sides = image.extent_at(target.range.base_mip).map(u64::from);
     let texels = sides.into_iter().fold(u64::from(target.range.layers), u64::saturating_mul);
     texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))

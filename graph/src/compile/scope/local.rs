@@ -35,7 +35,7 @@ pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, at
 
 /// Why a use can't be a local read on any device.
 pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
-    let image = adapted.stores[used.store as usize].image()?;
+    let image = adapted.resources[used.resource as usize].image()?;
     if image.format.is_depth() {
         Some("only colour is read from its scope")
     } else if image.samples > 1 {

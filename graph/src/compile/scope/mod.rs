@@ -2,9 +2,9 @@
 //! fold into the scope that wrote last.
 
 mod builder;
+mod can_join;
 mod gain;
 mod local;
-mod meeting;
 mod step;
 mod trace;
 
@@ -16,9 +16,9 @@ use crate::plan::Note;
 use builder::Builder;
 use gain::Gain;
 
+pub(super) use can_join::same_areas;
 pub(super) use local::read_locally;
-pub(super) use meeting::same_areas;
-pub(super) use step::{Scope, Step, Target, op_name, store_name};
+pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 
 /// Steps in execution order.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! Steps, rendering scopes and their attachments.
 
-use crate::compile::model::{Adapted, OpKind, Role, StoreIndex, Use};
+use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
 use crate::frame::{Frame, Resource};
-use crate::plan::Subresources;
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// One step.
@@ -13,19 +13,19 @@ pub(crate) enum Step {
     /// One operation that is not drawn.
     Single(u32),
     /// The promised state of what outlives the frame.
-    Export,
+    BarriersOnly,
 }
 
 /// An attachment: which part of which image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Target {
-    pub(crate) store: StoreIndex,
+    pub(crate) resource: PhysicalIndex,
     pub(crate) range: Subresources,
 }
 
 impl Target {
     pub(crate) fn of(adapted: &Adapted, used: &Use) -> Target {
-        Target { store: used.store, range: adapted.range(used) }
+        Target { resource: used.resource, range: adapted.range(used) }
     }
 }
 
@@ -38,9 +38,9 @@ pub(crate) struct Scope {
     pub(crate) stencil: Option<Target>,
     /// Operations that draw.
     pub(crate) ops: Vec<u32>,
-    /// For each colour attachment the resolve operation that it carries.
+    /// For each colour attachment its folded resolve operation.
     pub(crate) resolves: Vec<Option<u32>>,
-    /// The resolve operation that the depth attachment carries.
+    /// The folded resolve operation of the depth attachment.
     pub(crate) depth_resolve: Option<u32>,
     /// Whether passes read at their own position what others drew: then each draws into some of the colour attachments.
     pub(crate) local: bool,
@@ -52,15 +52,15 @@ impl Step {
         match self {
             Step::Scope(scope) => &scope.ops,
             Step::Single(op) => std::slice::from_ref(op),
-            Step::Export => &[],
+            Step::BarriersOnly => &[],
         }
     }
 }
 
 /// The name of a physical image or buffer.
-pub(crate) fn store_name<'n>(frame: &'n Frame, adapted: &'n Adapted, store: StoreIndex) -> &'n Arc<str> {
-    let store = &adapted.stores[store as usize];
-    store.renamed.as_ref().unwrap_or(match store.of {
+pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n Adapted, resource: PhysicalIndex) -> &'n Arc<str> {
+    let resource = &adapted.resources[resource as usize];
+    resource.renamed.as_ref().unwrap_or(match resource.of {
         Resource::Image(image) => &frame.images[image.0 as usize].name,
         Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
     })

@@ -1,8 +1,8 @@
-//! The accesses of steps to cells so far, and whether a pass can join the last step.
+//! The accesses of steps to subresources so far, and whether a pass can join the last step.
 
 use crate::compile::model::{Role, Use};
 
-/// The steps that used a cell so far, numbered in execution order.
+/// The steps that used a subresource so far, numbered in execution order.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trace {
     /// The last step that used it.
@@ -15,7 +15,7 @@ pub(super) struct Trace {
     pub(super) ways: Ways,
 }
 
-/// Ways in which the passes of one scope use a cell.
+/// Ways in which the passes of one scope use a subresource.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ways {
     attached: bool,

@@ -5,9 +5,9 @@
 //! *all* memory: it serves every later image barrier that comes after it, directly or through others in between.
 
 use super::batches::Batched;
-use super::cell::CellBarrier;
 use super::stage_order::{and_earlier, and_later};
-use crate::compile::model::StoreIndex;
+use super::subresource::SubresourceBarrier;
+use crate::compile::model::PhysicalIndex;
 use crate::compile::queues::{QUEUES, Queues};
 use crate::compile::steps::of_step;
 use crate::vulkan::{Accesses, Stages};
@@ -16,7 +16,7 @@ use crate::vulkan::{Accesses, Stages};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AliasedWrite {
     /// The previous and the next owner of the memory.
-    pub(super) stores: [StoreIndex; 2],
+    pub(super) resources: [PhysicalIndex; 2],
     /// Stages and writes of the previous owner's last use.
     pub(super) source: Source,
     /// The step of that use.
@@ -34,7 +34,7 @@ pub(in crate::compile) struct AliasingBarrier {
     pub(in crate::compile) src_accesses: Accesses,
     pub(in crate::compile) dst_stages: Stages,
     /// Pairs of a previous and a next owner.
-    pub(in crate::compile) stores: Vec<[StoreIndex; 2]>,
+    pub(in crate::compile) resources: Vec<[PhysicalIndex; 2]>,
 }
 
 /// The first half of a memory barrier: the writes that it makes available.
@@ -76,7 +76,7 @@ struct Due<'a> {
 pub(super) fn memory_barriers(
     queues: &Queues,
     aliased: &[AliasedWrite],
-    barriers: &[CellBarrier],
+    barriers: &[SubresourceBarrier],
     batched: &[Batched],
     steps: usize,
 ) -> Vec<(u32, AliasingBarrier)> {
@@ -90,12 +90,12 @@ pub(super) fn memory_barriers(
         let number = write.barrier as usize;
         due.push(Due { at: at[number], write, waits: and_earlier(barriers[number].src_stages) });
     }
-    due.sort_by_key(|due| (due.at, due.write.stores));
+    due.sort_by_key(|due| (due.at, due.write.resources));
     let mut memory: Vec<Option<AliasingBarrier>> = vec![None; steps];
     let mut passed: [Vec<Passed>; QUEUES] = Default::default();
     for time in 0..2 * steps {
         let (step, second_frame) = (time % steps, time >= steps);
-        let passed = &mut passed[queues.at(step as u32)];
+        let passed = &mut passed[queues.queue_number(step as u32)];
         let here = of_step(&due, step as u32, |due| due.at);
         let is_now = |due: &&Due<'_>| due.write.this_frame != second_frame && !done(passed, due);
         let now: Vec<&AliasedWrite> = here.iter().filter(is_now).map(|due| due.write).collect();
@@ -114,14 +114,14 @@ fn done(passed: &[Passed], Due { write, waits, .. }: &Due<'_>) -> bool {
 }
 
 fn add(barrier: &mut Option<AliasingBarrier>, writes: &[&AliasedWrite]) {
-    for AliasedWrite { stores, source, .. } in writes {
+    for AliasedWrite { resources, source, .. } in writes {
         let barrier = barrier.get_or_insert_default();
         barrier.src_stages |= source.stages;
         barrier.src_accesses |= source.accesses;
         // The image barrier, a call later, waits for the same stages.
         barrier.dst_stages |= source.stages;
-        if !barrier.stores.contains(stores) {
-            barrier.stores.push(*stores);
+        if !barrier.resources.contains(resources) {
+            barrier.resources.push(*resources);
         }
     }
 }
@@ -131,7 +131,7 @@ fn pass<'p>(
     passed: &mut Vec<Passed>,
     time: usize,
     memory: Option<&AliasingBarrier>,
-    images: impl Iterator<Item = &'p CellBarrier>,
+    images: impl Iterator<Item = &'p SubresourceBarrier>,
 ) {
     if let Some(memory) = memory {
         lead_on(passed, &[(memory.src_stages, memory.dst_stages)]);

@@ -2,8 +2,8 @@
 
 use super::aliasing_barriers::{self, AliasingBarrier};
 use super::batches::{self, Batched};
-use super::cell::CellBarrier;
-use super::timeline::Timeline;
+use super::subresource::SubresourceBarrier;
+use super::timeline::AccessTimeline;
 use super::{initial_barriers, redundant};
 use crate::compile::memory::AliasEdge;
 use crate::compile::model::Adapted;
@@ -13,7 +13,7 @@ use crate::compile::queues::Queues;
 /// All barriers and waits.
 #[derive(Debug)]
 pub(in crate::compile) struct Barriers {
-    pub(in crate::compile) barriers: Vec<CellBarrier>,
+    pub(in crate::compile) barriers: Vec<SubresourceBarrier>,
     /// Where they stand, in the order of steps.
     pub(in crate::compile) batched: Vec<Batched>,
     /// The memory barriers between owners of memory, each with its step, in the order of steps.
@@ -28,17 +28,18 @@ pub(in crate::compile) struct Barriers {
 pub(in crate::compile) fn barriers(
     grids: &Grids,
     adapted: &Adapted,
-    timeline: &Timeline,
-    barriers: Vec<CellBarrier>,
+    timeline: &AccessTimeline,
+    barriers: Vec<SubresourceBarrier>,
     edges: &[AliasEdge],
     steps: u32,
 ) -> Barriers {
     let mut initial = initial_barriers::complete(grids, adapted, timeline, barriers, edges);
-    let mut batched = batches::batch(&initial.queues, &adapted.stores, &initial.barriers);
+    let mut batched = batches::batch(&initial.queues, &adapted.resources, &initial.barriers);
     redundant::take_out(adapted, timeline, &mut initial, &mut batched);
     let initial_barriers::Initial { barriers, queues, aliased } = initial;
-    let exports = batched.last().is_some_and(|last| last.at == steps) || steps == 0 || !queues.waits(steps).is_empty();
-    let steps = steps + u32::from(exports);
+    let has_final_states =
+        batched.last().is_some_and(|last| last.at == steps) || steps == 0 || !queues.waits(steps).is_empty();
+    let steps = steps + u32::from(has_final_states);
     let aliasing = aliasing_barriers::memory_barriers(&queues, &aliased, &barriers, &batched, steps as usize);
     Barriers { barriers, batched, aliasing, queues, steps }
 }

@@ -7,8 +7,8 @@
 //! The barriers of buffers become one memory barrier a call. So they are gathered once more, by the same rule, into as few of
 //! these calls as their own places allow.
 
-use super::cell::CellBarrier;
-use crate::compile::model::Store;
+use super::subresource::SubresourceBarrier;
+use crate::compile::model::PhysicalResource;
 use crate::compile::queues::{QUEUES, Queues};
 use crate::compile::steps::NEVER;
 
@@ -21,11 +21,11 @@ pub(in crate::compile) struct Batched {
 }
 
 /// Puts barriers, in the order of the steps that need them, into calls, in the order of steps.
-pub(super) fn batch(queues: &Queues, stores: &[Store], barriers: &[CellBarrier]) -> Vec<Batched> {
+pub(super) fn batch(queues: &Queues, resources: &[PhysicalResource], barriers: &[SubresourceBarrier]) -> Vec<Batched> {
     let mut batched = Vec::with_capacity(barriers.len());
     let mut calls = [None; QUEUES];
     for (barrier, number) in barriers.iter().zip(0_u32..).filter(|(barrier, _)| barrier.step != NEVER) {
-        let call = &mut calls[queues.at(barrier.step)];
+        let call = &mut calls[queues.queue_number(barrier.step)];
         let at = call.filter(|at| *at >= earliest(queues, number, barrier)).unwrap_or(barrier.step);
         *call = Some(at);
         batched.push(Batched { at, barrier: number });
@@ -34,27 +34,32 @@ pub(super) fn batch(queues: &Queues, stores: &[Store], barriers: &[CellBarrier])
     if !queues.is_one() {
         batched.sort_by_key(|it| it.at);
     }
-    gather_buffers(queues, stores, barriers, &mut batched);
+    gather_buffers(queues, resources, barriers, &mut batched);
     batched
 }
 
 /// The first step that a barrier may stand before.
-fn earliest(queues: &Queues, number: u32, barrier: &CellBarrier) -> u32 {
+fn earliest(queues: &Queues, number: u32, barrier: &SubresourceBarrier) -> u32 {
     if queues.is_held(number) { barrier.step } else { barrier.after.wrapping_add(1) }
 }
 
 /// Moves the barriers of buffers into as few of the calls as their places allow.
-fn gather_buffers(queues: &Queues, stores: &[Store], barriers: &[CellBarrier], batched: &mut [Batched]) {
-    let of_buffer = |it: &Batched| stores[barriers[it.barrier as usize].store as usize].image().is_none();
+fn gather_buffers(
+    queues: &Queues,
+    resources: &[PhysicalResource],
+    barriers: &[SubresourceBarrier],
+    batched: &mut [Batched],
+) {
+    let of_buffer = |it: &Batched| resources[barriers[it.barrier as usize].resource as usize].image().is_none();
     if !batched.iter().any(of_buffer) {
         return;
     }
     let mut calls: [Vec<u32>; QUEUES] = Default::default();
-    batched.iter().for_each(|it| calls[queues.at(it.at)].push(it.at));
+    batched.iter().for_each(|it| calls[queues.queue_number(it.at)].push(it.at));
     let mut gathered: [Option<u32>; QUEUES] = [None; QUEUES];
     for it in batched.iter_mut().filter(|it| of_buffer(it)) {
         let barrier = &barriers[it.barrier as usize];
-        let queue = queues.at(it.at);
+        let queue = queues.queue_number(it.at);
         let (calls, gathered) = (&calls[queue], &mut gathered[queue]);
         if gathered.is_none_or(|at| at < earliest(queues, it.barrier, barrier)) {
             let last = calls.partition_point(|at| *at <= barrier.step).saturating_sub(1);

@@ -1,56 +1,45 @@
 //! Final states: the states in which resources that outlive the frame are found and left.
 //!
 //! A frame leaves a persistent image in the state in which the next one finds it. Every image has one layout at the end, so
-//! cells in other layouts than the last one are brought into that one. A state that names only reads allows all of these at
-//! once, so the barriers before the last reads of each cell serve them all.
+//! subresources in other layouts than the last one are brought into that one. A state that names only reads allows all of
+//! these at once, so the barriers before the last reads of each subresource serve them all.
 
-use super::cell::CellState;
-use super::timeline::{States, Timeline};
-use super::walk;
+use super::subresource::SubresourceState;
+use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, MemorySource, Store, StoreIndex};
+use crate::compile::model::{Adapted, MemorySource, PhysicalIndex, PhysicalResource};
 use crate::compile::parts::Grids;
-use crate::compile::queues::Queues;
-use crate::compile::retain::Retained;
-use crate::compile::scope::Scoped;
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, Layout, Stages, State};
 use std::ops::Range;
 
-/// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
-/// behind all others.
-pub(in crate::compile) fn timeline(
+/// The states around the frame of each physical resource, `None` if it lives within the frame. The accesses that final
+/// states take are added to the timeline, in the step behind all others.
+pub(super) fn states(
     grids: &Grids,
     adapted: &Adapted,
-    scoped: &Scoped,
-    retained: &Retained,
-    queues: Queues,
-) -> Timeline {
-    let mut timeline = walk::walk(grids, adapted, scoped, retained, queues);
-    timeline.states = states(grids, adapted, &mut timeline, scoped.steps.len() as u32);
-    timeline
-}
-
-fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32) -> Vec<Option<States>> {
-    let mut states: Vec<Option<States>> = vec![None; adapted.stores.len()];
-    if adapted.stores.iter().all(Store::is_transient) {
+    timeline: &mut AccessTimeline,
+    final_step: u32,
+) -> Vec<Option<States>> {
+    let mut states: Vec<Option<States>> = vec![None; adapted.resources.len()];
+    if adapted.resources.iter().all(PhysicalResource::is_transient) {
         return states;
     }
     let mut first = 0;
-    while let Some(store) = adapted.stores.get(first as usize) {
+    while let Some(resource) = adapted.resources.get(first as usize) {
         let last = last_of_ring(adapted, first);
         let ring = first..last + 1;
         first = last + 1;
-        if store.is_transient() {
+        if resource.is_transient() {
             continue;
         }
-        let imported = if let MemorySource::Imported { before } = store.memory { Some(before) } else { None };
+        let imported = if let MemorySource::Imported { before } = resource.memory { Some(before) } else { None };
         let crossed = timeline.queues.is_crossed(ring.start);
-        let mut ring = Ring { grids, adapted, timeline, stores: ring, imported, crossed, layouts: Vec::new() };
-        let after = ring.leave(export);
+        let mut ring = Ring { grids, adapted, timeline, resources: ring, imported, crossed, layouts: Vec::new() };
+        let after = ring.leave(final_step);
         let from = after.iter().cycle().skip(after.len() - 1);
-        for ((store, after), from) in ring.stores.zip(&after).zip(from) {
-            let before = match adapted.stores[store as usize].memory {
+        for ((resource, after), from) in ring.resources.zip(&after).zip(from) {
+            let before = match adapted.resources[resource as usize].memory {
                 MemorySource::Imported { before } => before,
                 MemorySource::Persistent { .. } => *from,
                 // Its contents are not kept, but the frame before used it too.
@@ -58,7 +47,7 @@ fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32
                     State { accesses: after.accesses.writes(), layout: Layout::Undefined, ..*after }
                 }
             };
-            states[store as usize] = Some(States { before, after: *after });
+            states[resource as usize] = Some(States { before, after: *after });
         }
     }
     states
@@ -68,8 +57,8 @@ fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32
 struct Ring<'a> {
     grids: &'a Grids,
     adapted: &'a Adapted,
-    timeline: &'a mut Timeline,
-    stores: Range<StoreIndex>,
+    timeline: &'a mut AccessTimeline,
+    resources: Range<PhysicalIndex>,
     /// The state in which an import is found.
     imported: Option<State>,
     /// Whether several queues use it. Then semaphores alone lead on from its state, which names no stages.
@@ -78,7 +67,7 @@ struct Ring<'a> {
     layouts: Vec<Layout>,
 }
 
-/// The last use of a cell: stages and accesses since the last write or change of layout.
+/// The last use of a subresource: stages and accesses since the last write or change of layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct LastUse {
     stages: Stages,
@@ -105,27 +94,27 @@ impl From<State> for LastUse {
     }
 }
 
-impl From<&CellState> for LastUse {
-    fn from(cell: &CellState) -> LastUse {
-        LastUse { stages: cell.stages, accesses: cell.accesses }
+impl From<&SubresourceState> for LastUse {
+    fn from(subresource: &SubresourceState) -> LastUse {
+        LastUse { stages: subresource.stages, accesses: subresource.accesses }
     }
 }
 
 impl Ring<'_> {
     /// Brings each member into one state, which is returned.
-    fn leave(&mut self, export: u32) -> Vec<State> {
+    fn leave(&mut self, final_step: u32) -> Vec<State> {
         if self.imported.is_none() && !self.crossed {
-            (0..self.stores.len()).for_each(|at| self.read_on(at));
+            (0..self.resources.len()).for_each(|at| self.read_on(at));
         }
         self.choose_layouts();
-        (0..self.stores.len()).for_each(|at| self.bring_into_layout(at, export));
+        (0..self.resources.len()).for_each(|at| self.bring_into_layout(at, final_step));
         if self.crossed {
             let (stages, accesses) = (Stages::empty(), Accesses::empty());
             return self.layouts.iter().map(|layout| State { stages, accesses, layout: *layout }).collect();
         }
-        // A widened barrier of one cell may widen those of others.
-        while (0..self.stores.len()).any(|at| self.share_reads(at, export)) {}
-        (0..self.stores.len())
+        // A widened barrier of one subresource may widen those of others.
+        while (0..self.resources.len()).any(|at| self.share_reads(at, final_step)) {}
+        (0..self.resources.len())
             .map(|at| {
                 let LastUse { stages, accesses } = self.uses(at);
                 self.asked_for(at).unwrap_or(State { stages, accesses, layout: self.layouts[at] })
@@ -133,26 +122,26 @@ impl Ring<'_> {
             .collect()
     }
 
-    fn store(&self, at: usize) -> &Store {
-        &self.adapted.stores[self.stores.start as usize + at]
+    fn resource(&self, at: usize) -> &PhysicalResource {
+        &self.adapted.resources[self.resources.start as usize + at]
     }
 
     /// The state that was asked for. What several queues use is left to semaphores.
     fn asked_for(&self, at: usize) -> Option<State> {
-        self.store(at).after.filter(|_| !self.crossed)
+        self.resource(at).after.filter(|_| !self.crossed)
     }
 
     /// The member that becomes number `at` in the next frame.
     fn previous(&self, at: usize) -> usize {
-        at.checked_sub(1).unwrap_or(self.stores.len() - 1)
+        at.checked_sub(1).unwrap_or(self.resources.len() - 1)
     }
 
     fn parts(&self) -> Range<u32> {
-        0..self.store(0).cells(self.grids).len() as u32
+        0..self.resource(0).subresources(self.grids).len() as u32
     }
 
-    fn cell(&self, at: usize, part: u32) -> &CellState {
-        &self.timeline.cells[(self.store(at).first_cell + part) as usize]
+    fn subresource(&self, at: usize, part: u32) -> &SubresourceState {
+        &self.timeline.subresources[(self.resource(at).first_subresource + part) as usize]
     }
 
     /// If a frame begins with reads of what the one before read last, in the same layout, widens the barrier before the last
@@ -160,24 +149,24 @@ impl Ring<'_> {
     fn read_on(&mut self, at: usize) {
         let from = self.previous(at);
         for part in self.parts() {
-            let (last, first) = (*self.cell(from, part), self.cell(at, part));
+            let (last, first) = (*self.subresource(from, part), self.subresource(at, part));
             let Some(begin) = self.timeline.barriers.get(first.first_barrier as usize).copied() else { continue };
             let reads = begin.keeps && begin.dst_accesses.writes().is_empty();
-            if reads && last.is_touched() && !last.writes() && last.layout == begin.new_layout {
-                let cell = self.store(from).first_cell + part;
-                self.timeline.read_also(cell, begin.dst_stages, begin.dst_accesses);
+            if reads && last.is_used() && !last.writes() && last.layout == begin.new_layout {
+                let subresource = self.resource(from).first_subresource + part;
+                self.timeline.read_also(subresource, begin.dst_stages, begin.dst_accesses);
             }
         }
     }
 
     /// Each member is left in the layout that was asked for, else in that of its last use, else in that it was found in.
     fn choose_layouts(&mut self) {
-        let none = if self.store(0).image().is_some() { Layout::General } else { Layout::Undefined };
+        let none = if self.resource(0).image().is_some() { Layout::General } else { Layout::Undefined };
         let mut known = self.imported.map_or(none, |state| state.layout);
         // Two rounds, so that unused ring members inherit the layout of the last used one.
         for _ in 0..2 {
             self.layouts.clear();
-            for at in 0..self.stores.len() {
+            for at in 0..self.resources.len() {
                 known = self.own_layout(at).unwrap_or(known);
                 self.layouts.push(known);
             }
@@ -188,53 +177,55 @@ impl Ring<'_> {
         if let Some(after) = self.asked_for(at) {
             return Some(after.layout);
         }
-        let touched = self.parts().map(|part| self.cell(at, part)).filter(|cell| cell.is_touched());
-        let layout = touched.max_by_key(|cell| cell.last)?.layout;
-        Some(self.store(at).layout_of_all_planes(layout))
+        let used = self.parts().map(|part| self.subresource(at, part)).filter(|subresource| subresource.is_used());
+        let layout = used.max_by_key(|subresource| subresource.last)?.layout;
+        Some(self.resource(at).layout_of_all_planes(layout))
     }
 
-    /// Brings all cells of a member into its layout, or into the state that was asked for.
-    fn bring_into_layout(&mut self, at: usize, export: u32) {
-        let (store, first) = (self.stores.start + at as u32, self.store(at).first_cell);
+    /// Brings all subresources of a member into its layout, or into the state that was asked for.
+    fn bring_into_layout(&mut self, at: usize, final_step: u32) {
+        let (resource, first) = (self.resources.start + at as u32, self.resource(at).first_subresource);
         let layout = self.layouts[at];
         if let Some(after) = self.asked_for(at) {
             // If the state names no stages, a semaphore waits for everything: then only a layout takes a barrier.
-            let is_there = |cell: &CellState| after.stages.is_empty() && cell.is_touched() && cell.layout == layout;
-            let lacking: Vec<u32> = self.parts().filter(|part| !is_there(self.cell(at, *part))).collect();
-            return lacking.into_iter().for_each(|part| self.timeline.leave(store, first + part, export, after));
+            let is_there = |subresource: &SubresourceState| {
+                after.stages.is_empty() && subresource.is_used() && subresource.layout == layout
+            };
+            let lacking: Vec<u32> = self.parts().filter(|part| !is_there(self.subresource(at, *part))).collect();
+            return lacking.into_iter().for_each(|part| self.timeline.leave(resource, first + part, final_step, after));
         }
         let found = self.imported.map_or(self.layouts[self.previous(at)], |state| state.layout);
-        let held = |cell: &CellState| if cell.is_touched() { cell.layout } else { found };
-        if self.parts().all(|part| held(self.cell(at, part)) == layout) {
+        let held = |subresource: &SubresourceState| if subresource.is_used() { subresource.layout } else { found };
+        if self.parts().all(|part| held(self.subresource(at, part)) == layout) {
             return;
         }
-        let touched = self.parts().map(|part| self.cell(at, part)).filter(|cell| cell.is_touched());
+        let used = self.parts().map(|part| self.subresource(at, part)).filter(|subresource| subresource.is_used());
         let LastUse { stages, accesses } = match self.crossed {
             true => LastUse { stages: Stages::ALL_COMMANDS, accesses: Accesses::MEMORY_READ },
-            false => touched.fold(LastUse::default(), |all, cell| all.and(cell.into())),
+            false => used.fold(LastUse::default(), |all, subresource| all.and(subresource.into())),
         };
         let read = State { stages, accesses: accesses.difference(Accesses::WRITES), layout };
         for part in self.parts() {
-            if held(self.cell(at, part)) != layout {
-                self.timeline.leave(store, first + part, export, read);
+            if held(self.subresource(at, part)) != layout {
+                self.timeline.leave(resource, first + part, final_step, read);
             }
         }
     }
 
-    /// Calls `visit` with each use of a cell that the next frame has to wait for: the last one of this frame; and, if there is
-    /// none or it is a read that waited for nothing, that of the frame before.
+    /// Calls `visit` with each use of a subresource that the next frame has to wait for: the last one of this frame; and, if
+    /// there is none or it is a read that waited for nothing, that of the frame before.
     fn each_use(&self, at: usize, part: u32, mut visit: impl FnMut(LastUse, Option<(usize, u32)>)) {
         let mut reads_on = false;
         let mut now = at;
-        for _ in 0..self.stores.len() {
-            let (cell, before) = (self.cell(now, part), self.previous(now));
-            if cell.is_touched() {
-                if reads_on && cell.writes() {
+        for _ in 0..self.resources.len() {
+            let (subresource, before) = (self.subresource(now, part), self.previous(now));
+            if subresource.is_used() {
+                if reads_on && subresource.writes() {
                     return;
                 }
-                visit(cell.into(), Some((now, part)));
+                visit(subresource.into(), Some((now, part)));
                 let found = self.imported.map_or(self.layouts[before], |state| state.layout);
-                if cell.writes() || cell.second_barrier != NEVER || cell.layout != found {
+                if subresource.writes() || subresource.second_barrier != NEVER || subresource.layout != found {
                     return;
                 }
                 reads_on = true;
@@ -255,29 +246,30 @@ impl Ring<'_> {
         all
     }
 
-    /// If a member is left to be read, widens the barriers of all its cells to all these reads. Returns whether any changed.
-    fn share_reads(&mut self, at: usize, export: u32) -> bool {
+    /// If a member is left to be read, widens the barriers of all its subresources to all these reads. Returns whether any
+    /// changed.
+    fn share_reads(&mut self, at: usize, final_step: u32) -> bool {
         let all = self.uses(at);
         if !all.only_reads() || self.asked_for(at).is_some() {
             return false;
         }
         let mut lacking = Vec::new();
         for part in self.parts() {
-            self.each_use(at, part, |uses, cell| {
+            self.each_use(at, part, |uses, subresource| {
                 // An import is found in its declared state, even if the frame reads on from it.
-                let is_fixed = cell.is_none() && self.cell(at, part).is_touched();
+                let is_fixed = subresource.is_none() && self.subresource(at, part).is_used();
                 if !uses.covers(all) && !is_fixed {
-                    lacking.push(cell.unwrap_or((at, part)));
+                    lacking.push(subresource.unwrap_or((at, part)));
                 }
             });
         }
         for (at, part) in &lacking {
-            let cell = self.store(*at).first_cell + part;
-            if self.timeline.cells[cell as usize].is_touched() {
-                self.timeline.read_also(cell, all.stages, all.accesses);
+            let subresource = self.resource(*at).first_subresource + part;
+            if self.timeline.subresources[subresource as usize].is_used() {
+                self.timeline.read_also(subresource, all.stages, all.accesses);
             } else {
                 let state = State { stages: all.stages, accesses: all.accesses, layout: self.layouts[*at] };
-                self.timeline.leave(self.stores.start + *at as u32, cell, export, state);
+                self.timeline.leave(self.resources.start + *at as u32, subresource, final_step, state);
             }
         }
         !lacking.is_empty()

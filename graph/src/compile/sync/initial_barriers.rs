@@ -1,16 +1,16 @@
-//! Initial barriers: what the first access to each cell waits for.
+//! Initial barriers: what the first access to each subresource waits for.
 //!
-//! That is the state in which the cell is found, or the accesses of the resource that had its memory before. In the latter
-//! case the barrier names the *stages* of those accesses; their writes are named by a memory barrier (`aliasing_barriers`).
-//! Frames follow each other, so the first owner of memory comes after the last one.
+//! That is the state in which the subresource is found, or the accesses of the resource that had its memory before. In the
+//! latter case the barrier names the *stages* of those accesses; their writes are named by a memory barrier
+//! (`aliasing_barriers`). Frames follow each other, so the first owner of memory comes after the last one.
 
 use super::aliasing_barriers::{AliasedWrite, Source};
-use super::cell::CellBarrier;
-use super::last_accesses::{LastAccess, LastAccesses};
-use super::timeline::{States, Timeline};
+use super::last_accesses::LastAccess;
+use super::subresource::SubresourceBarrier;
+use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
+use crate::compile::model::{Adapted, Kind, PhysicalIndex, SubresourceIndex};
 use crate::compile::parts::Grids;
 use crate::compile::queues::{QUEUES, QueueUse, Queues};
 use crate::compile::steps::NEVER;
@@ -18,7 +18,7 @@ use std::ops::Range;
 
 /// All barriers and waits.
 pub(super) struct Initial {
-    pub(super) barriers: Vec<CellBarrier>,
+    pub(super) barriers: Vec<SubresourceBarrier>,
     pub(super) queues: Queues,
     /// Writes that memory barriers have to name.
     pub(super) aliased: Vec<AliasedWrite>,
@@ -28,12 +28,12 @@ pub(super) struct Initial {
 pub(super) fn complete(
     grids: &Grids,
     adapted: &Adapted,
-    timeline: &Timeline,
-    barriers: Vec<CellBarrier>,
+    timeline: &AccessTimeline,
+    barriers: Vec<SubresourceBarrier>,
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let mut completing = Completing { grids, adapted, timeline, initial };
+    let mut completing = Completing { grids, adapted, timeline, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -53,20 +53,22 @@ pub(super) fn complete(
 struct Completing<'c> {
     grids: &'c Grids,
     adapted: &'c Adapted,
-    timeline: &'c Timeline,
+    timeline: &'c AccessTimeline,
     initial: Initial,
+    /// The last accesses of the previous owner of memory.
+    accesses: Vec<LastAccess>,
 }
 
 impl Completing<'_> {
-    fn cells(&self, store: StoreIndex) -> Range<CellIndex> {
-        self.adapted.stores[store as usize].cells(self.grids)
+    fn subresources(&self, resource: PhysicalIndex) -> Range<SubresourceIndex> {
+        self.adapted.resources[resource as usize].subresources(self.grids)
     }
 
     /// Completes the initial barriers of a resource that outlives the frame, from its state before the frame.
-    fn find(&mut self, store: StoreIndex, states: &States) {
+    fn find(&mut self, resource: PhysicalIndex, states: &States) {
         let barriers = &mut self.initial.barriers;
-        for cell in self.adapted.stores[store as usize].cells(self.grids) {
-            let known = &self.timeline.cells[cell as usize];
+        for subresource in self.adapted.resources[resource as usize].subresources(self.grids) {
+            let known = &self.timeline.subresources[subresource as usize];
             let Some(barrier) = barriers.get_mut(known.first_barrier as usize) else { continue };
             find(barrier, states, known.second_barrier == NEVER);
             let is_needed = barrier.step != NEVER;
@@ -78,14 +80,14 @@ impl Completing<'_> {
     }
 
     /// Completes those of a resource that several queues use, from its last uses in earlier frames.
-    fn find_crossed(&mut self, store: StoreIndex, states: &States) {
-        let first_cell = self.adapted.stores[store as usize].first_cell;
-        for cell in self.cells(store) {
-            let number = self.timeline.cells[cell as usize].first_barrier;
-            let (frames_ago, used) = self.last_uses(store, cell - first_cell);
+    fn find_crossed(&mut self, resource: PhysicalIndex, states: &States) {
+        let first_subresource = self.adapted.resources[resource as usize].first_subresource;
+        for subresource in self.subresources(resource) {
+            let number = self.timeline.subresources[subresource as usize].first_barrier;
+            let (frames_ago, used) = self.last_uses(resource, subresource - first_subresource);
             let Initial { barriers, queues, .. } = &mut self.initial;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
-            let queue = queues.at(barrier.step);
+            let queue = queues.queue_number(barrier.step);
             let own = used[queue];
             let mut own_is_known = false;
             for (other, used) in used.iter().enumerate().filter(|(other, used)| *other != queue && used.until > 0) {
@@ -105,33 +107,41 @@ impl Completing<'_> {
     }
 
     /// How queues used a part of a resource in the last frame that did, and how many frames ago that was.
-    fn last_uses(&self, store: StoreIndex, part: u32) -> (u32, [QueueUse; QUEUES]) {
-        let cell = |store: StoreIndex| self.adapted.stores[store as usize].first_cell + part;
-        let mut earlier = history_ring::earlier(self.adapted, store).map(|(ago, store)| (ago, cell(store)));
-        let used = earlier.find(|(_, cell)| self.timeline.cells[*cell as usize].is_touched());
-        used.map_or_else(|| (1, Default::default()), |(ago, cell)| (ago, self.timeline.queues.uses(cell).by))
+    fn last_uses(&self, resource: PhysicalIndex, part: u32) -> (u32, [QueueUse; QUEUES]) {
+        let subresource = |resource: PhysicalIndex| self.adapted.resources[resource as usize].first_subresource + part;
+        let mut earlier =
+            history_ring::earlier(self.adapted, resource).map(|(ago, resource)| (ago, subresource(resource)));
+        let used = earlier.find(|(_, subresource)| self.timeline.subresources[*subresource as usize].is_used());
+        used.map_or_else(
+            || (1, Default::default()),
+            |(ago, subresource)| (ago, self.timeline.queues.uses(subresource).by),
+        )
     }
 
     /// Completes those of a resource that takes over memory, from the last accesses of the memory's previous owner.
     fn take_over(&mut self, edge: &AliasEdge) {
-        let AliasEdge { store, from, this_frame } = *edge;
-        // A resource that had its memory in the frame before too waits cell by cell.
-        let again = store == from;
-        let mut accesses = LastAccesses::default();
-        if !again {
-            self.add_last_accesses(from, self.cells(from), &mut accesses);
+        let subresources = self.subresources(edge.resource);
+        if edge.resource == edge.from {
+            // A resource that had its memory in the frame before too waits subresource by subresource.
+            subresources
+                .for_each(|subresource| self.follow(edge, subresource..subresource + 1, subresource..subresource + 1));
+        } else {
+            self.follow(edge, self.subresources(edge.from), subresources);
         }
+    }
+
+    /// Lets the initial barriers of `subresources` wait for the last accesses to the subresources `before` of the memory's
+    /// previous owner.
+    fn follow(&mut self, edge: &AliasEdge, before: Range<SubresourceIndex>, subresources: Range<SubresourceIndex>) {
+        let AliasEdge { resource, from, this_frame } = *edge;
+        let Completing { adapted, timeline, initial: Initial { barriers, queues, aliased }, accesses, .. } = self;
+        find_last_accesses(timeline, from, before, accesses);
         // A buffer's barrier covers all memory, an image's only the image.
-        let covers = again || self.adapted.stores[store as usize].image().is_none();
-        for cell in self.cells(store) {
-            if again {
-                accesses.clear();
-                self.add_last_accesses(store, cell..cell + 1, &mut accesses);
-            }
-            let number = self.timeline.cells[cell as usize].first_barrier;
-            let Initial { barriers, queues, aliased } = &mut self.initial;
+        let covers = resource == from || adapted.resources[resource as usize].image().is_none();
+        for subresource in &timeline.subresources[subresources.start as usize..subresources.end as usize] {
+            let number = subresource.first_barrier;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
-            let queue = queues.at(barrier.step);
+            let queue = queues.queue_number(barrier.step);
             for LastAccess { queue: other, stages, writes, last } in accesses.iter().copied() {
                 if this_frame {
                     barrier.after = if barrier.after == NEVER { last } else { barrier.after.max(last) };
@@ -146,33 +156,41 @@ impl Completing<'_> {
                     barrier.src_accesses |= writes;
                 } else if !writes.is_empty() {
                     let source = Source { stages, accesses: writes };
-                    let stores = [from, store];
-                    aliased.push(AliasedWrite { stores, source, written: last, this_frame, barrier: number });
+                    let resources = [from, resource];
+                    aliased.push(AliasedWrite { resources, source, written: last, this_frame, barrier: number });
                 }
-            }
-        }
-    }
-
-    /// Adds the last accesses to some cells of a resource.
-    #[inline]
-    fn add_last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>, accesses: &mut LastAccesses) {
-        let queues = &self.timeline.queues;
-        let is_crossed = queues.is_crossed(store);
-        for cell in cells {
-            let known = &self.timeline.cells[cell as usize];
-            if is_crossed {
-                for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
-                    accesses.add(queue, used.stages, used.accesses, used.until - 1);
-                }
-            } else if known.is_touched() {
-                accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
             }
         }
     }
 }
 
+/// Puts the last accesses to some subresources of a resource into `accesses`.
+fn find_last_accesses(
+    timeline: &AccessTimeline,
+    resource: PhysicalIndex,
+    subresources: Range<SubresourceIndex>,
+    accesses: &mut Vec<LastAccess>,
+) {
+    let queues = &timeline.queues;
+    let is_crossed = queues.is_crossed(resource);
+    accesses.clear();
+    for (known, subresource) in
+        timeline.subresources[subresources.start as usize..subresources.end as usize].iter().zip(subresources.start..)
+    {
+        if is_crossed {
+            for (queue, used) in queues.uses(subresource).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
+                LastAccess { queue, stages: used.stages, writes: used.accesses.writes(), last: used.until - 1 }
+                    .add_to(accesses);
+            }
+        } else if known.is_used() {
+            let (queue, writes) = (queues.queue_number(known.last), known.accesses.writes());
+            LastAccess { queue, stages: known.stages, writes, last: known.last }.add_to(accesses);
+        }
+    }
+}
+
 /// Completes the barrier before the first access to what outlives frames. `is_last`: there is no other barrier.
-fn find(barrier: &mut CellBarrier, States { before, after }: &States, is_last: bool) {
+fn find(barrier: &mut SubresourceBarrier, States { before, after }: &States, is_last: bool) {
     let covers = before.layout == barrier.new_layout
         && before.stages.contains(barrier.dst_stages)
         && before.accesses.contains(barrier.dst_accesses);
@@ -196,7 +214,7 @@ fn find(barrier: &mut CellBarrier, States { before, after }: &States, is_last: b
 fn follow_waits(adapted: &Adapted, Initial { barriers, queues, .. }: &mut Initial) {
     for (barrier, number) in barriers.iter_mut().zip(0..) {
         if barrier.src_stages.is_empty() && queues.is_held(number) {
-            match adapted.stores[barrier.store as usize].kind {
+            match adapted.resources[barrier.resource as usize].kind {
                 Kind::Image(_) => barrier.src_stages = barrier.dst_stages,
                 Kind::Buffer(_) => barrier.step = NEVER,
             }

@@ -14,38 +14,15 @@ pub(super) struct LastAccess {
     pub(super) last: u32,
 }
 
-/// The last accesses to some cells: most often they are all alike.
-#[derive(Debug, Clone, Default)]
-pub(super) struct LastAccesses {
-    first: Option<LastAccess>,
-    others: Vec<LastAccess>,
-}
-
-impl LastAccesses {
-    /// Adds the last accesses to a cell, in `step` on queue number `queue`.
+impl LastAccess {
+    /// Adds it to a list, in which accesses that are alike are one with the latest step.
     #[inline]
-    pub(super) fn add(&mut self, queue: usize, stages: Stages, accesses: Accesses, step: u32) {
-        let writes = accesses.writes();
-        let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (queue, stages, writes);
-        match self.first.iter_mut().chain(&mut self.others).find(same) {
-            Some(same) => same.last = same.last.max(step),
-            None => {
-                let new = LastAccess { queue, stages, writes, last: step };
-                match self.first {
-                    None => self.first = Some(new),
-                    Some(_) => self.others.push(new),
-                }
-            }
+    pub(super) fn add_to(self, list: &mut Vec<LastAccess>) {
+        let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (self.queue, self.stages, self.writes);
+        match list.iter_mut().find(same) {
+            Some(same) => same.last = same.last.max(self.last),
+            None => list.push(self),
         }
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.first = None;
-        self.others.clear();
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = &LastAccess> {
-        self.first.iter().chain(&self.others)
     }
 }
 
@@ -55,12 +32,13 @@ mod tests {
 
     #[test]
     fn accesses_alike_are_one_with_the_latest_step() {
-        let mut accesses = LastAccesses::default();
+        let mut list = Vec::new();
+        let access = |stages, writes, last| LastAccess { queue: 0, stages, writes, last };
         for last in [3, 7, 5] {
-            accesses.add(0, Stages::CLEAR, Accesses::TRANSFER_WRITE, last);
+            access(Stages::CLEAR, Accesses::TRANSFER_WRITE, last).add_to(&mut list);
         }
-        accesses.add(0, Stages::COPY, Accesses::TRANSFER_READ, 9);
-        let [cleared, read] = accesses.iter().collect::<Vec<_>>()[..] else { panic!("two kinds of accesses") };
+        access(Stages::COPY, Accesses::empty(), 9).add_to(&mut list);
+        let [cleared, read] = list[..] else { panic!("two kinds of accesses") };
         assert_eq!((cleared.writes, cleared.last), (Accesses::TRANSFER_WRITE, 7));
         assert_eq!((read.writes, read.last), (Accesses::empty(), 9));
     }

@@ -5,23 +5,23 @@
 //! barriers:  initial_barriers ─► batches ─► redundant ─► aliasing_barriers
 //! ```
 //! `timeline` depends on no sizes. `barriers` needs alias edges, and so comes once everything has its place in memory. One
-//! queue is the case in which no cell is crossed.
+//! queue is the case in which no subresource is crossed.
 
 mod aliasing_barriers;
 mod barriers;
 mod batches;
-mod cell;
 mod crossed;
 mod final_states;
 mod initial_barriers;
 mod last_accesses;
 mod redundant;
 mod stage_order;
+mod subresource;
 mod timeline;
 mod walk;
 
 pub(super) use barriers::{Barriers, barriers};
 pub(super) use batches::Batched;
-pub(super) use cell::CellBarrier;
-pub(super) use final_states::timeline;
-pub(super) use timeline::{States, Timeline};
+pub(super) use subresource::SubresourceBarrier;
+pub(super) use timeline::{AccessTimeline, States};
+pub(super) use walk::timeline;

@@ -6,10 +6,10 @@
 //! write visible to its own destination only, so barriers of images stay.
 
 use super::batches::Batched;
-use super::cell::CellBarrier;
 use super::initial_barriers::Initial;
 use super::stage_order::{and_earlier, and_later};
-use super::timeline::Timeline;
+use super::subresource::SubresourceBarrier;
+use super::timeline::AccessTimeline;
 use crate::compile::history_ring;
 use crate::compile::model::{Adapted, MemorySource};
 use crate::compile::steps::NEVER;
@@ -17,14 +17,18 @@ use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Stages};
 
 /// Takes redundant barriers out of the calls.
-pub(super) fn take_out(adapted: &Adapted, timeline: &Timeline, initial: &mut Initial, batched: &mut Vec<Batched>) {
+pub(super) fn take_out(
+    adapted: &Adapted,
+    timeline: &AccessTimeline,
+    initial: &mut Initial,
+    batched: &mut Vec<Batched>,
+) {
     let mut at = 0;
     while let Some(it) = batched.get(at).copied() {
         let barrier = &initial.barriers[it.barrier as usize];
-        let of_buffer = adapted.stores[barrier.store as usize].image().is_none();
-        let is_redundant = of_buffer
-            && waits_for_reads(barrier)
-            && !initial.queues.is_crossed(barrier.store)
+        let is_redundant = waits_for_reads(barrier)
+            && adapted.resources[barrier.resource as usize].image().is_none()
+            && !initial.queues.is_crossed(barrier.resource)
             && Calls { adapted, timeline, initial, batched }.make_redundant(it);
         if is_redundant {
             initial.barriers[it.barrier as usize].step = NEVER;
@@ -36,7 +40,7 @@ pub(super) fn take_out(adapted: &Adapted, timeline: &Timeline, initial: &mut Ini
 }
 
 /// Whether a barrier waits only for reads of earlier frames, in the layout of the access that needs it.
-fn waits_for_reads(barrier: &CellBarrier) -> bool {
+fn waits_for_reads(barrier: &SubresourceBarrier) -> bool {
     barrier.hazard == Hazard::FirstUse
         && barrier.after == NEVER
         && barrier.src_accesses.is_empty()
@@ -57,13 +61,13 @@ struct Reads {
 /// The barriers of all calls.
 struct Calls<'c> {
     adapted: &'c Adapted,
-    timeline: &'c Timeline,
+    timeline: &'c AccessTimeline,
     initial: &'c Initial,
     batched: &'c [Batched],
 }
 
 impl Calls<'_> {
-    fn barrier(&self, it: &Batched) -> &CellBarrier {
+    fn barrier(&self, it: &Batched) -> &SubresourceBarrier {
         &self.initial.barriers[it.barrier as usize]
     }
 
@@ -78,23 +82,24 @@ impl Calls<'_> {
             && reads.iter().all(|reads| reads.stages.iter().all(|stage| self.is_followed(it, reads, stage)))
     }
 
-    /// The reads of a cell since it was written last, in earlier frames.
-    fn earlier_reads(&self, barrier: &CellBarrier) -> Vec<Reads> {
-        let stores = &self.adapted.stores;
-        let MemorySource::Persistent { .. } = stores[barrier.store as usize].memory else { return Vec::new() };
-        let part = barrier.cell - stores[barrier.store as usize].first_cell;
+    /// The reads of a subresource since it was written last, in earlier frames.
+    fn earlier_reads(&self, barrier: &SubresourceBarrier) -> Vec<Reads> {
+        let resources = &self.adapted.resources;
+        let MemorySource::Persistent { .. } = resources[barrier.resource as usize].memory else { return Vec::new() };
+        let part = barrier.subresource - resources[barrier.resource as usize].first_subresource;
         let mut reads = Vec::new();
-        for (frames_ago, from) in history_ring::earlier(self.adapted, barrier.store) {
-            let cell = &self.timeline.cells[(stores[from as usize].first_cell + part) as usize];
-            if !cell.is_touched() {
+        for (frames_ago, from) in history_ring::earlier(self.adapted, barrier.resource) {
+            let subresource = &self.timeline.subresources[(resources[from as usize].first_subresource + part) as usize];
+            if !subresource.is_used() {
                 continue;
             }
-            if !cell.writes() {
-                let shows = self.initial.barriers.get(cell.second_barrier as usize);
-                let behind_write = shows.filter(|it| it.hazard == Hazard::ReadAfterWrite).map(|_| cell.second_barrier);
-                reads.push(Reads { behind_write, stages: cell.stages, step: cell.last, frames_ago });
+            if !subresource.writes() {
+                let shows = self.initial.barriers.get(subresource.second_barrier as usize);
+                let behind_write =
+                    shows.filter(|it| it.hazard == Hazard::ReadAfterWrite).map(|_| subresource.second_barrier);
+                reads.push(Reads { behind_write, stages: subresource.stages, step: subresource.last, frames_ago });
             }
-            if cell.writes() || cell.second_barrier != NEVER {
+            if subresource.writes() || subresource.second_barrier != NEVER {
                 break;
             }
         }
@@ -103,10 +108,10 @@ impl Calls<'_> {
 
     /// Whether the memory barrier that barrier number `shows` is part of makes the same write visible to the access behind
     /// `barrier`.
-    fn is_shown(&self, shows: u32, barrier: &CellBarrier) -> bool {
+    fn is_shown(&self, shows: u32, barrier: &SubresourceBarrier) -> bool {
         let Some(call) = self.batched.iter().find(|it| it.barrier == shows).map(|it| it.at) else { return false };
         let of_call = self.batched.iter().filter(|it| it.at == call).map(|it| self.barrier(it));
-        let of_buffers = of_call.filter(|it| self.adapted.stores[it.store as usize].image().is_none());
+        let of_buffers = of_call.filter(|it| self.adapted.resources[it.resource as usize].image().is_none());
         let (stages, accesses) = of_buffers.fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
             (stages | it.dst_stages, accesses | it.dst_accesses)
         });
@@ -120,12 +125,12 @@ impl Calls<'_> {
         for frames_ago in (0..=reads.frames_ago).rev() {
             let comes_between = |other: &&Batched| {
                 other.barrier != it.barrier
-                    && queues.at(other.at) == queues.at(it.at)
+                    && queues.queue_number(other.at) == queues.queue_number(it.at)
                     && (frames_ago < reads.frames_ago || other.at > reads.step)
                     && (frames_ago > 0 || other.at < it.at)
             };
             for call in self.batched.chunk_by(|one, other| one.at == other.at) {
-                let waits = |other: &&CellBarrier| {
+                let waits = |other: &&SubresourceBarrier| {
                     let from = and_earlier(other.src_stages);
                     from.contains(stage) || from.intersects(reach)
                 };

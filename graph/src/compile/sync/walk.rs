@@ -1,24 +1,32 @@
-//! The walk through the steps: what each does to each cell.
+//! The walk through the steps: what each does to each subresource.
 
-use super::cell::{CellAccess, CellState};
-use super::timeline::Timeline;
-use crate::compile::model::{Adapted, CellIndex, Role, Use};
+use super::final_states;
+use super::subresource::{SubresourceAccess, SubresourceState};
+use super::timeline::AccessTimeline;
+use crate::compile::model::{Adapted, Role, Use};
 use crate::compile::parts::Grids;
 use crate::compile::queues::Queues;
-use crate::compile::retain::{AttachmentOps, Retained};
+use crate::compile::retain::{AttachmentOps, LoadStoreOps};
 use crate::compile::scope::{Scoped, Step, Target};
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
 
-/// The accesses of all steps, and the barriers between them.
-pub(super) fn walk(grids: &Grids, adapted: &Adapted, scoped: &Scoped, retained: &Retained, queues: Queues) -> Timeline {
+/// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
+/// behind all others.
+pub(in crate::compile) fn timeline(
+    grids: &Grids,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    load_store: &LoadStoreOps,
+    queues: Queues,
+) -> AccessTimeline {
     let mut walk = Walk {
         grids,
         adapted,
-        timeline: Timeline {
-            cells: vec![CellState::UNTOUCHED; adapted.cells as usize],
+        timeline: AccessTimeline {
+            subresources: vec![SubresourceState::UNUSED; adapted.subresources as usize],
             barriers: Vec::with_capacity(adapted.uses.len() + adapted.uses.len() / 4),
-            lifetimes: vec![[NEVER, 0]; adapted.stores.len()],
+            lifetimes: vec![[NEVER, 0]; adapted.resources.len()],
             queues,
             states: Vec::new(),
             layouts: Vec::new(),
@@ -27,43 +35,45 @@ pub(super) fn walk(grids: &Grids, adapted: &Adapted, scoped: &Scoped, retained: 
         mixed: false,
     };
     for (step, number) in scoped.steps.iter().zip(0_u32..) {
-        walk.step(step, number, retained);
+        walk.step(step, number, load_store);
     }
-    walk.timeline
+    let Walk { mut timeline, .. } = walk;
+    timeline.states = final_states::states(grids, adapted, &mut timeline, scoped.steps.len() as u32);
+    timeline
 }
 
 struct Walk<'w> {
     grids: &'w Grids,
     adapted: &'w Adapted,
-    timeline: Timeline,
+    timeline: AccessTimeline,
     /// Accesses of the current step.
-    accesses: Vec<CellAccess>,
-    /// Whether the current step uses a cell in several layouts.
+    accesses: Vec<SubresourceAccess>,
+    /// Whether the current step uses a subresource in several layouts.
     mixed: bool,
 }
 
 impl Walk<'_> {
-    fn step(&mut self, step: &Step, number: u32, retained: &Retained) {
+    fn step(&mut self, step: &Step, number: u32, load_store: &LoadStoreOps) {
         let adapted = self.adapted;
         self.accesses.clear();
         self.mixed = false;
         for op in step.ops() {
             for used in adapted.uses(*op) {
                 match used.role {
-                    Role::Input => self.read_locally(used, retained.of(number)),
+                    Role::Input => self.read_locally(used, load_store.of(number)),
                     _ => self.used(used),
                 }
             }
         }
         if let Step::Scope(scope) = step {
-            for attachment in retained.of(number) {
+            for attachment in load_store.of(number) {
                 let (stages, accesses) = attachment.load_access();
                 self.also(attachment.target, stages, accesses);
                 if let Some((stages, accesses)) = attachment.store_access() {
                     self.also(attachment.target, stages, accesses);
                 }
             }
-            for op in scope.carries() {
+            for op in scope.folded_resolves() {
                 let [source, target] = adapted.uses(op) else { continue };
                 for (used, accesses) in
                     [(source, Accesses::COLOR_ATTACHMENT_READ), (target, Accesses::COLOR_ATTACHMENT_WRITE)]
@@ -74,7 +84,7 @@ impl Walk<'_> {
         }
         if !self.timeline.queues.is_one() {
             let changes = self.timeline.queues.changes(number);
-            self.accesses.extend(changes.iter().map(|(_, change)| CellAccess::of_change(change)));
+            self.accesses.extend(changes.iter().map(|(_, change)| SubresourceAccess::of_change(change)));
         }
         self.timeline.add(&self.accesses, number, true);
         if self.mixed {
@@ -84,9 +94,9 @@ impl Walk<'_> {
 
     fn used(&mut self, used: &Use) {
         let usage = usage_bits(used);
-        let access = |cell| CellAccess {
-            cell,
-            store: used.store,
+        let access = |subresource| SubresourceAccess {
+            subresource,
+            resource: used.resource,
             stages: used.stages,
             accesses: used.accesses,
             layout: used.layout,
@@ -94,7 +104,7 @@ impl Walk<'_> {
             usage,
         };
         let Walk { grids, adapted, .. } = *self;
-        adapted.for_each_cell(grids, used, |cell| self.accessed(access(cell)));
+        adapted.for_each_subresource(grids, used, |subresource| self.accessed(access(subresource)));
     }
 
     /// A local read waits only for what its scope loads. What its scope draws is made visible within the scope.
@@ -105,41 +115,37 @@ impl Walk<'_> {
         self.used(&Use { stages, accesses, ..*used });
     }
 
-    /// The source or target of a resolve that a scope carries.
+    /// The source or target of a folded resolve.
     fn resolved(&mut self, used: &Use, accesses: Accesses) {
-        let Some(image) = self.adapted.stores[used.store as usize].image() else { return };
+        let Some(image) = self.adapted.resources[used.resource as usize].image() else { return };
         let (layout, role) = match image.format.is_depth() {
             true => (Layout::DepthStencilAttachmentOptimal, Role::Depth),
             false => (Layout::ColorAttachmentOptimal, Role::Color),
         };
-        let carried = Use { stages: Stages::COLOR_ATTACHMENT_OUTPUT, accesses, layout, role, ..*used };
-        self.used(&carried);
+        let resolve_targets = Use { stages: Stages::COLOR_ATTACHMENT_OUTPUT, accesses, layout, role, ..*used };
+        self.used(&resolve_targets);
     }
 
     /// Adds the accesses of load and store operations to those of the passes.
     fn also(&mut self, target: Target, stages: Stages, accesses: Accesses) {
-        let store = &self.adapted.stores[target.store as usize];
-        let Walk { timeline, accesses: known, .. } = self;
-        let mut add = |cell: CellIndex| {
-            let at = timeline.cells[cell as usize].access as usize;
-            if let Some(access) = known.get_mut(at).filter(|access| access.cell == cell) {
+        let Walk { grids, adapted, timeline, accesses: known, .. } = self;
+        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |subresource| {
+            let at = timeline.subresources[subresource as usize].access as usize;
+            if let Some(access) = known.get_mut(at).filter(|access| access.subresource == subresource) {
                 access.stages |= stages;
                 access.accesses |= accesses;
             }
-        };
-        match store.grid(self.grids) {
-            None => add(store.first_cell),
-            Some(grid) => grid.cover(target.range).for_each(|part| add(store.first_cell + part)),
-        }
+        });
     }
 
-    /// Joins the accesses of one step to one cell. The first one says whether contents are kept.
-    fn accessed(&mut self, new: CellAccess) {
-        let cell = &mut self.timeline.cells[new.cell as usize];
-        // The index of an earlier step finds no access, or that of another cell.
-        let known = self.accesses.get_mut(cell.access as usize).filter(|known| known.cell == new.cell);
+    /// Joins the accesses of one step to one subresource. The first one says whether contents are kept.
+    fn accessed(&mut self, new: SubresourceAccess) {
+        let subresource = &mut self.timeline.subresources[new.subresource as usize];
+        // The index of an earlier step finds no access, or that of another subresource.
+        let known =
+            self.accesses.get_mut(subresource.access as usize).filter(|known| known.subresource == new.subresource);
         let Some(known) = known else {
-            cell.access = self.accesses.len() as u32;
+            subresource.access = self.accesses.len() as u32;
             return self.accesses.push(new);
         };
         known.stages |= new.stages;
@@ -153,12 +159,14 @@ impl Walk<'_> {
 
     /// Notes the uses of a step that are in another layout, because of the step's other uses, than they ask for.
     fn join_uses(&mut self, step: &Step) {
-        let Walk { grids, adapted, timeline: Timeline { cells, layouts, .. }, .. } = self;
+        let Walk { grids, adapted, timeline: AccessTimeline { subresources, layouts, .. }, .. } = self;
         for op in step.ops() {
             for at in adapted.ops[*op as usize].uses.clone() {
                 let used = &adapted.uses[at as usize];
                 let mut layout = used.layout;
-                adapted.for_each_cell(grids, used, |cell| layout = cells[cell as usize].layout);
+                adapted.for_each_subresource(grids, used, |subresource| {
+                    layout = subresources[subresource as usize].layout
+                });
                 if layout != used.layout {
                     layouts.push((at, layout));
                 }
@@ -167,7 +175,7 @@ impl Walk<'_> {
     }
 }
 
-/// The layout in which one step can use a cell that it uses in two.
+/// The layout in which one step can use a subresource that it uses in two.
 fn join_layouts(a: Layout, b: Layout) -> Layout {
     let attached = |read_only, attachment| (a, b) == (read_only, attachment) || (a, b) == (attachment, read_only);
     let planes = [

@@ -6,7 +6,7 @@ mod pass;
 mod transfers;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, Work};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View, Work};
 use crate::vulkan::Shape;
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, clears_are_finite};
@@ -35,6 +35,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         return Err(errors);
     }
     views(frame, &mut errors);
+    let has_eyes = frame.images.iter().any(|image| image.eyes.is_some());
     let has_files = frame.images.iter().any(|image| matches!(image.lifetime, Lifetime::File(_)));
     for pass in &frame.passes {
         let mut check = Check { frame, pass, errors: &mut errors };
@@ -44,17 +45,19 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             if has_files {
                 check.files();
             }
-            eyes::pass(frame, pass, &mut errors);
+            if has_eyes {
+                eyes::pass(frame, pass, &mut errors);
+            }
         }
     }
     outputs(frame, &mut errors);
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is legal that differs from a legal one in nothing but sizes and values.
+/// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let sizes = frame.images.iter().all(|image| image_problem(image).is_none());
-    if !sizes || frame.buffers.iter().any(|buffer| buffer.bytes == 0) {
+    if !sizes || frame.views.iter().any(has_no_texels) || frame.buffers.iter().any(|buffer| buffer.bytes == 0) {
         return false;
     }
     let mut errors = Vec::new();
@@ -68,10 +71,14 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
     errors.is_empty()
 }
 
+fn has_no_texels(view: &View) -> bool {
+    view.extent.contains(&0)
+}
+
 /// Each view has a name of its own and a size, and each pass one of them.
 fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     for (number, view) in frame.views.iter().enumerate() {
-        if view.extent.contains(&0) {
+        if has_no_texels(view) {
             let [width, height] = view.extent;
             let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
             errors.push(Diagnostic::new(view.span, message));
@@ -120,7 +127,7 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         }
         if let Resource::Image(image) = output.resource
             && let image = &frame.images[image.0 as usize]
-            && image.room.is_some()
+            && image.allocated.is_some()
         {
             // Of what is dumped no file says that it is an output.
             let span = if output.span == Span::NONE { image.span } else { output.span };
@@ -159,8 +166,8 @@ fn image_problem(image: &Image) -> Option<String> {
     let [width, height, depth] = image.extent;
     let largest = width.max(height).max(depth);
     let levels = largest.checked_ilog2().map_or(0, |log| log + 1);
-    let short = image.room.is_some_and(|[wide, high]| wide < width || high < height);
-    let changes = image.room.is_some();
+    let short = image.allocated.is_some_and(|[wide, high]| wide < width || high < height);
+    let changes = image.allocated.is_some();
     if image.extent.contains(&0) {
         Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
     } else if !(1..=levels).contains(&image.mips) {

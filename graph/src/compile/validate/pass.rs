@@ -142,7 +142,8 @@ impl Check<'_> {
         self.transfers();
     }
 
-    /// A part that is accessed as storage is accessed in no other way, but for being sampled as it was before.
+    /// Checks the accesses to storage images and to buffers: each reads or writes, and nothing else of the pass accesses the
+    /// same part, except that a storage image may also be sampled as it was before the pass.
     pub(super) fn storage(&mut self) {
         let pass = self.pass;
         for (at, storage) in pass.storage.iter().enumerate() {
@@ -153,7 +154,7 @@ impl Check<'_> {
             if image.samples > 1 {
                 self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
             }
-            if image.room.is_some() {
+            if image.allocated.is_some() {
                 let what =
                     format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
                 self.wrong(storage.span, &what);

@@ -9,11 +9,11 @@ pub(crate) const LARGEST_SIZE: u32 = 16384;
 /// A size is rounded down, but a product that is whole in exact arithmetic stays whole: 0.29 of 100 is 29.
 const ROUNDING: f64 = 1e-6;
 
-/// Width and height of an image, and those that it has room for if they may change.
+/// Width and height of an image, and those that are allocated if they may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Area {
     pub(crate) extent: [u32; 2],
-    pub(crate) room: Option<[u32; 2]>,
+    pub(crate) allocated: Option<[u32; 2]>,
 }
 
 /// A linear filter reads two texels in each direction, the second with weight 0 where the first is met: both must be in use, since
@@ -25,7 +25,7 @@ const LEAST_PART: u32 = 2;
 /// # Errors
 /// If it is more than an image may have.
 pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Result<Option<Area>, Diagnostic> {
-    let whole = |extent| Area { extent, room: None };
+    let whole = |extent| Area { extent, allocated: None };
     let (by, up_to, of) = match image.size.value {
         Size::Output => return Ok(Some(whole(view))),
         Size::Fixed(extent) => return Ok(Some(whole(extent))),
@@ -35,13 +35,13 @@ pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Res
     };
     let Some(base) = (if of.is_some() { followed } else { Some(whole(view)) }) else { return Ok(None) };
     let extent = scaled(image, base.extent, by)?;
-    if base.room.is_none() && up_to.is_none() {
+    if base.allocated.is_none() && up_to.is_none() {
         return Ok(Some(whole(extent)));
     }
     // What follows an image whose size changes has room for the greatest, too.
-    let room = scaled(image, base.room.unwrap_or(base.extent), up_to.unwrap_or(by))?;
-    let least = [0, 1].map(|side| extent[side].max(room[side].min(LEAST_PART)));
-    Ok(Some(Area { extent: least, room: Some(room) }))
+    let allocated = scaled(image, base.allocated.unwrap_or(base.extent), up_to.unwrap_or(by))?;
+    let least = [0, 1].map(|side| extent[side].max(allocated[side].min(LEAST_PART)));
+    Ok(Some(Area { extent: least, allocated: Some(allocated) }))
 }
 
 /// `base` times a factor, rounded down, at least 1.

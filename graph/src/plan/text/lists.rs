@@ -58,8 +58,8 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
 }
 
 pub(super) fn image(plan: &Plan, image: &Image) -> Node {
-    let room = image.room.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
-    let mut text = format!("`{}` {} {}{room}", Shown(&image.name), image.format, size(image.extent));
+    let whole = image.allocated.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
+    let mut text = format!("`{}` {} {}{whole}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
         if count > 1 {
             text += &format!(", {count} {word}");

@@ -8,9 +8,9 @@ use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValu
 use crate::plan::names::Shown;
 use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
+    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::name_of;
+use crate::vulkan::{Subresources, name_of};
 
 /// How many objects of a scene are in a draw list.
 type Objects<'p> = &'p dyn Fn(DrawList) -> usize;
@@ -301,8 +301,8 @@ impl Tree<'_> {
         Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)))
     }
 
-    /// Who needs a barrier of what `touches` tells of: a pass of the step that needs it, with the step if that is a later one.
-    fn who(self, needed_by: Option<StepId>, touches: impl Fn(&Pass) -> bool) -> String {
+    /// Who needs a barrier of what `accesses` tells of: a pass of the step that needs it, with the step if that is a later one.
+    fn who(self, needed_by: Option<StepId>, accesses: impl Fn(&Pass) -> bool) -> String {
         let step_of = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
         let Some((needed_by, step)) = needed_by.and_then(step_of) else { return "this step".to_owned() };
         let passes = match &step.work {
@@ -311,7 +311,7 @@ impl Tree<'_> {
             Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
         };
         let here = needed_by == self.id;
-        match (passes.iter().find(|pass| touches(pass)), &step.work) {
+        match (passes.iter().find(|pass| accesses(pass)), &step.work) {
             (Some(pass), _) if here => format!("`{}`", Shown(&pass.name)),
             (Some(pass), _) => format!("`{}` in step {}", Shown(&pass.name), needed_by.0),
             (None, Work::Render(_)) if here => "the end of the scope".to_owned(),

@@ -96,7 +96,7 @@ fn a_part_is_two_texels_wide_and_high_at_least_where_there_is_room() {
         outputs: ["screen"],
     )"#;
     let images = right(text, &Inputs { output_extent: [64, 36], ..INPUTS }).images;
-    let size = |at: usize| (images[at].extent, images[at].room);
+    let size = |at: usize| (images[at].extent, images[at].allocated);
     assert_eq!(size(0), ([2, 2, 1], Some([64, 36])));
     assert_eq!(size(1), ([2, 1, 1], Some([2, 1])), "there is room for no more");
 }
@@ -106,7 +106,7 @@ fn a_part_as_large_as_the_screen_is_no_image_of_the_screen() {
     // At this scale all sizes are the same: what would become one image otherwise stays two.
     let whole = planned(&frame("1", ""));
     assert!(whole.images.iter().filter(|image| image.extent == [64, 36, 1]).count() == whole.images.len());
-    assert!(whole.images.iter().filter(|image| image.room.is_none()).count() == 1);
+    assert!(whole.images.iter().filter(|image| image.allocated.is_none()).count() == 1);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn other_rooms_samples_or_passes_are_more_than_values() {
         change(&mut plan);
         first.differs_beyond_values(&plan)
     };
-    assert_eq!(changed(&|plan| plan.images[0].room = Some([130, 72])).as_deref(), Some("its images are others"));
+    assert_eq!(changed(&|plan| plan.images[0].allocated = Some([130, 72])).as_deref(), Some("its images are others"));
     assert_eq!(changed(&|plan| plan.heaps[0].bytes += 1).as_deref(), Some("its memory is cut in another way"));
     assert_eq!(changed(&|plan| drop(plan.steps.pop())).map(|said| said.contains("steps, not")), Some(true));
     assert_eq!(changed(&|plan| drop(plan.outputs.pop())).as_deref(), Some("other outputs leave it"));

@@ -53,10 +53,10 @@ fn sizes_that_change_are_a_part_of_what_there_is_room_for_and_so_are_those_that_
         let chosen = set(&[("scale", scale)]);
         let inputs = Inputs { output_extent: [1000, 30], set: &chosen, ..INPUTS };
         let frame = right(&pipeline(settings, images, ""), &inputs);
-        let size = |image: &Image| ([image.extent[0], image.extent[1]], image.room);
+        let size = |image: &Image| ([image.extent[0], image.extent[1]], image.allocated);
         frame.images[1..7].iter().map(size).collect::<Vec<_>>()
     };
-    let rooms = [Some([1500, 45]), Some([1500, 45]), Some([750, 22]), Some([750, 22]), Some([50, 4]), None];
+    let allocated = [Some([1500, 45]), Some([1500, 45]), Some([750, 22]), Some([750, 22]), Some([50, 4]), None];
     for (scale, extents) in [
         ("1", [[1000, 30], [1000, 30], [500, 15], [250, 7], [25, 2], [500, 7]]),
         ("1.5", [[1500, 45], [1500, 45], [750, 22], [375, 11], [25, 2], [750, 11]]),
@@ -64,7 +64,7 @@ fn sizes_that_change_are_a_part_of_what_there_is_room_for_and_so_are_those_that_
         // Two texels are the least where there is room for them.
         ("0.25", [[250, 7], [250, 7], [125, 3], [62, 2], [25, 2], [125, 2]]),
     ] {
-        assert_eq!(sizes(scale), extents.into_iter().zip(rooms).collect::<Vec<_>>(), "{scale}");
+        assert_eq!(sizes(scale), extents.into_iter().zip(allocated).collect::<Vec<_>>(), "{scale}");
     }
 }
 

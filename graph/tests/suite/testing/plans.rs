@@ -20,9 +20,9 @@ pub(crate) fn on(frame: &Frame, device: &Profile) -> Result<Plan, Vec<Diagnostic
     planned(frame, device, &Options::default())
 }
 
-/// The Plan of a legal frame on the device that has everything.
+/// The Plan of a valid frame on the device that has everything.
 pub(crate) fn compiled(frame: &Frame) -> Plan {
-    on(frame, &device()).unwrap_or_else(|errors| panic!("the frame is legal: {errors:?}"))
+    on(frame, &device()).unwrap_or_else(|errors| panic!("the frame is valid: {errors:?}"))
 }
 
 /// What is said of a frame that can't be compiled on the device that has everything.

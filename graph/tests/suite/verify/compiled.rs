@@ -20,7 +20,7 @@ fn options() -> [Options; 5] {
 }
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(device), options).expect("the frame is legal")
+    compile(frame, device, &mut Estimated(device), options).expect("the frame is valid")
 }
 
 /// Two versions of a multisampled image, each read by others; two outputs.

@@ -36,7 +36,7 @@ fn plan(stereo: Stereo, form: EyeForm) -> Plan {
     let transfers = vec![used(screen, false), used(kept, true)];
     frame.passes.push(Pass { transfers, ..Pass::new("keep", Described::Copy) });
     let device = raster::device();
-    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is valid");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }

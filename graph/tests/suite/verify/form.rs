@@ -49,26 +49,26 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.views.push(shifted([f64::NAN, 0.0])), "view `main` is shifted by no texel, never"),
         (|plan| plan.images[1].name = "color".into(), "`color`: has the name of another image"),
         (|plan| plan.images[0].extent[0] = 0, "`color`: is empty"),
-        (|plan| plan.images[2].room = Some([1, 4096]), "`color.resolved`: uses more than it has room for"),
-        (|plan| plan.images[2].room = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
+        (|plan| plan.images[2].allocated = Some([1, 4096]), "`color.resolved`: uses more than it has room for"),
+        (|plan| plan.images[2].allocated = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
         (
-            |plan| (plan.images[2].room, plan.images[2].mips) = (Some([4096, 4096]), 2),
+            |plan| (plan.images[2].allocated, plan.images[2].mips) = (Some([4096, 4096]), 2),
             "`color.resolved`: changes its size and is deep, a cube or has several mip levels",
         ),
         (
-            |plan| plan.images[3].room = Some([4096, 4096]),
+            |plan| plan.images[3].allocated = Some([4096, 4096]),
             "`screen`: changes its size and outlives the frame, or is used as storage",
         ),
         (
             |plan| {
                 let image = &mut plan.images[2];
-                (image.room, image.usage) = (Some([4096, 4096]), image.usage | Usage::STORAGE);
+                (image.allocated, image.usage) = (Some([4096, 4096]), image.usage | Usage::STORAGE);
             },
             "`color.resolved`: changes its size and outlives the frame, or is used as storage",
         ),
         (
             |plan| {
-                plan.images[2].room = Some([4096, 4096]);
+                plan.images[2].allocated = Some([4096, 4096]);
                 let binding = scope(plan, 1).passes[0].accesses[0].binding.as_mut().expect("it is sampled");
                 let BindingKind::Sampled(sampler) = &mut binding.kind else { panic!("it is sampled") };
                 sampler.address = AddressMode::Repeat;
@@ -77,7 +77,7 @@ fn every_mistake_of_form_is_said() {
         ),
         (
             |plan| {
-                plan.images[2].room = Some([4096, 4096]);
+                plan.images[2].allocated = Some([4096, 4096]);
                 let accesses = &mut scope(plan, 1).passes[0].accesses;
                 let sampled = accesses[0].clone();
                 accesses.extend(std::iter::repeat_n(sampled, 8));

@@ -12,7 +12,7 @@ use framewright_graph::verify::verify;
 fn a_hundred_thousand_passes_are_checked_on_a_small_stack() {
     let device = graphs::device();
     let plan = compile(&graphs::chain(100_000), &device, &mut Estimated(&device), &Options::default());
-    let mut plan = plan.expect("a chain is legal");
+    let mut plan = plan.expect("a chain is valid");
     let check = |plan: &Plan| {
         std::thread::scope(|scope| {
             let checker = std::thread::Builder::new().stack_size(128 << 10);

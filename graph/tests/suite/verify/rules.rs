@@ -3,9 +3,9 @@
 use crate::testing::hand_written_plans::build::{
     self, State, UNDEFINED, barrier, between, dispatch, step, storage, transient,
 };
-use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
+use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Subresources, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const NONE: Accesses = Accesses::empty();
@@ -213,7 +213,7 @@ fn handed_over(
 }
 
 #[test]
-fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_occupant() {
+fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_owner() {
     assert_eq!(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], None, (CS, NONE)), []);
     let [a, _] = images(1);
     let on_a = barrier(&a, (CS, WRITE), WRITES.2, (CS, NONE, WRITES.2), Hazard::WriteAfterWrite, Some(0));
@@ -237,7 +237,7 @@ fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_occupant() {
 /// The two barriers are calls that follow each other: what the first makes available is there before the second's layout
 /// change only if they form an execution dependency chain. Waiting for the writer itself isn't enough.
 #[test]
-fn an_image_barrier_goes_on_from_the_memory_barrier_that_makes_the_last_occupants_writes_available() {
+fn an_image_barrier_goes_on_from_the_memory_barrier_that_makes_the_last_owners_writes_available() {
     let chained = |to| handed_over(vec![memory((CS, WRITE), (to, NONE))], None, (CS, NONE));
     assert_eq!(chained(CS), []);
     for elsewhere in [Stages::empty(), Stages::COPY, Stages::FRAGMENT_SHADER] {

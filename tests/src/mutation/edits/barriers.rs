@@ -2,8 +2,8 @@
 
 use super::Edit;
 use crate::mutation::Kind;
-use framewright_graph::plan::{ImageBarrier, Plan, Step, Subresources};
-use framewright_graph::vulkan::{Aspects, Layout};
+use framewright_graph::plan::{ImageBarrier, Plan, Step};
+use framewright_graph::vulkan::{Aspects, Layout, Subresources};
 
 /// Everything around the work of a step.
 pub(super) fn of_step(plan: &Plan, number: usize, step: &Step, edits: &mut Vec<Edit>) {

@@ -57,11 +57,14 @@ fn shipped(
     let set = [("render_scale", scale), ("bloom", "1"), ("filter", "bilinear")];
     let setup = Setup { pipeline: "examples/pipelines/dynamic_resolution.ron", set: &set, scene: yard, extent };
     let (plan, mut executor) = draw(device, &setup, &Options { poison, ..Options::default() }, 1)?;
-    let parts = plan.images.iter().filter_map(|image| Some((image.extent, image.room?)));
-    let sides = parts.flat_map(|(part, room)| [(part[0], room[0]), (part[1], room[1])]);
+    let parts = plan.images.iter().filter_map(|image| Some((image.extent, image.allocated?)));
+    let sides = parts.flat_map(|(part, allocated)| [(part[0], allocated[0]), (part[1], allocated[1])]);
     let (least, less): (Vec<_>, Vec<_>) =
-        sides.filter(|(part, room)| *part <= 2.min(*room)).partition(|side| side.0 == 2);
-    assert!(less.iter().all(|(_, room)| *room == 1), "{scale} of {extent:?}: parts and rooms of {less:?} texels");
+        sides.filter(|(part, allocated)| *part <= 2.min(*allocated)).partition(|side| side.0 == 2);
+    assert!(
+        less.iter().all(|(_, allocated)| *allocated == 1),
+        "{scale} of {extent:?}: parts and rooms of {less:?} texels"
+    );
     Ok((executor.read(0)?.bytes, least.len()))
 }
 

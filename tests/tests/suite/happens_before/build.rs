@@ -4,9 +4,11 @@ use crate::hand_written_plans::build;
 use framewright_graph::frame::Stereo;
 use framewright_graph::plan::{
     Access, Binding, BindingKind, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId, Initial,
-    Placement, Plan, Resource, Role, Step, StepId, Subresources, Totals, Work,
+    Placement, Plan, Resource, Role, Step, StepId, Totals, Work,
 };
-use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Usage};
+use framewright_graph::vulkan::{
+    Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Subresources, Usage,
+};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
 pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;

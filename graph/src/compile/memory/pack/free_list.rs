@@ -1,5 +1,5 @@
-//! A free list: memory from offset 0 upwards, cut into ranges that are allocated or free. Allocating and freeing take constant
-//! time.
+//! A free list: memory from offset 0 upwards, cut into ranges that are allocated or free. Allocating and freeing take
+//! constant time.
 //!
 //! Ranges are linked in the order of offsets, so that a free one finds its neighbours. Free ones are listed by size, eight
 //! lists for each power of two.

@@ -6,7 +6,7 @@ use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Stereo};
 use framewright_graph::plan::*;
 use framewright_graph::vulkan::{
     self, Accesses, BufferUsage, Filter, Format, Layout, LoadOp, Rotation, Sampler, Shape, Sharing, Stages, StoreOp,
-    Usage,
+    Subresources, Usage,
 };
 
 /// A stage, an access and a layout.
@@ -52,7 +52,7 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         chosen: None,
         shape: Shape::D2,
         extent: SIZE,
-        room: None,
+        allocated: None,
         rotation: Rotation::Identity,
         eyes: None,
         mips: 1,

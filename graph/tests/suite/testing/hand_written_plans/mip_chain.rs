@@ -3,7 +3,7 @@
 use super::build::*;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vulkan::{Accesses, Filter, Format, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, Filter, Format, Layout, LoadOp, Stages, StoreOp, Subresources, Usage};
 
 const FORMAT: Format = Format::R16G16B16A16_SFLOAT;
 

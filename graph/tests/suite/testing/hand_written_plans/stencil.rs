@@ -5,7 +5,7 @@ use super::build::*;
 use framewright_graph::frame::{Blend, Draw, DrawList, StencilState};
 use framewright_graph::plan::*;
 use framewright_graph::vulkan::{
-    Accesses, Aspects, CompareOp, Format, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage,
+    Accesses, Aspects, CompareOp, Format, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 const READ: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;

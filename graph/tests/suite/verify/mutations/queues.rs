@@ -2,9 +2,9 @@
 
 use super::{Mutant, UNCHANGED, catch_all, mutants, nth};
 use crate::testing::hand_written_plans::{self, recount};
-use framewright_graph::plan::{Plan, Queue, Role, StepId, Subresources};
+use framewright_graph::plan::{Plan, Queue, Role, StepId};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{Accesses, Layout, Stages, State};
+use framewright_graph::vulkan::{Accesses, Layout, Stages, State, Subresources};
 
 fn without_a_wait(plan: &Plan) -> Vec<Mutant> {
     mutants(plan, |plan, place| {

@@ -6,7 +6,7 @@ use crate::vulkan::Layout;
 
 /// Accesses, layout, owner and contents of one part of an image, or of a buffer.
 #[derive(Debug, Clone)]
-pub(super) struct Cell<const Q: usize> {
+pub(super) struct SubresourceState<const Q: usize> {
     /// The layout it is in; of buffers always `UNDEFINED`.
     pub(super) layout: Layout,
     /// A mistake was reported that concerns the last writes: what follows from it isn't reported again.
@@ -23,13 +23,13 @@ pub(super) struct Cell<const Q: usize> {
     pub(super) filled: Time,
     /// The last scope that wrote it as an attachment: what else that scope does to it follows in rasterisation order.
     pub(super) rasterised: Time,
-    /// Which occupation of its memory it belongs to; 0 for none yet.
-    pub(super) occupation: u32,
+    /// How often its memory had changed hands when it got it; 0 for none yet.
+    pub(super) generation: u32,
 }
 
-impl<const Q: usize> Cell<Q> {
+impl<const Q: usize> SubresourceState<Q> {
     /// Nothing has happened yet.
-    pub(super) const FRESH: Cell<Q> = Cell {
+    pub(super) const FRESH: SubresourceState<Q> = SubresourceState {
         layout: Layout::Undefined,
         excused: false,
         owner: Owner::Anyone,
@@ -38,7 +38,7 @@ impl<const Q: usize> Cell<Q> {
         contents: Contents::Unwritten,
         filled: 0,
         rasterised: 0,
-        occupation: 0,
+        generation: 0,
     };
 
     /// An access by `pairs` of `queue`. A write replaces what earlier steps did; the pairs of one step stand side by side.
@@ -60,7 +60,7 @@ impl<const Q: usize> Cell<Q> {
         }
     }
 
-    /// When it was last touched.
+    /// When it was last accessed.
     pub(super) fn last(&self) -> Time {
         self.reads.iter().map(|read| read.time).fold(self.write.time, Time::max)
     }

@@ -11,11 +11,12 @@
 use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
+use super::work::mip_extent;
 use crate::frame::{Blend, Draw};
-use crate::plan::{
-    Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Subresources, Transfer, Work,
+use crate::plan::{self, Attachment, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
+use crate::vulkan::{
+    Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
-use crate::vulkan::{Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
 
 /// How an access is kept apart from others of its step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +47,7 @@ pub(super) mod does {
 
 /// An access to an image, before it is numbered.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ImageTouch {
+pub(super) struct ImageAccess {
     pub(super) image: ImageId,
     pub(super) range: Subresources,
     pub(super) layout: Layout,
@@ -60,7 +61,7 @@ pub(super) struct ImageTouch {
 
 /// An access to a buffer, before it is numbered.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BufferTouch {
+pub(super) struct BufferAccess {
     pub(super) buffer: BufferId,
     pub(super) stages: StageSet,
     pub(super) pairs: PairSet,
@@ -75,7 +76,7 @@ pub(super) const ATTACHMENT: Accesses = Accesses::COLOR_ATTACHMENT_READ
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_READ)
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-/// Lists what `work` touches, in the order in which it happens.
+/// Lists what `work` accesses, in the order in which it happens.
 pub(super) fn list(work: &Work, to: &mut Builder) {
     match work {
         Work::Render(scope) => render(scope, to),
@@ -104,9 +105,7 @@ fn both(transfer: &Transfer, stages: Stages, to: &mut Builder) {
 /// The target of a transfer: what doesn't reach all of it leaves the rest as it was.
 fn written(target: &Side, stages: Stages, to: &mut Builder) {
     let whole = match *target {
-        Side::Image { image, range, extent, .. } => {
-            extent == to.plan.image(image).extent.map(|texels| texels.checked_shr(range.base_mip).unwrap_or(0).max(1))
-        }
+        Side::Image { image, range, extent, .. } => extent == mip_extent(to.plan.image(image), range.base_mip),
         Side::Buffer { buffer, bytes } => bytes == to.plan.buffers[buffer.0 as usize].bytes,
     };
     let contents = if whole { does::FILL } else { does::ADD };
@@ -119,11 +118,11 @@ fn side(side: &Side, stages: Stages, accesses: Accesses, usage: [u32; 2], conten
     match *side {
         Side::Image { image, range, layout, .. } => {
             let usage = Usage::from_bits_truncate(usage[0]);
-            to.image(ImageTouch { image, range, layout, stages, pairs, kind: Kind::Plain, contents, usage });
+            to.image(ImageAccess { image, range, layout, stages, pairs, kind: Kind::Plain, contents, usage });
         }
         Side::Buffer { buffer, .. } => {
             let usage = BufferUsage::from_bits_truncate(usage[1]);
-            to.buffer(BufferTouch { buffer, stages, pairs, contents, usage });
+            to.buffer(BufferAccess { buffer, stages, pairs, contents, usage });
         }
     }
 }
@@ -188,7 +187,7 @@ const COLOR_LOAD: (Stages, Accesses, Accesses) =
 const DEPTH_LOAD: (Stages, Accesses, Accesses) =
     (Stages::EARLY_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_READ, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8) -> ImageTouch {
+fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8) -> ImageAccess {
     part_attached((attachment.image, attachment.range, attachment.layout), color, stages, accesses, contents)
 }
 
@@ -198,15 +197,15 @@ fn part_attached(
     stages: Stages,
     accesses: Accesses,
     contents: u8,
-) -> ImageTouch {
+) -> ImageAccess {
     let usage = if color { Usage::COLOR_ATTACHMENT } else { Usage::DEPTH_STENCIL_ATTACHMENT };
     let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
-    ImageTouch { image, range, layout, stages, pairs, kind: Kind::Attachment, contents, usage }
+    ImageAccess { image, range, layout, stages, pairs, kind: Kind::Attachment, contents, usage }
 }
 
 fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
     for access in &pass.accesses {
-        let Access { image, range, layout, .. } = *access;
+        let plan::Access { image, range, layout, .. } = *access;
         let (stages, pairs) = (StageSet::of(access.stages), PairSet::of(access.stages, access.accesses));
         let attachment = access.accesses.intersects(ATTACHMENT);
         let own = || to.drawn.iter().any(|(drawn, part)| *drawn == image && overlap(*part, range));
@@ -224,20 +223,20 @@ fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
             (false, Some(_)) => does::ADD,
         };
         let usage = image_usage(access.accesses, to.plan.image(image).format.is_depth());
-        to.image(ImageTouch { image, range, layout, stages, pairs, kind, contents: read | write, usage });
+        to.image(ImageAccess { image, range, layout, stages, pairs, kind, contents: read | write, usage });
     }
     for access in &pass.buffers {
-        let BufferAccess { buffer, stages, accesses, .. } = *access;
+        let plan::BufferAccess { buffer, stages, accesses, .. } = *access;
         let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
         let read = if pairs.reads().is_empty() { 0 } else { does::READ };
         let write = if pairs.writes().is_empty() { 0 } else { does::FILL };
         let usage = buffer_usage(accesses);
-        to.buffer(BufferTouch { buffer, stages, pairs, contents: read | write, usage });
+        to.buffer(BufferAccess { buffer, stages, pairs, contents: read | write, usage });
     }
 }
 
 /// Whether a draw is sure to set every texel of its attachment.
-fn replaces(scope: &RenderScope, pass: &Pass, access: &Access) -> bool {
+fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
     let untested = pass.depth.is_none_or(|depth| depth.test == CompareOp::Always);
     let unmasked = pass.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
     let same = |attachment: &Attachment| attachment.image == access.image && attachment.range == access.range;

@@ -2,7 +2,7 @@
 
 use super::adapter::Adapter;
 use super::demote::copies_samples;
-use crate::compile::model::{Kind, MemorySource, Store, StoreIndex, Use};
+use crate::compile::model::{Kind, MemorySource, PhysicalIndex, PhysicalResource, Use};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::Inserted;
@@ -11,20 +11,20 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Numbers physical images of one name, as an image gets that others are forwarded to; the last one keeps the name.
-pub(super) fn distinct_names(frame: &Frame, stores: &mut [Store]) {
+pub(super) fn distinct_names(frame: &Frame, resources: &mut [PhysicalResource]) {
     let own = |of: Resource| match of {
         Resource::Image(image) => &frame.images[image.0 as usize].name,
         Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
     };
-    let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(stores.len());
-    for store in stores.iter_mut().rev() {
-        let name = store.renamed.as_ref().unwrap_or(own(store.of)).clone();
+    let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(resources.len());
+    for resource in resources.iter_mut().rev() {
+        let name = resource.renamed.as_ref().unwrap_or(own(resource.of)).clone();
         let mut shown = name.clone();
         while let Some(number) = used.get_mut(&shown) {
             // Counting goes on where it stopped: many images may have one name.
             *number += 1;
             shown = format!("{name} ({number})").into();
-            store.renamed = Some(shown.clone());
+            resource.renamed = Some(shown.clone());
         }
         used.insert(shown, 1);
     }
@@ -33,27 +33,27 @@ pub(super) fn distinct_names(frame: &Frame, stores: &mut [Store]) {
 impl Adapter<'_> {
     /// The physical image with the current version; there is one, since `link` saw a version.
     #[inline]
-    pub(super) fn current(&mut self, image: ImageIndex) -> StoreIndex {
-        match self.store_of[image.0 as usize] {
-            Some(store) => store,
-            None => self.first_store(image),
+    pub(super) fn current(&mut self, image: ImageIndex) -> PhysicalIndex {
+        match self.resource_of[image.0 as usize] {
+            Some(resource) => resource,
+            None => self.first_resource(image),
         }
     }
 
     /// The samples of an image's current version.
     pub(super) fn current_samples(&mut self, image: ImageIndex) -> u32 {
-        let store = self.current(image);
-        self.samples(store)
+        let resource = self.current(image);
+        self.samples(resource)
     }
 
     /// The samples of a physical image.
-    pub(super) fn samples(&self, store: StoreIndex) -> u32 {
-        self.adapted.stores[store as usize].image().map_or(1, |descriptor| descriptor.samples)
+    pub(super) fn samples(&self, resource: PhysicalIndex) -> u32 {
+        self.adapted.resources[resource as usize].image().map_or(1, |descriptor| descriptor.samples)
     }
 
     /// By how much what a physical image holds is turned.
-    pub(super) fn rotation(&self, store: StoreIndex) -> Rotation {
-        match self.adapted.stores[store as usize].of {
+    pub(super) fn rotation(&self, resource: PhysicalIndex) -> Rotation {
+        match self.adapted.resources[resource as usize].of {
             Resource::Image(image) => self.input.frame.images[image.0 as usize].rotation,
             Resource::Buffer(_) => Rotation::Identity,
         }
@@ -61,9 +61,9 @@ impl Adapter<'_> {
 
     /// The physical image that takes the next version: another one if nothing is kept and the last draws moved to fewer
     /// samples.
-    pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> StoreIndex {
+    pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> PhysicalIndex {
         let wanted = self.input.negotiated.samples(image);
-        if !keeps && self.store_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
+        if !keeps && self.resource_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
             let declared = &self.input.frame.images[image.0 as usize];
             let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
             let why = self.reason(because, declared.span);
@@ -73,95 +73,98 @@ impl Adapter<'_> {
     }
 
     /// The physical image with the current version, which is about to change.
-    pub(super) fn continued(&mut self, image: ImageIndex) -> StoreIndex {
-        let store = self.current(image);
-        self.resolved_of[store as usize] = None;
-        self.redrawn_of[store as usize] = None;
-        store
+    pub(super) fn continued(&mut self, image: ImageIndex) -> PhysicalIndex {
+        let resource = self.current(image);
+        self.resolved_of[resource as usize] = None;
+        self.redrawn_of[resource as usize] = None;
+        resource
     }
 
-    fn first_store(&mut self, image: ImageIndex) -> StoreIndex {
+    fn first_resource(&mut self, image: ImageIndex) -> PhysicalIndex {
         let declared = &self.input.frame.images[image.0 as usize];
         let samples = self.input.negotiated.samples(image);
         let (name, lifetime) = (&declared.name, &declared.lifetime);
         let first = self.add_lives(Resource::Image(image), name, lifetime, |adapter| adapter.add_image(image, samples));
-        self.store_of[image.0 as usize] = Some(first);
+        self.resource_of[image.0 as usize] = Some(first);
         first
     }
 
     /// The physical buffer that holds what a buffer held some frames ago.
-    pub(super) fn buffer(&mut self, buffer: BufferIndex, frames_ago: u32) -> StoreIndex {
-        let first = match self.buffer_store_of[buffer.0 as usize] {
-            Some(store) => store,
+    pub(super) fn buffer(&mut self, buffer: BufferIndex, frames_ago: u32) -> PhysicalIndex {
+        let first = match self.buffer_resource_of[buffer.0 as usize] {
+            Some(resource) => resource,
             None => {
                 let declared = &self.input.frame.buffers[buffer.0 as usize];
                 let (name, lifetime) = (&declared.name, &declared.lifetime);
                 self.add_lives(Resource::Buffer(buffer), name, lifetime, |adapter| adapter.add_buffer(buffer))
             }
         };
-        self.buffer_store_of[buffer.0 as usize] = Some(first);
+        self.buffer_resource_of[buffer.0 as usize] = Some(first);
         first + frames_ago
     }
 
-    /// Adds the stores that a lifetime takes: one, or with history one for each frame, the newest first.
+    /// Adds the resources that a lifetime takes: one, or with history one for each frame, the newest first.
     fn add_lives(
         &mut self,
         of: Resource,
         name: &Arc<str>,
         lifetime: &Lifetime,
-        mut add: impl FnMut(&mut Self) -> StoreIndex,
-    ) -> StoreIndex {
+        mut add: impl FnMut(&mut Self) -> PhysicalIndex,
+    ) -> PhysicalIndex {
         let first = add(self);
         let persistent =
-            |initial: FillValue, becomes: StoreIndex| MemorySource::Persistent { becomes, initial: Some(initial) };
+            |initial: FillValue, becomes: PhysicalIndex| MemorySource::Persistent { becomes, initial: Some(initial) };
         match *lifetime {
             Lifetime::Transient => {}
-            Lifetime::Persistent { initial } => self.adapted.stores[first as usize].memory = persistent(initial, first),
+            Lifetime::Persistent { initial } => {
+                self.adapted.resources[first as usize].memory = persistent(initial, first)
+            }
             Lifetime::History { frames, initial } => {
                 for ago in 1..=frames {
                     let older = add(self);
                     let words = if ago == 1 { "1 frame ago".to_owned() } else { format!("{ago} frames ago") };
-                    self.adapted.stores[older as usize].renamed = Some(format!("{name} ({words})").into());
+                    self.adapted.resources[older as usize].renamed = Some(format!("{name} ({words})").into());
                     self.renamed = true;
                 }
-                for store in first..=first + frames {
-                    let becomes = if store == first + frames { first } else { store + 1 };
-                    self.adapted.stores[store as usize].memory = persistent(initial, becomes);
+                for resource in first..=first + frames {
+                    let becomes = if resource == first + frames { first } else { resource + 1 };
+                    self.adapted.resources[resource as usize].memory = persistent(initial, becomes);
                 }
             }
             Lifetime::File(_) => {
-                self.adapted.stores[first as usize].memory = MemorySource::Persistent { becomes: first, initial: None };
+                self.adapted.resources[first as usize].memory =
+                    MemorySource::Persistent { becomes: first, initial: None };
             }
             Lifetime::Imported { before, after } => {
-                let store = &mut self.adapted.stores[first as usize];
-                (store.memory, store.after) = (MemorySource::Imported { before }, after);
+                let resource = &mut self.adapted.resources[first as usize];
+                (resource.memory, resource.after) = (MemorySource::Imported { before }, after);
             }
         }
-        debug_assert_eq!(self.adapted.stores[first as usize].of, of);
+        debug_assert_eq!(self.adapted.resources[first as usize].of, of);
         first
     }
 
     /// A further physical image for `image`, which holds no version yet.
-    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> StoreIndex {
+    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> PhysicalIndex {
         let count = self.inserted_for.entry(image).or_insert(0);
         *count += 1;
         let name = &self.input.frame.images[image.0 as usize].name;
         let name = if *count == 1 { format!("{name} ({what})") } else { format!("{name} ({what} {count})") };
         self.renamed = true;
-        let store = self.add_image(image, samples);
-        let made = &mut self.adapted.stores[store as usize];
+        let resource = self.add_image(image, samples);
+        let made = &mut self.adapted.resources[resource as usize];
         (made.renamed, made.inserted) = (Some(name.into()), Some(why));
-        store
+        resource
     }
 
     /// A further physical image for `image`, which takes its next version.
-    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> StoreIndex {
-        let store = self.second(image, what, why, samples);
-        self.store_of[image.0 as usize] = Some(store);
-        store
+    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> PhysicalIndex {
+        let resource = self.second(image, what, why, samples);
+        self.resource_of[image.0 as usize] = Some(resource);
+        resource
     }
 
-    fn add_image(&mut self, image: ImageIndex, samples: u32) -> StoreIndex {
+    fn add_image(&mut self, image: ImageIndex, samples: u32) -> PhysicalIndex {
         let declared = &self.input.frame.images[image.0 as usize];
         let descriptor = ImageDescriptor {
             format: declared.format,
@@ -173,27 +176,27 @@ impl Adapter<'_> {
             usage: Usage::empty(),
             sharing: Sharing::Exclusive,
         };
-        let cells = self.input.grids.of(image).map_or(1, |grid| grid.len());
+        let subresources = self.input.grids.of(image).map_or(1, |grid| grid.len());
         self.images += 1;
-        let store = self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), cells);
-        self.adapted.stores[store as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
-        self.adapted.rooms.extend(declared.room.map(|room| (store, room)));
-        self.adapted.eyes.extend(declared.eyes.map(|form| (store, (form, declared.rotation))));
-        store
+        let resource = self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), subresources);
+        self.adapted.resources[resource as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
+        self.adapted.allocated.extend(declared.allocated.map(|allocated| (resource, allocated)));
+        self.adapted.eyes.extend(declared.eyes.map(|form| (resource, (form, declared.rotation))));
+        resource
     }
 
-    fn add_buffer(&mut self, buffer: BufferIndex) -> StoreIndex {
+    fn add_buffer(&mut self, buffer: BufferIndex) -> PhysicalIndex {
         let bytes = self.input.frame.buffers[buffer.0 as usize].bytes;
         let descriptor = BufferDescriptor { bytes, usage: BufferUsage::empty(), sharing: Sharing::Exclusive };
         self.buffers += 1;
         self.add(Resource::Buffer(buffer), self.buffers - 1, Kind::Buffer(descriptor), 1)
     }
 
-    fn add(&mut self, of: Resource, id: u32, kind: Kind, cells: u32) -> StoreIndex {
+    fn add(&mut self, of: Resource, id: u32, kind: Kind, subresources: u32) -> PhysicalIndex {
         self.resolved_of.push(None);
         self.redrawn_of.push(None);
         self.drawn.push(false);
-        self.adapted.stores.push(Store {
+        self.adapted.resources.push(PhysicalResource {
             id,
             of,
             renamed: None,
@@ -202,14 +205,14 @@ impl Adapter<'_> {
             usual: None,
             memory: MemorySource::Transient,
             after: None,
-            first_cell: self.adapted.cells,
+            first_subresource: self.adapted.subresources,
         });
-        self.adapted.cells += cells;
-        self.adapted.stores.len() as StoreIndex - 1
+        self.adapted.subresources += subresources;
+        self.adapted.resources.len() as PhysicalIndex - 1
     }
 
-    /// The store that a pass transfers, and which part of it; a multisampled source is resolved first.
-    pub(super) fn transferred(&mut self, pass: &Pass, used: &TransferUse) -> Option<(StoreIndex, u32)> {
+    /// The resource that a pass transfers, and which part of it; a multisampled source is resolved first.
+    pub(super) fn transferred(&mut self, pass: &Pass, used: &TransferUse) -> Option<(PhysicalIndex, u32)> {
         let image = match used.resource {
             Resource::Buffer(buffer) => return Some((self.buffer(buffer, used.frames_ago), Use::ALL)),
             Resource::Image(image) => image,
@@ -233,30 +236,30 @@ impl Adapter<'_> {
     pub(super) fn output(&mut self, output: &Output) {
         let image = match output.resource {
             Resource::Buffer(buffer) => {
-                let store = self.buffer(buffer, 0);
-                return self.leaves(store, output);
+                let resource = self.buffer(buffer, 0);
+                return self.leaves(resource, output);
             }
             Resource::Image(image) => image,
         };
         let declared = &self.input.frame.images[image.0 as usize];
         let count = self.current_samples(image);
         let because = format!("`{}` is an output and has {count} samples", declared.name);
-        let store = match count {
+        let resource = match count {
             1 => self.current(image),
             _ => match self.resolved_as_it_is(image, because, output.span) {
                 Some(resolved) => resolved,
                 None => return,
             },
         };
-        self.leaves(store, output);
+        self.leaves(resource, output);
     }
 
-    fn leaves(&mut self, store: StoreIndex, output: &Output) {
-        let leaving = &mut self.adapted.stores[store as usize];
+    fn leaves(&mut self, resource: PhysicalIndex, output: &Output) {
+        let leaving = &mut self.adapted.resources[resource as usize];
         if leaving.is_transient() {
             leaving.memory = MemorySource::Output;
         }
         leaving.after = output.after.or(leaving.after);
-        self.adapted.outputs.push(store);
+        self.adapted.outputs.push(resource);
     }
 }

@@ -1,62 +1,59 @@
 //! Whether a pass can join the rendering scope before it.
 
 use super::step::{Scope, Target, colors_of, plane_of};
-use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
 use crate::frame::TargetShape;
 
-/// Whether a pass joins the scope before it.
-pub(super) enum Meeting {
-    Merge,
-    Apart(Option<Refusal>),
-}
-
-/// Why it doesn't.
+/// Why a pass can't join the scope before it.
 pub(super) enum Refusal {
     OtherAttachments,
-    Clears(StoreIndex),
-    Samples(StoreIndex),
-    Uses(StoreIndex),
-    Writes(StoreIndex),
-    Resolved(StoreIndex),
+    Clears(PhysicalIndex),
+    Samples(PhysicalIndex),
+    Uses(PhysicalIndex),
+    Writes(PhysicalIndex),
+    Resolved(PhysicalIndex),
 }
 
 impl Refusal {
     /// A pass needs what the scope before it writes.
     fn needing(used: &Use) -> Refusal {
-        if used.role == Role::Sampled { Refusal::Samples(used.store) } else { Refusal::Uses(used.store) }
+        if used.role == Role::Sampled { Refusal::Samples(used.resource) } else { Refusal::Uses(used.resource) }
     }
 }
 
 impl Scope {
-    pub(super) fn compare(
+    /// Whether a pass with these uses can join; if not, why, unless it has nothing in common with the scope.
+    pub(super) fn can_join(
         &self,
         adapted: &Adapted,
         uses: &[Use],
         most_colors: usize,
         local: impl Fn(&Use) -> bool,
         clashes: impl Fn(&Use) -> bool,
-    ) -> Meeting {
+    ) -> Result<(), Option<Refusal>> {
         let attached = |used: &Use| self.attaches(adapted, used);
         let reads_locally = uses.iter().any(&local);
         let shares = reads_locally || uses.iter().any(|used| used.role.is_attachment() && attached(used));
-        let refuse = |why| Meeting::Apart(Some(why));
+        let refuse = |why| Err(Some(why));
         let from_memory = |used: &&Use| !used.role.is_attachment() && !local(used);
         if let Some(used) = uses.iter().filter(from_memory).find(|used| self.overlaps(adapted, used)) {
             return refuse(Refusal::needing(used));
         }
-        if let Some(used) = self.carried(adapted).find_map(|store| uses.iter().find(|used| used.store == store)) {
+        if let Some(used) =
+            self.resolve_targets(adapted).find_map(|resource| uses.iter().find(|used| used.resource == resource))
+        {
             return refuse(Refusal::needing(used));
         }
         if !shares {
-            return Meeting::Apart(None);
+            return Err(None);
         }
         let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
             (Some(a), Some(b)) => a == b,
             _ => true,
         };
         let one_image = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
-            (Some(a), Some(b)) => a.store == b.store,
+            (Some(a), Some(b)) => a.resource == b.resource,
             _ => true,
         };
         let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
@@ -67,42 +64,46 @@ impl Scope {
             return refuse(Refusal::OtherAttachments);
         }
         // Depth that a pass covers is no reason to leave the scope whose colour it goes on with.
-        let goes_on = uses.iter().any(|used| used.role == Role::Color && used.start == Start::Keep && attached(used));
-        let starts_anew = |used: &Use| match used.start {
-            Start::Keep => false,
-            Start::Clear => true,
-            Start::Discard => used.role == Role::Color || !goes_on,
+        let goes_on = uses
+            .iter()
+            .any(|used| used.role == Role::Color && used.contents == InitialContents::Keep && attached(used));
+        let starts_anew = |used: &Use| match used.contents {
+            InitialContents::Keep => false,
+            InitialContents::Clear => true,
+            InitialContents::Discard => used.role == Role::Color || !goes_on,
         };
         for used in uses.iter().filter(|used| !local(used)) {
             if used.role.is_attachment() && starts_anew(used) && attached(used) {
-                return refuse(Refusal::Clears(used.store));
+                return refuse(Refusal::Clears(used.resource));
             }
             if clashes(used) {
-                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::needing(used) });
+                return refuse(if used.writes { Refusal::Writes(used.resource) } else { Refusal::needing(used) });
             }
         }
-        match self.carries().next() {
-            Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].store)),
-            None => Meeting::Merge,
+        match self.folded_resolves().next() {
+            Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].resource)),
+            None => Ok(()),
         }
     }
 
-    /// The resolve operations that it carries.
-    pub(crate) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
+    /// The resolve operations folded into its end.
+    pub(crate) fn folded_resolves(&self) -> impl Iterator<Item = u32> + '_ {
         self.resolves.iter().chain([&self.depth_resolve]).flatten().copied()
     }
 
     /// Where the resolve of an attachment is noted.
-    pub(super) fn resolve_of(&mut self, attachment: StoreIndex) -> Option<&mut Option<u32>> {
-        match self.color.iter().position(|color| color.store == attachment) {
+    pub(super) fn resolve_of(&mut self, attachment: PhysicalIndex) -> Option<&mut Option<u32>> {
+        match self.color.iter().position(|color| color.resource == attachment) {
             Some(location) => self.resolves.get_mut(location),
-            None => Some(&mut self.depth_resolve).filter(|_| self.depth.is_some_and(|depth| depth.store == attachment)),
+            None => {
+                Some(&mut self.depth_resolve).filter(|_| self.depth.is_some_and(|depth| depth.resource == attachment))
+            }
         }
     }
 
-    /// Targets of the resolves that it carries.
-    pub(super) fn carried<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = StoreIndex> + 'a {
-        self.carries().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.store)
+    /// Targets of its folded resolves.
+    pub(super) fn resolve_targets<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = PhysicalIndex> + 'a {
+        self.folded_resolves().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.resource)
     }
 
     /// All attachments.
@@ -119,7 +120,7 @@ impl Scope {
     /// Whether a use is about some of what is attached.
     pub(super) fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
         let range = adapted.range(used);
-        self.targets().any(|ours| ours.store == used.store && ours.range.overlaps(range))
+        self.targets().any(|ours| ours.resource == used.resource && ours.range.overlaps(range))
     }
 
     fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
@@ -133,10 +134,10 @@ impl Scope {
 
 /// What the attachments of one scope have in common, as the device makes them.
 fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
-    let image = adapted.stores[target.store as usize].image()?;
-    let (room, eyes) = (adapted.room(target.store), adapted.eyes(target.store));
+    let image = adapted.resources[target.resource as usize].image()?;
+    let (allocated, eyes) = (adapted.allocated(target.resource), adapted.eyes(target.resource));
     let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);
-    Some(TargetShape { extent, room, eyes, layers, samples: image.samples })
+    Some(TargetShape { extent, allocated, eyes, layers, samples: image.samples })
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that
@@ -148,7 +149,7 @@ pub(crate) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> 
     order.iter().filter_map(move |op| {
         match &adapted.ops[*op as usize].kind {
             draw if draw.draws() => {}
-            // A scope may carry it.
+            // It may be folded into a scope.
             OpKind::Resolve { .. } => return None,
             _ => {
                 before = None;

@@ -1,14 +1,14 @@
 //! Cells while the steps are walked, and the barriers before their accesses.
 
-use crate::compile::model::{CellIndex, StoreIndex};
+use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::compile::queues::LayoutChange;
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Layout, Stages};
 
-/// The accesses to a cell since the last barrier: one write, or reads in one layout.
+/// The accesses to a subresource since the last barrier: one write, or reads in one layout.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CellState {
+pub(super) struct SubresourceState {
     pub(super) stages: Stages,
     pub(super) accesses: Accesses,
     /// Usage bits of all steps, of an image or a buffer.
@@ -26,8 +26,8 @@ pub(super) struct CellState {
     pub(super) layout: Layout,
 }
 
-impl CellState {
-    pub(super) const UNTOUCHED: CellState = CellState {
+impl SubresourceState {
+    pub(super) const UNUSED: SubresourceState = SubresourceState {
         stages: Stages::empty(),
         accesses: Accesses::empty(),
         usage: 0,
@@ -39,7 +39,7 @@ impl CellState {
         layout: Layout::Undefined,
     };
 
-    pub(super) fn is_touched(&self) -> bool {
+    pub(super) fn is_used(&self) -> bool {
         self.last != NEVER
     }
 
@@ -48,14 +48,14 @@ impl CellState {
     }
 
     /// Whether an access reads it in the same layout.
-    pub(super) fn is_read_on(&self, access: &CellAccess) -> bool {
-        self.is_touched() && !access.writes() && self.layout == access.layout
+    pub(super) fn has_layout_for_read(&self, access: &SubresourceAccess) -> bool {
+        self.is_used() && !access.writes() && self.layout == access.layout
     }
 
     /// The hazard that an access after this one must be kept from.
-    pub(super) fn hazard(&self, access: &CellAccess) -> Hazard {
+    pub(super) fn hazard(&self, access: &SubresourceAccess) -> Hazard {
         match (self.writes(), access.writes()) {
-            _ if !self.is_touched() => Hazard::FirstUse,
+            _ if !self.is_used() => Hazard::FirstUse,
             (true, false) => Hazard::ReadAfterWrite,
             (true, true) => Hazard::WriteAfterWrite,
             (false, true) => Hazard::WriteAfterRead,
@@ -64,11 +64,11 @@ impl CellState {
     }
 }
 
-/// All accesses of one step to one cell.
+/// All accesses of one step to one subresource.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CellAccess {
-    pub(super) cell: CellIndex,
-    pub(super) store: StoreIndex,
+pub(super) struct SubresourceAccess {
+    pub(super) subresource: SubresourceIndex,
+    pub(super) resource: PhysicalIndex,
     pub(super) stages: Stages,
     pub(super) accesses: Accesses,
     pub(super) layout: Layout,
@@ -77,12 +77,12 @@ pub(super) struct CellAccess {
     pub(super) usage: u32,
 }
 
-impl CellAccess {
+impl SubresourceAccess {
     /// A change of layout alone.
-    pub(super) fn of_change(change: &LayoutChange) -> CellAccess {
-        let LayoutChange { cell, store, layout } = *change;
+    pub(super) fn of_change(change: &LayoutChange) -> SubresourceAccess {
+        let LayoutChange { subresource, resource, layout } = *change;
         let (stages, accesses) = (Stages::empty(), Accesses::empty());
-        CellAccess { cell, store, stages, accesses, layout, keeps: true, usage: 0 }
+        SubresourceAccess { subresource, resource, stages, accesses, layout, keeps: true, usage: 0 }
     }
 
     pub(super) fn writes(&self) -> bool {
@@ -90,11 +90,11 @@ impl CellAccess {
     }
 }
 
-/// A barrier of one cell.
+/// A barrier of one subresource.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::compile) struct CellBarrier {
-    pub(in crate::compile) cell: CellIndex,
-    pub(in crate::compile) store: StoreIndex,
+pub(in crate::compile) struct SubresourceBarrier {
+    pub(in crate::compile) subresource: SubresourceIndex,
+    pub(in crate::compile) resource: PhysicalIndex,
     /// The step before which it must stand; `NEVER` if it is not needed after all.
     pub(in crate::compile) step: u32,
     /// The step behind which it must stand; `NEVER` if none of this frame.
@@ -110,18 +110,18 @@ pub(in crate::compile) struct CellBarrier {
     pub(in crate::compile) keeps: bool,
 }
 
-impl CellBarrier {
+impl SubresourceBarrier {
     /// A barrier before an access. `after`: the stages and writes that it waits for, and the step that they end with.
     pub(super) fn before(
-        access: &CellAccess,
+        access: &SubresourceAccess,
         step: u32,
         ((src_stages, src_accesses), after): ((Stages, Accesses), u32),
         old_layout: Layout,
         hazard: Hazard,
-    ) -> CellBarrier {
-        CellBarrier {
-            cell: access.cell,
-            store: access.store,
+    ) -> SubresourceBarrier {
+        SubresourceBarrier {
+            subresource: access.subresource,
+            resource: access.resource,
             step,
             after,
             src_stages,
