@@ -1,8 +1,10 @@
 //! `run`: pictures, reports and dumps from real drivers, under real validation layers.
 
 use crate::testing::{Outcome, Place, Vulkan, shipped_pipelines};
+use framewright_tests::sweep;
 use image::{GenericImageView, Rgb, RgbImage};
 use serde_json::Value;
+use std::collections::HashMap;
 use std::path::Path;
 
 const SIZE: [u32; 2] = [160, 90];
@@ -61,32 +63,35 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
         &["--order", "low-memory"],
         &["--order", "random:7"],
     ];
-    for pipeline in &shipped_pipelines() {
-        let frames = ["--frames", "3"];
-        let file = ["-o", "plain.png"];
-        let Some(plain) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&frames[..], &file].concat()) else { return };
-        plain.exits(0);
-        let plain = picture(&place.path("plain.png"));
-        for way in ways {
-            let file = ["-o", "other.png"];
-            if let Some(other) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&frames[..], &file, way].concat()) {
-                other.exits(0);
-            }
-            assert!(picture(&place.path("other.png")) == plain, "{pipeline} with {way:?} is another picture");
-        }
+    let mut drawn = HashMap::new();
+    let pipelines = shipped_pipelines();
+    let cases = ways.into_iter().flat_map(|way| pipelines.iter().map(move |pipeline| (way, pipeline)));
+    for (way, pipeline) in sweep::of("ways to make Plans", cases.collect(), 16) {
+        let picture_of = |way: &[&str]| {
+            let outcome = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&["--frames", "3", "-o", "a.png"], way].concat())?;
+            outcome.exits(0);
+            Some(picture(&place.path("a.png")))
+        };
+        let Some(other) = picture_of(way) else { return };
+        let plain = drawn.entry(pipeline).or_insert_with(|| picture_of(&[]));
+        assert!(plain.as_ref() == Some(&other), "{pipeline} with {way:?} is another picture");
     }
 }
 
-fn silent(vulkan: Vulkan, pipeline: &str) {
-    let sets = match pipeline {
-        "deferred" | "deferred_mobile" => ["bloom=0.08", "bloom=1"],
-        "temporal" => ["taa=true", "taa=false"],
-        _ => ["msaa=4", "msaa=1"],
-    };
-    for set in sets {
+/// Draws shipped pipelines with two choices of settings each under a layer, which has to find nothing.
+fn silent(name: &str, vulkan: Vulkan) {
+    let cases = shipped_pipelines().into_iter().flat_map(|pipeline| {
+        let sets = match &*pipeline {
+            "deferred" | "deferred_mobile" => ["bloom=0.08", "bloom=1"],
+            "temporal" => ["taa=true", "taa=false"],
+            _ => ["msaa=4", "msaa=1"],
+        };
+        sets.map(|set| (pipeline.clone(), set))
+    });
+    for (pipeline, set) in sweep::of(name, cases.collect(), 8) {
         let place = Place::new();
         let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
-        let Some(outcome) = draw(&place, vulkan, pipeline, &more) else { return };
+        let Some(outcome) = draw(&place, vulkan, &pipeline, &more) else { return };
         let outcome = outcome.exits(0);
         assert!(outcome.out.contains("validation: silent; "), "{}", outcome.out);
         let validation = &json(&place.path("report.json"))["validation"];
@@ -98,23 +103,17 @@ fn silent(vulkan: Vulkan, pipeline: &str) {
 
 #[test]
 fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
-    for pipeline in &shipped_pipelines() {
-        silent(Vulkan::LAVAPIPE_CURRENT, pipeline);
-    }
+    silent("pipelines on lavapipe and the current layer", Vulkan::LAVAPIPE_CURRENT);
 }
 
 #[test]
 fn shipped_pipelines_are_silent_on_lavapipe_under_the_distributions_layer() {
-    for pipeline in &shipped_pipelines() {
-        silent(Vulkan::LAVAPIPE_OLD, pipeline);
-    }
+    silent("pipelines on lavapipe and the distribution's layer", Vulkan::LAVAPIPE_OLD);
 }
 
 #[test]
 fn shipped_pipelines_are_silent_on_swiftshader_under_the_current_layer() {
-    for pipeline in &shipped_pipelines() {
-        silent(Vulkan::SWIFTSHADER_CURRENT, pipeline);
-    }
+    silent("pipelines on SwiftShader and the current layer", Vulkan::SWIFTSHADER_CURRENT);
 }
 
 /// Scaled up, an edge is spread over pixels that look smooth: smooth are then only those that are further from it.
@@ -132,7 +131,7 @@ fn both_drivers_draw_the_same_pictures_up_to_their_edges() {
     }
     // In the other scene the sun casts shadows.
     cases.extend(["deferred", "shadows"].map(|pipeline| (pipeline.to_owned(), "courtyard", "", 1)));
-    for (pipeline, scene, set, around) in cases {
+    for (pipeline, scene, set, around) in sweep::of("pictures of both drivers", cases, 6) {
         let set: &[&str] = if set.is_empty() { &[] } else { &["--set", set] };
         for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
             let more = [&["--frames", "3", "-o", file], set].concat();
