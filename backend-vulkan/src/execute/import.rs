@@ -30,7 +30,7 @@ impl Import {
             let queue = |step: StepId| plan.steps[step.0 as usize].queue;
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
-            let wait = other.then(|| Wait { step: span.last, frames_ago: 1, stages });
+            let wait = other.then_some(Wait { step: span.last, frames_ago: 1, stages });
             Some(Import { resource, before: *before, after: *after, first: span.first, wait })
         };
         images.chain(buffers).filter_map(import).collect()
