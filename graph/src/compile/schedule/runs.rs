@@ -157,18 +157,18 @@ impl Gatherer<'_> {
 }
 
 /// Notes what a run does to a subresource.
-fn note(runs: &mut [Run], subresource: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
+fn note(runs: &mut [Run], state: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
     if writes {
-        *subresource = SubresourceState { before: run, readers: NONE, layout };
-    } else if subresource.readers == NONE || subresource.layout != layout {
-        let before = if subresource.readers == NONE { subresource.before } else { subresource.readers };
-        *subresource = SubresourceState { before, readers: run, layout };
-    } else if subresource.readers != run {
+        *state = SubresourceState { before: run, readers: NONE, layout };
+    } else if state.readers == NONE || state.layout != layout {
+        let before = if state.readers == NONE { state.before } else { state.readers };
+        *state = SubresourceState { before, readers: run, layout };
+    } else if state.readers != run {
         // Only the rearmost reader is known from here on, so none of them may move any more.
-        runs[subresource.readers as usize].fixed = true;
+        runs[state.readers as usize].fixed = true;
         runs[run as usize].fixed = true;
-        if runs[run as usize].place > runs[subresource.readers as usize].place {
-            subresource.readers = run;
+        if runs[run as usize].place > runs[state.readers as usize].place {
+            state.readers = run;
         }
     }
 }
