@@ -1,6 +1,6 @@
 //! What `adapt` hands to the stages after it: physical images and buffers, and operations that use them.
 
-use super::parts::{Grid, Grids};
+use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
 use crate::plan::{Inserted, Note};
@@ -29,6 +29,8 @@ pub(super) struct PhysicalResource {
     pub(super) memory: MemorySource,
     /// The state in which it is to be left, if one was asked for.
     pub(super) after: Option<State>,
+    /// How it is cut; `None`: it is one part.
+    pub(super) grid: Option<Arc<Grid>>,
     /// The first of its subresources: what is tracked by itself.
     pub(super) first_subresource: u32,
 }
@@ -63,23 +65,15 @@ impl PhysicalResource {
         }
     }
 
-    /// How it is cut; `None`: it is one part.
-    pub(super) fn grid<'g>(&self, grids: &'g Grids) -> Option<&'g Grid> {
-        match self.of {
-            Resource::Image(image) => grids.of(image),
-            Resource::Buffer(_) => None,
-        }
-    }
-
     /// Its subresources.
-    pub(super) fn subresources(&self, grids: &Grids) -> Range<SubresourceIndex> {
-        self.first_subresource..self.first_subresource + self.grid(grids).map_or(1, |grid| grid.len())
+    pub(super) fn subresources(&self) -> Range<SubresourceIndex> {
+        self.first_subresource..self.first_subresource + self.grid.as_ref().map_or(1, |grid| grid.len())
     }
 
     /// Calls `visit` with its subresources in `range`.
     #[inline]
-    pub(super) fn for_each_in(&self, grids: &Grids, range: Subresources, mut visit: impl FnMut(SubresourceIndex)) {
-        match self.grid(grids) {
+    pub(super) fn for_each_in(&self, range: Subresources, mut visit: impl FnMut(SubresourceIndex)) {
+        match &self.grid {
             None => visit(self.first_subresource),
             Some(grid) => grid.cover(range).for_each(|part| visit(self.first_subresource + part)),
         }
@@ -214,11 +208,11 @@ impl Adapted {
 
     /// The subresources that a use is about.
     #[inline]
-    pub(super) fn for_each_subresource(&self, grids: &Grids, used: &Use, mut visit: impl FnMut(SubresourceIndex)) {
+    pub(super) fn for_each_subresource(&self, used: &Use, mut visit: impl FnMut(SubresourceIndex)) {
         if used.subresource != Use::SEVERAL {
             return visit(used.subresource);
         }
-        self.resources[used.resource as usize].for_each_in(grids, self.range(used), visit);
+        self.resources[used.resource as usize].for_each_in(self.range(used), visit);
     }
 }
 

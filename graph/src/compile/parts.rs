@@ -5,6 +5,7 @@
 
 use crate::frame::{Frame, Image, ImageIndex, Pass};
 use crate::vulkan::{Aspects, Subresources};
+use std::sync::Arc;
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +20,7 @@ pub(super) struct Grid {
 /// How all images are cut.
 #[derive(Debug, Default)]
 pub(super) struct Grids {
-    grids: Vec<Grid>,
+    grids: Vec<Arc<Grid>>,
     /// For each image of the frame its grid, [`WHOLE`] if it is one part; empty if all are.
     of: Vec<u32>,
 }
@@ -60,9 +61,9 @@ impl Grids {
         if *at == WHOLE {
             *at = self.grids.len() as u32;
             let (mips, layers) = (vec![0, image.mips], vec![0, image.layers]);
-            self.grids.push(Grid { planes: image.format.aspects(), mips, layers });
+            self.grids.push(Arc::new(Grid { planes: image.format.aspects(), mips, layers }));
         }
-        &mut self.grids[*at as usize]
+        Arc::make_mut(&mut self.grids[*at as usize])
     }
 
     fn cut(&mut self, frame: &Frame, index: ImageIndex, range: Subresources) {
@@ -100,7 +101,7 @@ impl Grids {
     }
 
     /// How an image of the frame is cut; `None`: it is one part.
-    pub(super) fn of(&self, image: ImageIndex) -> Option<&Grid> {
+    pub(super) fn of(&self, image: ImageIndex) -> Option<&Arc<Grid>> {
         let at = *self.of.get(image.0 as usize)?;
         self.grids.get(at as usize)
     }

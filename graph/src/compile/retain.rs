@@ -1,7 +1,6 @@
 //! `retain`: load and store operations of attachments. Contents are kept only where somebody needs them.
 
 use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
-use super::parts::Grids;
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
 use crate::vulkan::{Accesses, LoadOp, Stages, StoreOp};
@@ -76,11 +75,11 @@ impl AttachmentOps {
     }
 }
 
-pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &Scoped) -> LoadStoreOps {
+pub(super) fn retain(frame: &Frame, adapted: &Adapted, scoped: &Scoped) -> LoadStoreOps {
     if !scoped.steps.iter().any(|step| matches!(step, Step::Scope(_))) {
         return LoadStoreOps::default();
     }
-    let mut walk = Walk { frame, grids, adapted, ops: Vec::new(), last: vec![NONE; adapted.subresources as usize] };
+    let mut walk = Walk { frame, adapted, ops: Vec::new(), last: vec![NONE; adapted.subresources as usize] };
     let mut starts = Vec::with_capacity(scoped.steps.len() + 1);
     for step in &scoped.steps {
         starts.push(walk.ops.len() as u32);
@@ -108,7 +107,6 @@ const NONE: u32 = u32::MAX;
 
 struct Walk<'w> {
     frame: &'w Frame,
-    grids: &'w Grids,
     adapted: &'w Adapted,
     ops: Vec<AttachmentOps>,
     /// For each subresource the attachment that holds what it contains.
@@ -182,13 +180,12 @@ impl Walk<'_> {
     }
 
     fn each(&mut self, target: Target, mut visit: impl FnMut(&mut Self, u32)) {
-        let (adapted, grids) = (self.adapted, self.grids);
-        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |at| visit(self, at));
+        self.adapted.resources[target.resource as usize].for_each_in(target.range, |at| visit(self, at));
     }
 
     fn access(&mut self, op: u32, used: &Use) {
-        let (adapted, grids) = (self.adapted, self.grids);
-        adapted.for_each_subresource(grids, used, |subresource| {
+        let adapted = self.adapted;
+        adapted.for_each_subresource(used, |subresource| {
             if used.reads {
                 self.needed(subresource, Next::Op(op));
             }

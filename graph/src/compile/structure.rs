@@ -19,7 +19,6 @@ use crate::plan::Note;
 /// The results of the stages before `place`.
 #[derive(Debug)]
 pub(super) struct Structure {
-    pub(super) grids: Grids,
     pub(super) live: Live,
     /// Notes of the stages before `adapt`.
     pub(super) notes: Vec<Note>,
@@ -84,27 +83,27 @@ impl Structure {
         let notes = std::mem::take(&mut negotiated.notes);
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
         let mut adapted = adapt::adapt(input)?;
-        let scheduled = schedule::schedule(&grids, &adapted, options.order, keeps);
+        let scheduled = schedule::schedule(&adapted, options.order, keeps);
         let areas = || scope::same_areas(&adapted, &scheduled.order, device).collect();
         let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
-        let mut scoped = scope::scope(frame, &grids, &adapted, &scheduled.order, device);
+        let mut scoped = scope::scope(frame, &adapted, &scheduled.order, device);
         adapted.notes.append(&mut scoped.notes);
         scope::read_locally(&mut adapted.uses, &scoped.local);
         let Assigned { scoped, queues, notes: of_queues, sharing } =
-            queues::assign(frame, &grids, &adapted, scoped, device, options);
+            queues::assign(frame, &adapted, scoped, device, options);
         adapted.notes.extend(of_queues);
         sharing.into_iter().for_each(|(resource, sharing)| adapted.resources[resource as usize].set_sharing(sharing));
-        let load_store = retain::retain(frame, &grids, &adapted, &scoped);
-        let timeline = sync::timeline(&grids, &adapted, &scoped, &load_store, queues);
+        let load_store = retain::retain(frame, &adapted, &scoped);
+        let timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
         for (used, layout) in &timeline.layouts {
             adapted.uses[*used as usize].layout = *layout;
         }
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
-        let usages = usage::usages(&grids, &adapted, &timeline, &load_store, &scoped, options);
+        let usages = usage::usages(&adapted, &timeline, &load_store, &scoped, options);
         adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
         fit::check_support(frame, &adapted, &scoped, device)?;
-        Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })
+        Ok(Structure { live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })
     }
 
     /// Whether it holds for another valid frame, which differs only in sizes and values, and forwards only between images of
@@ -113,7 +112,7 @@ impl Structure {
         if !fit::still_holds(frame, &self.live.passes, device) {
             return false;
         }
-        let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;
+        let Structure { adapted, uses, scheduled, same_areas, .. } = self;
         adapted.resize(frame);
         if !scope::same_areas(adapted, &scheduled.order, device).eq(same_areas.iter().copied()) {
             return false;
@@ -122,7 +121,7 @@ impl Structure {
         if as_adapted {
             std::mem::swap(&mut adapted.uses, uses);
         }
-        let same_order = scheduled.still_holds(grids, adapted, options.order);
+        let same_order = scheduled.still_holds(adapted, options.order);
         if as_adapted {
             std::mem::swap(&mut adapted.uses, uses);
         }
@@ -198,6 +197,6 @@ impl Structure {
 
     fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {
         let steps = self.scoped.steps.len() as u32;
-        sync::barriers(&self.grids, &self.adapted, &self.timeline, barriers, &aliasing.edges, steps)
+        sync::barriers(&self.adapted, &self.timeline, barriers, &aliasing.edges, steps)
     }
 }

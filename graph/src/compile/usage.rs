@@ -4,7 +4,6 @@
 use super::history_ring::last_of_ring;
 use super::model::{Adapted, Kind, MemorySource, PhysicalIndex};
 use super::options::Options;
-use super::parts::Grids;
 use super::retain::{AttachmentOps, LoadStoreOps};
 use super::scope::{Scoped, Step};
 use super::sync::AccessTimeline;
@@ -15,7 +14,6 @@ use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 /// that outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only
 /// scope become transient attachments.
 pub(super) fn usages(
-    grids: &Grids,
     adapted: &Adapted,
     timeline: &AccessTimeline,
     load_store: &LoadStoreOps,
@@ -30,7 +28,7 @@ pub(super) fn usages(
     };
     let mut usages = Vec::with_capacity(adapted.resources.len());
     for (resource, at) in adapted.resources.iter().zip(0_u32..) {
-        let bits = timeline.usage(resource.subresources(grids));
+        let bits = timeline.usage(resource.subresources());
         usages.push(match &resource.kind {
             Kind::Image(image) => {
                 let mut usage = Usage::from_bits_truncate(bits);

@@ -32,15 +32,15 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let queue = self.program.used[resource as usize].queue;
             let mut part = self.parts.whole(resource);
             while let Some(index) = self.parts.next(&mut part) {
-                let subresource = &mut self.subresources[index];
-                *subresource = SubresourceState::FRESH;
-                subresource.layout = before.layout;
-                subresource.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
+                let state = &mut self.subresources[index];
+                *state = SubresourceState::FRESH;
+                state.layout = before.layout;
+                state.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
                 // What is handed in was used on the queue that uses it first. What persists was prepared, and who did so
                 // waited until that was done.
                 if !persistent {
-                    subresource.write = Write::before_frame(queue, pairs, time);
-                    subresource.reads.insert(queue, stages, time);
+                    state.write = Write::before_frame(queue, pairs, time);
+                    state.reads.insert(queue, stages, time);
                 }
             }
         }
@@ -81,8 +81,8 @@ impl<const Q: usize> Walk<'_, '_, Q> {
 
     /// Whether a barrier that names the stated state as its source waits for everything, and makes it available.
     fn check_state(&mut self, last: StepId, resource: u32, index: usize, after: &State) {
-        let subresource = &self.subresources[index];
-        if subresource.excused || matches!(subresource.owner, Owner::Released(_)) || after.stages.is_empty() {
+        let state = &self.subresources[index];
+        if state.excused || matches!(state.owner, Owner::Released(_)) || after.stages.is_empty() {
             return;
         }
         let (stages, pairs) = scopes(after);
@@ -90,13 +90,12 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         // Parts may have been read last in different stages, of which the state lists all.
         let mut reads = if pairs.writes().is_empty() { pairs } else { PairSet::default() }.iter();
         let queue = self.program.used[resource as usize].last_queue;
-        let read =
-            |pair| before_access(subresource, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
+        let read = |pair| before_access(state, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
         let unread = || {
             let first = read(reads.next()?)?;
             reads.all(|pair| read(pair).is_some()).then_some(first)
         };
-        if let Some(mut gap) = before_layout_change(subresource, &before, pairs).or_else(unread) {
+        if let Some(mut gap) = before_layout_change(state, &before, pairs).or_else(unread) {
             gap.later = Accessed::AfterFrame;
             self.subresources[index].excused = true;
             self.report(last, resource, index, gap.rule(), gap.time);

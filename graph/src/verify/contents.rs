@@ -17,27 +17,25 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             if access.contents & does::READ != 0 {
                 self.read(step, access.resource, index);
             }
-            let subresource = &mut self.subresources[index];
+            let state = &mut self.subresources[index];
             if access.contents & does::FILL != 0 {
-                subresource.contents = Contents::Defined;
-                subresource.filled = now;
+                state.contents = Contents::Defined;
+                state.filled = now;
             } else if access.contents & does::ADD != 0 {
-                match subresource.contents {
-                    Contents::Defined => subresource.filled = now,
-                    Contents::Unwritten => subresource.contents = Contents::InPart(now),
+                match state.contents {
+                    Contents::Defined => state.filled = now,
+                    Contents::Unwritten => state.contents = Contents::InPart(now),
                     Contents::InPart(_) | Contents::Lost(..) => {}
                 }
             }
-            let lost = match subresource.contents {
+            let lost = match state.contents {
                 Contents::Defined if access.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
                 Contents::Defined if access.contents & does::NOT_STORE != 0 => Lost::NotStored,
                 // A store operation `NONE` keeps what was there before the scope, but not what the scope wrote.
-                Contents::Defined if access.contents & does::STORE_NONE != 0 && subresource.filled == now => {
-                    Lost::NotStored
-                }
+                Contents::Defined if access.contents & does::STORE_NONE != 0 && state.filled == now => Lost::NotStored,
                 _ => continue,
             };
-            subresource.contents = Contents::Lost(lost, now);
+            state.contents = Contents::Lost(lost, now);
         }
     }
 

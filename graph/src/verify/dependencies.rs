@@ -45,14 +45,14 @@ impl Gap {
 
 /// What is missing before an access in `stages` of `queue` by `pairs`.
 pub(super) fn before_access<const Q: usize>(
-    subresource: &SubresourceState<Q>,
+    state: &SubresourceState<Q>,
     clocks: &Clocks<Q>,
     queue: u8,
     stages: StageSet,
     pairs: PairSet,
 ) -> Option<Gap> {
-    if subresource.write.exists()
-        && let Some(gap) = after_write(&subresource.write, clocks, queue, stages, pairs)
+    if state.write.exists()
+        && let Some(gap) = after_write(&state.write, clocks, queue, stages, pairs)
     {
         return Some(gap);
     }
@@ -60,7 +60,7 @@ pub(super) fn before_access<const Q: usize>(
     if writes.is_empty() {
         return None;
     }
-    subresource.reads.iter().find_map(|read| {
+    state.reads.iter().find_map(|read| {
         let early = |pair: &usize| !clocks.of(queue, stage_of(*pair)).is_after(read.queue, read.stage, read.time);
         let later = by(writes.iter().find(early)?);
         Some(Gap {
@@ -100,15 +100,15 @@ fn after_write<const Q: usize>(
 /// What is missing before a layout change, or before the memory is given away, by a barrier that comes after `before` and
 /// makes the writes `source` available itself.
 pub(super) fn before_layout_change<const Q: usize>(
-    subresource: &SubresourceState<Q>,
+    state: &SubresourceState<Q>,
     before: &Clock<Q>,
     source: PairSet,
 ) -> Option<Gap> {
     let gap = |time, earlier, missing| Gap { time, earlier, later: Accessed::LayoutChange, missing };
-    if let Some(read) = subresource.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
+    if let Some(read) = state.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
         return Some(gap(read.time, Accessed::Read(stage_word(read.stage)), Missing::Execution));
     }
-    let write = &subresource.write;
+    let write = &state.write;
     if !write.exists() || makes_available(write, before, source) {
         return None;
     }

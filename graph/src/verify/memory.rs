@@ -143,10 +143,10 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         let frame_start = self.frame_start();
         let mut part = self.parts.whole(owner);
         while let Some(index) = self.parts.next(&mut part) {
-            let subresource = &mut self.subresources[index];
-            subresource.layout = crate::vulkan::Layout::Undefined;
-            subresource.contents = match subresource.contents {
-                Contents::Defined if subresource.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
+            let state = &mut self.subresources[index];
+            state.layout = crate::vulkan::Layout::Undefined;
+            state.contents = match state.contents {
+                Contents::Defined if state.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
                 Contents::Defined => Contents::Unwritten,
                 lost => lost,
             };
@@ -187,11 +187,11 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let mut part = self.parts.whole(from);
             let mut missing = None;
             while let (None, Some(index)) = (missing, self.parts.next(&mut part)) {
-                let subresource = &self.subresources[index];
+                let state = &self.subresources[index];
                 missing = match taking {
-                    Taking::Barrier(before) => before_layout_change(subresource, before, PairSet::default()),
+                    Taking::Barrier(before) => before_layout_change(state, before, PairSet::default()),
                     Taking::Access(queue, access) => {
-                        before_access(subresource, &self.clocks, queue, access.stages, access.pairs)
+                        before_access(state, &self.clocks, queue, access.stages, access.pairs)
                     }
                 };
             }

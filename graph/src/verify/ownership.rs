@@ -59,11 +59,11 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             }
             (Some(_), Owner::Anyone) if self.frame == 0 => {
                 // Whoever made it has released it, in the layout in which the frame finds it.
-                let subresource = &mut self.subresources[index];
-                *subresource = SubresourceState {
+                let state = &mut self.subresources[index];
+                *state = SubresourceState {
                     owner: owned,
-                    layout: subresource.layout,
-                    contents: subresource.contents,
+                    layout: state.layout,
+                    contents: state.contents,
                     ..SubresourceState::FRESH
                 };
                 return false;

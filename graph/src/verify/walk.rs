@@ -191,27 +191,27 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
                     continue;
                 }
             }
-            let subresource = &self.subresources[index];
-            if subresource.generation != generation {
+            let state = &self.subresources[index];
+            if state.generation != generation {
                 // What it did before it lost its bytes is what the image that took them had to wait for.
                 self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before));
-            } else if !subresource.excused
-                && let Some(gap) = before_layout_change(subresource, before, scopes.source)
+            } else if !state.excused
+                && let Some(gap) = before_layout_change(state, before, scopes.source)
             {
                 self.report(id, barrier.image, index, gap.rule(), gap.time);
             }
-            let subresource = &mut self.subresources[index];
-            subresource.generation = generation;
-            subresource.layout = barrier.new;
-            subresource.write = Write::layout_change(available, scopes.shown);
-            subresource.reads.clear();
-            subresource.excused = false;
+            let state = &mut self.subresources[index];
+            state.generation = generation;
+            state.layout = barrier.new;
+            state.write = Write::layout_change(available, scopes.shown);
+            state.reads.clear();
+            state.excused = false;
             if forgets {
-                subresource.contents = match subresource.contents {
-                    Contents::Defined if outlives || subresource.filled > frame_start => {
+                state.contents = match state.contents {
+                    Contents::Defined if outlives || state.filled > frame_start => {
                         Contents::Lost(Lost::Forgotten, available.time)
                     }
-                    Contents::Lost(_, time) if time > frame_start => subresource.contents,
+                    Contents::Lost(_, time) if time > frame_start => state.contents,
                     _ => Contents::Unwritten,
                 };
             }
@@ -227,20 +227,20 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             while let Some(index) = self.parts.next(&mut part) {
                 self.use_on(id, queue, barrier.image, index);
                 self.check_layout(id, barrier.image, index, barrier.old);
-                let subresource = &self.subresources[index];
-                if !subresource.excused
-                    && let Some(gap) = before_layout_change(subresource, &before, barrier.scopes.source)
+                let state = &self.subresources[index];
+                if !state.excused
+                    && let Some(gap) = before_layout_change(state, &before, barrier.scopes.source)
                 {
                     self.report(id, barrier.image, index, gap.rule(), gap.time);
                 }
-                let subresource = &mut self.subresources[index];
-                subresource.layout = barrier.new;
+                let state = &mut self.subresources[index];
+                state.layout = barrier.new;
                 // Its own second scope counts for nothing: only a semaphore leads on from here.
                 let released = Availability { time: now, stages: StageSet::ALL, queue };
-                subresource.write = Write::layout_change(released, PairSet::default());
-                subresource.reads.clear();
-                subresource.excused = false;
-                subresource.owner = Owner::Released(number);
+                state.write = Write::layout_change(released, PairSet::default());
+                state.reads.clear();
+                state.excused = false;
+                state.owner = Owner::Released(number);
             }
         }
     }
@@ -281,15 +281,15 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
                 self.use_on(step, queue, access.resource, index);
             }
             self.check_layout(step, access.resource, index, access.layout);
-            let subresource = &self.subresources[index];
+            let state = &self.subresources[index];
             let ordered = match access.kind {
                 Kind::Plain => false,
-                Kind::Attachment => subresource.rasterised == self.now(step),
+                Kind::Attachment => state.rasterised == self.now(step),
                 Kind::Local => true,
             };
             if !ordered
-                && !subresource.excused
-                && let Some(gap) = before_access(subresource, &self.clocks, queue, access.stages, access.pairs)
+                && !state.excused
+                && let Some(gap) = before_access(state, &self.clocks, queue, access.stages, access.pairs)
             {
                 self.subresources[index].excused = true;
                 self.report(step, access.resource, index, gap.rule(), gap.time);
@@ -305,11 +305,11 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     }
 
     pub(super) fn check_layout(&mut self, step: StepId, resource: u32, index: usize, needed: Layout) {
-        let subresource = &mut self.subresources[index];
-        let found = std::mem::replace(&mut subresource.layout, needed);
+        let state = &mut self.subresources[index];
+        let found = std::mem::replace(&mut state.layout, needed);
         if found != needed {
-            subresource.excused = true;
-            let last = subresource.last();
+            state.excused = true;
+            let last = state.last();
             self.report(step, resource, index, Rule::Layout { found, needed }, last);
         }
     }

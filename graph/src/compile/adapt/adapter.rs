@@ -87,8 +87,7 @@ impl<'a> Adapter<'a> {
                 self.note_depth_writer(used, kind.draws());
             }
             let resource = &self.adapted.resources[used.resource as usize];
-            let subresource =
-                if resource.grid(self.input.grids).is_none() { resource.first_subresource } else { Use::SEVERAL };
+            let subresource = if resource.grid.is_none() { resource.first_subresource } else { Use::SEVERAL };
             self.adapted.uses.push(Use { subresource, ..*used });
         }
         let own = if kind.inserted().is_none() { kind.pass() } else { None };

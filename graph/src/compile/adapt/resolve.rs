@@ -180,7 +180,7 @@ impl Adapter<'_> {
     fn written_and_read(&self, image: ImageIndex, source: PhysicalIndex) -> Vec<Subresources> {
         let Adapter { adapted, input, .. } = self;
         let resource = &adapted.resources[source as usize];
-        let Some(grid) = resource.grid(input.grids) else { return vec![Subresources::WHOLE] };
+        let Some(grid) = &resource.grid else { return vec![Subresources::WHOLE] };
         let declared = &input.frame.images[image.0 as usize];
         let mut written = vec![declared.lifetime.outlives_frame(); grid.len() as usize];
         for used in adapted.uses.iter().filter(|used| used.writes && used.resource == source) {

@@ -3,6 +3,7 @@
 use super::adapter::Adapter;
 use super::demote::copies_samples;
 use crate::compile::model::{Kind, MemorySource, PhysicalIndex, PhysicalResource, Use};
+use crate::compile::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::Inserted;
@@ -176,9 +177,13 @@ impl Adapter<'_> {
             usage: Usage::empty(),
             sharing: Sharing::Exclusive,
         };
-        let subresources = self.input.grids.of(image).map_or(1, |grid| grid.len());
         self.images += 1;
-        let resource = self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), subresources);
+        let resource = self.add(
+            Resource::Image(image),
+            self.images - 1,
+            Kind::Image(descriptor),
+            self.input.grids.of(image).cloned(),
+        );
         self.adapted.resources[resource as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
         self.adapted.allocated.extend(declared.allocated.map(|allocated| (resource, allocated)));
         self.adapted.eyes.extend(declared.eyes.map(|form| (resource, (form, declared.rotation))));
@@ -189,13 +194,14 @@ impl Adapter<'_> {
         let bytes = self.input.frame.buffers[buffer.0 as usize].bytes;
         let descriptor = BufferDescriptor { bytes, usage: BufferUsage::empty(), sharing: Sharing::Exclusive };
         self.buffers += 1;
-        self.add(Resource::Buffer(buffer), self.buffers - 1, Kind::Buffer(descriptor), 1)
+        self.add(Resource::Buffer(buffer), self.buffers - 1, Kind::Buffer(descriptor), None)
     }
 
-    fn add(&mut self, of: Resource, id: u32, kind: Kind, subresources: u32) -> PhysicalIndex {
+    fn add(&mut self, of: Resource, id: u32, kind: Kind, grid: Option<Arc<Grid>>) -> PhysicalIndex {
         self.resolved_of.push(None);
         self.redrawn_of.push(None);
         self.drawn.push(false);
+        let subresources = grid.as_ref().map_or(1, |grid| grid.len());
         self.adapted.resources.push(PhysicalResource {
             id,
             of,
@@ -205,6 +211,7 @@ impl Adapter<'_> {
             usual: None,
             memory: MemorySource::Transient,
             after: None,
+            grid,
             first_subresource: self.adapted.subresources,
         });
         self.adapted.subresources += subresources;

@@ -3,7 +3,6 @@
 use crate::base::Place;
 use crate::compile::memory::Placed;
 use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
-use crate::compile::parts::Grids;
 use crate::compile::retain::LoadStoreOps;
 use crate::compile::scope::Scoped;
 use crate::compile::structure::{Settled, Structure};
@@ -19,7 +18,6 @@ pub(in crate::compile) struct Parts<'a> {
     pub(super) frame: &'a Frame,
     pub(super) device: &'a Profile,
     pub(super) structure: &'a Structure,
-    pub(super) grids: &'a Grids,
     pub(super) adapted: &'a Adapted,
     pub(super) scoped: &'a Scoped,
     pub(super) load_store: &'a LoadStoreOps,
@@ -43,14 +41,13 @@ impl<'a> Parts<'a> {
             frame,
             device,
             structure,
-            grids: &structure.grids,
             adapted: &structure.adapted,
             scoped: &structure.scoped,
             load_store: &structure.load_store,
             placed: &settled.placed,
             sync: &settled.barriers,
             exact_memory: settled.exact_memory,
-            subjects: Subject::of(&structure.adapted, &structure.grids),
+            subjects: Subject::of(&structure.adapted),
             nothing: Arc::default(),
         }
     }
@@ -67,11 +64,11 @@ pub(super) struct Subject {
 
 impl Subject {
     /// One for each physical resource.
-    fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
+    fn of(adapted: &Adapted) -> Vec<Subject> {
         let subject = |resource: &PhysicalResource| Subject {
             id: resource.id,
             is_image: resource.image().is_some(),
-            is_cut: resource.grid(grids).is_some(),
+            is_cut: resource.grid.is_some(),
             all: resource.all(),
         };
         adapted.resources.iter().map(subject).collect()
@@ -82,7 +79,8 @@ impl Parts<'_> {
     /// The subresources that a subresource is.
     pub(super) fn subresources(&self, resource: PhysicalIndex, subresource: SubresourceIndex) -> Subresources {
         let resource = &self.adapted.resources[resource as usize];
-        resource.grid(self.grids).map_or(resource.all(), |grid| grid.range(subresource - resource.first_subresource))
+        let grid = resource.grid.as_ref();
+        grid.map_or(resource.all(), |grid| grid.range(subresource - resource.first_subresource))
     }
 }
 

@@ -15,7 +15,6 @@ use super::windows::Steps;
 use crate::compile::history_ring::last_of_ring;
 use crate::compile::model::{Adapted, Kind, MemorySource, OpKind, PhysicalIndex};
 use crate::compile::options::Options;
-use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, resource_name};
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
@@ -44,7 +43,6 @@ pub(in crate::compile) struct Assigned {
 /// Gives each step its queue, and inserts steps that change layouts.
 pub(in crate::compile) fn assign(
     frame: &Frame,
-    grids: &Grids,
     adapted: &Adapted,
     mut scoped: Scoped,
     device: &Profile,
@@ -67,7 +65,7 @@ pub(in crate::compile) fn assign(
             gives_up = true;
             break;
         }
-        let steps = Steps { grids, adapted, steps: &scoped.steps, queues: &queues, sharing: device.queues.sharing };
+        let steps = Steps { adapted, steps: &scoped.steps, queues: &queues, sharing: device.queues.sharing };
         windows = steps.beside();
         let mut stays: Vec<bool> = (windows.iter().zip(&queues))
             .map(|(window, queue)| *queue != Queue::Graphics && beside(&bound, *window).next().is_none())
@@ -86,7 +84,7 @@ pub(in crate::compile) fn assign(
         return one_queue(scoped, notes);
     }
     let (crossings, sharing) = share(adapted, &scoped, device, &queues);
-    let changes = layout_changes::insert(grids, adapted, &mut scoped, &mut queues, &crossings);
+    let changes = layout_changes::insert(adapted, &mut scoped, &mut queues, &crossings);
     Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
 }
 

@@ -7,7 +7,6 @@ use super::crossing::{Crossing, LayoutChange};
 use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
-use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step};
 use crate::plan::Queue;
 use crate::vulkan::Layout;
@@ -31,13 +30,12 @@ struct Candidate {
 
 /// Inserts steps behind writes. Returns each with what it changes.
 pub(super) fn insert(
-    grids: &Grids,
     adapted: &Adapted,
     scoped: &mut Scoped,
     queues: &mut Vec<Queue>,
     crossings: &[Option<Crossing>],
 ) -> Vec<(u32, LayoutChange)> {
-    let mut candidates = candidates(grids, adapted, scoped, queues, crossings);
+    let mut candidates = candidates(adapted, scoped, queues, crossings);
     candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
     candidates.sort_by_key(|it| (it.behind, it.change.subresource));
     let mut changes = Vec::with_capacity(candidates.len());
@@ -50,13 +48,7 @@ pub(super) fn insert(
     changes
 }
 
-fn candidates(
-    grids: &Grids,
-    adapted: &Adapted,
-    scoped: &Scoped,
-    queues: &[Queue],
-    crossings: &[Option<Crossing>],
-) -> Vec<Candidate> {
+fn candidates(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], crossings: &[Option<Crossing>]) -> Vec<Candidate> {
     let mut subresources =
         vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.subresources as usize];
     let mut candidates: Vec<Candidate> = Vec::new();
@@ -66,7 +58,7 @@ fn candidates(
                 continue;
             }
             let resource: PhysicalIndex = used.resource;
-            adapted.for_each_subresource(grids, used, |index: SubresourceIndex| {
+            adapted.for_each_subresource(used, |index: SubresourceIndex| {
                 let subresource = &mut subresources[index as usize];
                 if used.writes {
                     *subresource = LastUse { layout: used.layout, written: Some(at), change: None };

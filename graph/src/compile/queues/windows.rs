@@ -3,7 +3,6 @@
 use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, Use};
-use crate::compile::parts::Grids;
 use crate::compile::scope::Step;
 use crate::plan::Queue;
 use crate::vulkan::{Layout, Sharing};
@@ -24,7 +23,6 @@ struct Reach {
 /// Steps in the order of submission with the queue that each is to run on.
 #[derive(Clone, Copy)]
 pub(super) struct Steps<'a> {
-    pub(super) grids: &'a Grids,
     pub(super) adapted: &'a Adapted,
     pub(super) steps: &'a [Step],
     pub(super) queues: &'a [Queue],
@@ -61,7 +59,7 @@ impl Steps<'_> {
             if !on_graphics {
                 self.for_each_use(step, |used| {
                     let exclusive = self.is_exclusive_image(used);
-                    self.adapted.for_each_subresource(self.grids, used, |subresource| {
+                    self.adapted.for_each_subresource(used, |subresource| {
                         let subresource = &subresources[subresource as usize];
                         let joins = !used.writes && subresource.layout == used.layout;
                         most = most.max(if joins {
@@ -76,7 +74,7 @@ impl Steps<'_> {
             behind[step as usize] = most;
             let reach = if on_graphics { rank(step) } else { most };
             self.for_each_use(step, |used| {
-                self.adapted.for_each_subresource(self.grids, used, |subresource| {
+                self.adapted.for_each_subresource(used, |subresource| {
                     let subresource = &mut subresources[subresource as usize];
                     if used.writes {
                         (subresource.before, subresource.readers) = (subresource.before.max(reach), 0);

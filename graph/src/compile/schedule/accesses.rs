@@ -1,7 +1,6 @@
 //! The accesses of all operations to subresources, listed once because scheduling walks them often.
 
 use crate::compile::model::{Adapted, SubresourceIndex};
-use crate::compile::parts::Grids;
 use crate::vulkan::Layout;
 
 /// An access of an operation to a subresource.
@@ -23,14 +22,14 @@ pub(super) struct Accesses {
 }
 
 impl Accesses {
-    pub(super) fn of(grids: &Grids, adapted: &Adapted) -> Accesses {
+    pub(super) fn of(adapted: &Adapted) -> Accesses {
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
         for (op, number) in adapted.ops.iter().zip(0_u32..) {
             starts.push(list.len() as u32);
             for used in adapted.uses(number) {
                 let access = |subresource| Access { subresource, writes: used.writes, layout: used.layout };
-                adapted.for_each_subresource(grids, used, |subresource| list.push(access(subresource)));
+                adapted.for_each_subresource(used, |subresource| list.push(access(subresource)));
             }
             if op.side_effect {
                 // Effects that nothing shows are writes of a subresource behind all others.

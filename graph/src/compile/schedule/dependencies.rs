@@ -31,20 +31,20 @@ impl Dependencies {
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
             for Access { subresource, writes, .. } in runs.run(run).iter().flat_map(|op| accesses.op(*op)) {
-                let subresource = &mut subresources[*subresource as usize];
-                if subresource.writer != NONE {
-                    pairs.push((subresource.writer, run));
+                let state = &mut subresources[*subresource as usize];
+                if state.writer != NONE {
+                    pairs.push((state.writer, run));
                 }
                 if !writes {
-                    readers.push((run, subresource.readers));
-                    subresource.readers = readers.len() as u32 - 1;
+                    readers.push((run, state.readers));
+                    state.readers = readers.len() as u32 - 1;
                     continue;
                 }
-                while let Some((reader, next)) = readers.get(subresource.readers as usize) {
+                while let Some((reader, next)) = readers.get(state.readers as usize) {
                     pairs.push((*reader, run));
-                    subresource.readers = *next;
+                    state.readers = *next;
                 }
-                subresource.writer = run;
+                state.writer = run;
             }
         }
         pairs.retain(|(before, after)| before != after);

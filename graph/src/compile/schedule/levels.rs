@@ -108,8 +108,8 @@ struct SubresourceState {
 
 impl<'a> Walk<'a> {
     fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
-        let subresource = SubresourceState { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { accesses, runs, subresources: vec![subresource; accesses.subresources] }
+        let state = SubresourceState { before: 0, readers: 0, layout: Layout::Undefined };
+        Walk { accesses, runs, subresources: vec![state; accesses.subresources] }
     }
 
     /// The least level of a run behind all that it depends on.
@@ -117,9 +117,9 @@ impl<'a> Walk<'a> {
         let mut least = 0;
         for op in self.runs.run(run) {
             for access in self.accesses.op(*op) {
-                let subresource = &self.subresources[access.subresource as usize];
-                let joins = !access.writes && subresource.layout == access.layout;
-                least = least.max(if joins { subresource.before } else { subresource.before.max(subresource.readers) });
+                let state = &self.subresources[access.subresource as usize];
+                let joins = !access.writes && state.layout == access.layout;
+                least = least.max(if joins { state.before } else { state.before.max(state.readers) });
             }
         }
         least
@@ -129,14 +129,13 @@ impl<'a> Walk<'a> {
     fn put(&mut self, op: u32, level: u32) {
         let behind = level + 1;
         for Access { subresource, writes, layout } in self.accesses.op(op).iter().copied() {
-            let subresource = &mut self.subresources[subresource as usize];
+            let state = &mut self.subresources[subresource as usize];
             if writes {
-                *subresource = SubresourceState { before: behind, readers: 0, layout };
-            } else if subresource.readers != 0 && subresource.layout == layout {
-                subresource.readers = subresource.readers.max(behind);
+                *state = SubresourceState { before: behind, readers: 0, layout };
+            } else if state.readers != 0 && state.layout == layout {
+                state.readers = state.readers.max(behind);
             } else {
-                *subresource =
-                    SubresourceState { before: subresource.before.max(subresource.readers), readers: behind, layout };
+                *state = SubresourceState { before: state.before.max(state.readers), readers: behind, layout };
             }
         }
     }

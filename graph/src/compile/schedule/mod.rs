@@ -25,7 +25,6 @@ mod weighed;
 
 use super::model::Adapted;
 use super::options::Order;
-use super::parts::Grids;
 use accesses::Accesses;
 use dependencies::Dependencies;
 use greedy::Greedy;
@@ -42,14 +41,14 @@ pub(super) struct Scheduled {
 }
 
 /// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
-pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
+pub(super) fn schedule(adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
     let mut weighed = Weighed::default();
-    let accesses = || Accesses::of(grids, adapted);
+    let accesses = || Accesses::of(adapted);
     let order = match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
             let accesses = accesses();
-            let runs = Runs::gather(grids, adapted, &accesses);
+            let runs = Runs::gather(adapted, &accesses);
             match scored(adapted, &accesses, &runs, keeps.then_some(&mut weighed)) {
                 Some(order) => runs.operations(&order),
                 None => runs.into_operations(),
@@ -57,7 +56,7 @@ pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bo
         }
         Order::LowMemory => {
             let accesses = accesses();
-            let runs = Runs::gather(grids, adapted, &accesses);
+            let runs = Runs::gather(adapted, &accesses);
             runs.operations(&small(adapted, &accesses, &runs))
         }
         Order::Random(seed) => Dependencies::between(&accesses(), &Runs::of_one(adapted)).random_order(seed),
@@ -67,12 +66,12 @@ pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bo
 
 impl Scheduled {
     /// Whether the same operations on images and buffers of other sizes come in the same order.
-    pub(super) fn still_holds(&self, grids: &Grids, adapted: &Adapted, order: Order) -> bool {
+    pub(super) fn still_holds(&self, adapted: &Adapted, order: Order) -> bool {
         match order {
             Order::File | Order::Random(_) => true,
             Order::Default => self.weighed.decide_the_same(&Memory::of(adapted)),
             // Of which runs come next, whichever is cheapest: too many comparisons to keep.
-            Order::LowMemory => schedule(grids, adapted, order, false).order == self.order,
+            Order::LowMemory => schedule(adapted, order, false).order == self.order,
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::accesses::{Access, Accesses};
 use crate::compile::model::{Adapted, InitialContents, Role, Use};
-use crate::compile::parts::Grids;
 use crate::vulkan::Layout;
 
 /// No run.
@@ -24,12 +23,11 @@ impl Runs {
     }
 
     /// Draws that may share a scope in one run.
-    pub(super) fn gather(grids: &Grids, adapted: &Adapted, accesses: &Accesses) -> Runs {
+    pub(super) fn gather(adapted: &Adapted, accesses: &Accesses) -> Runs {
         if !adapted.ops.iter().any(|op| op.kind.draws()) {
             return Runs::of_one(adapted);
         }
         let mut gatherer = Gatherer {
-            grids,
             adapted,
             accesses,
             runs: Vec::new(),
@@ -105,7 +103,6 @@ struct Run {
 }
 
 struct Gatherer<'a> {
-    grids: &'a Grids,
     adapted: &'a Adapted,
     accesses: &'a Accesses,
     runs: Vec<Run>,
@@ -116,9 +113,8 @@ struct Gatherer<'a> {
 
 impl Gatherer<'_> {
     fn op(&mut self, op: u32) {
-        let Gatherer { grids, adapted, accesses, runs, subresources, .. } = self;
-        let candidate =
-            candidate(grids, adapted, subresources, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
+        let Gatherer { adapted, accesses, runs, subresources, .. } = self;
+        let candidate = candidate(adapted, subresources, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
         for Access { subresource, writes, layout } in accesses.op(op) {
@@ -157,24 +153,24 @@ impl Gatherer<'_> {
 }
 
 /// Notes what a run does to a subresource.
-fn note(runs: &mut [Run], subresource: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
+fn note(runs: &mut [Run], state: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
     if writes {
-        *subresource = SubresourceState { before: run, readers: NONE, layout };
-    } else if subresource.readers == NONE || subresource.layout != layout {
-        let before = if subresource.readers == NONE { subresource.before } else { subresource.readers };
-        *subresource = SubresourceState { before, readers: run, layout };
-    } else if subresource.readers != run {
+        *state = SubresourceState { before: run, readers: NONE, layout };
+    } else if state.readers == NONE || state.layout != layout {
+        let before = if state.readers == NONE { state.before } else { state.readers };
+        *state = SubresourceState { before, readers: run, layout };
+    } else if state.readers != run {
         // Only the rearmost reader is known from here on, so none of them may move any more.
-        runs[subresource.readers as usize].fixed = true;
+        runs[state.readers as usize].fixed = true;
         runs[run as usize].fixed = true;
-        if runs[run as usize].place > runs[subresource.readers as usize].place {
-            subresource.readers = run;
+        if runs[run as usize].place > runs[state.readers as usize].place {
+            state.readers = run;
         }
     }
 }
 
 /// The run whose last write an operation draws on top of.
-fn candidate(grids: &Grids, adapted: &Adapted, subresources: &[SubresourceState], op: u32) -> Option<u32> {
+fn candidate(adapted: &Adapted, subresources: &[SubresourceState], op: u32) -> Option<u32> {
     if !adapted.ops[op as usize].kind.draws() {
         return None;
     }
@@ -182,7 +178,7 @@ fn candidate(grids: &Grids, adapted: &Adapted, subresources: &[SubresourceState]
     let attached = |used: &&Use| used.role.is_attachment();
     let run_before = |used: &Use| {
         let mut run = NONE;
-        adapted.for_each_subresource(grids, used, |subresource| run = subresources[subresource as usize].before);
+        adapted.for_each_subresource(used, |subresource| run = subresources[subresource as usize].before);
         run
     };
     let run = run_before(uses.iter().find(attached)?);

@@ -6,14 +6,12 @@ use super::local;
 use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
 use super::trace::{Trace, Ways};
 use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
-use crate::compile::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, Stage};
 
 pub(super) struct Builder<'a> {
     frame: &'a Frame,
-    grids: &'a Grids,
     device: &'a Profile,
     adapted: &'a Adapted,
     pub(super) steps: Vec<Step>,
@@ -26,10 +24,9 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub(super) fn new(frame: &'a Frame, grids: &'a Grids, adapted: &'a Adapted, device: &'a Profile) -> Builder<'a> {
+    pub(super) fn new(frame: &'a Frame, adapted: &'a Adapted, device: &'a Profile) -> Builder<'a> {
         Builder {
             frame,
-            grids,
             device,
             adapted,
             steps: Vec::with_capacity(adapted.ops.len() + 1),
@@ -63,14 +60,14 @@ impl<'a> Builder<'a> {
 
     /// Notes what step number `at` does by this operation.
     fn trace(&mut self, op: u32, at: usize) {
-        let Builder { adapted, grids, traces, local, .. } = self;
+        let Builder { adapted, traces, local, .. } = self;
         let first = adapted.ops[op as usize].uses.start;
         for (used, number) in adapted.uses(op).iter().zip(first..) {
             // A local barrier orders later draws of the scope behind local reads.
             if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }
-            adapted.for_each_subresource(grids, used, |subresource| {
+            adapted.for_each_subresource(used, |subresource| {
                 let trace = &mut traces[subresource as usize];
                 if trace.used != Some(at) {
                     trace.ways = Ways::default();
@@ -97,7 +94,7 @@ impl<'a> Builder<'a> {
                 let most = self.device.max_color_attachments as usize;
                 let clashes = |used: &Use| {
                     let mut clashes = false;
-                    adapted.for_each_subresource(self.grids, used, |subresource| {
+                    adapted.for_each_subresource(used, |subresource| {
                         let trace = &self.traces[subresource as usize];
                         clashes |= trace.used == Some(self.steps.len() - 1) && trace.ways.clash(used);
                     });
@@ -193,7 +190,7 @@ impl<'a> Builder<'a> {
         let (source, target) = (source.resource, target.resource);
         let [source_resource, target_resource] =
             [source, target].map(|resource| &self.adapted.resources[resource as usize]);
-        if source_resource.grid(self.grids).is_some() || source_resource.image().is_none_or(|image| image.layers > 1) {
+        if source_resource.grid.is_some() || source_resource.image().is_none_or(|image| image.layers > 1) {
             return Err("it has several layers");
         }
         let Trace { drawn, written, .. } = self.traces[source_resource.first_subresource as usize];

@@ -9,7 +9,6 @@ mod step;
 mod trace;
 
 use super::model::Adapted;
-use super::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::Note;
@@ -38,13 +37,13 @@ impl Scoped {
     }
 }
 
-pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &Adapted, order: &[u32], device: &Profile) -> Scoped {
+pub(super) fn scope(frame: &Frame, adapted: &Adapted, order: &[u32], device: &Profile) -> Scoped {
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
         return Scoped { steps, gains: Vec::new(), notes: Vec::new(), local: Vec::new() };
     }
-    let mut builder = Builder::new(frame, grids, adapted, device);
+    let mut builder = Builder::new(frame, adapted, device);
     for op in order {
         builder.op(*op);
     }

@@ -7,7 +7,6 @@ use super::timeline::AccessTimeline;
 use super::{initial_barriers, redundant};
 use crate::compile::memory::AliasEdge;
 use crate::compile::model::Adapted;
-use crate::compile::parts::Grids;
 use crate::compile::queues::Queues;
 
 /// All barriers and waits.
@@ -26,14 +25,13 @@ pub(in crate::compile) struct Barriers {
 
 /// Completes `barriers`, which are those of the timeline, and puts them into calls. `steps`: the frame's own.
 pub(in crate::compile) fn barriers(
-    grids: &Grids,
     adapted: &Adapted,
     timeline: &AccessTimeline,
     barriers: Vec<SubresourceBarrier>,
     edges: &[AliasEdge],
     steps: u32,
 ) -> Barriers {
-    let mut initial = initial_barriers::complete(grids, adapted, timeline, barriers, edges);
+    let mut initial = initial_barriers::complete(adapted, timeline, barriers, edges);
     let mut batched = batches::batch(&initial.queues, &adapted.resources, &initial.barriers);
     redundant::take_out(adapted, timeline, &mut initial, &mut batched);
     let initial_barriers::Initial { barriers, queues, aliased } = initial;

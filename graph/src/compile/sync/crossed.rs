@@ -40,29 +40,21 @@ impl Crossed {
     }
 
     /// Whether an access is one more read beside the last ones, or behind a write that waits make visible.
-    pub(super) fn joins(self, uses: &QueueUses, subresource: &SubresourceState, access: &SubresourceAccess) -> bool {
+    pub(super) fn joins(self, uses: &QueueUses, state: &SubresourceState, access: &SubresourceAccess) -> bool {
         match self.crossing {
             Crossing::Constant => true,
-            Crossing::Buffer | Crossing::Image => subresource.has_layout_for_read(access),
-            Crossing::Exclusive => {
-                subresource.has_layout_for_read(access) && !subresource.writes() && uses.begun.0 == self.queue
-            }
+            Crossing::Buffer | Crossing::Image => state.has_layout_for_read(access),
+            Crossing::Exclusive => state.has_layout_for_read(access) && !state.writes() && uses.begun.0 == self.queue,
         }
     }
 
     /// Adds the steps of other queues that an access comes after.
-    fn require(
-        self,
-        uses: &QueueUses,
-        subresource: &SubresourceState,
-        access: &SubresourceAccess,
-        required: &mut Steps,
-    ) {
+    fn require(self, uses: &QueueUses, state: &SubresourceState, access: &SubresourceAccess, required: &mut Steps) {
         let (queue, step) = uses.begun;
         if self.crossing == Crossing::Constant {
             return;
         }
-        if !self.joins(uses, subresource, access) {
+        if !self.joins(uses, state, access) {
             for (other, used) in uses.by.iter().enumerate().filter(|(other, _)| *other != self.queue) {
                 required[other] = required[other].max(used.until);
             }
@@ -78,33 +70,27 @@ impl Crossed {
     }
 
     /// Whether an access takes an exclusive image over from another queue.
-    fn changes_owner(self, uses: &QueueUses, subresource: &SubresourceState) -> bool {
-        self.crossing == Crossing::Exclusive && subresource.is_used() && uses.begun.0 != self.queue
+    fn changes_owner(self, uses: &QueueUses, state: &SubresourceState) -> bool {
+        self.crossing == Crossing::Exclusive && state.is_used() && uses.begun.0 != self.queue
     }
 
     /// Whether it takes it over with its contents.
-    pub(super) fn transfers(
-        self,
-        uses: &QueueUses,
-        subresource: &SubresourceState,
-        access: &SubresourceAccess,
-    ) -> bool {
-        self.changes_owner(uses, subresource) && access.keeps
+    pub(super) fn transfers(self, uses: &QueueUses, state: &SubresourceState, access: &SubresourceAccess) -> bool {
+        self.changes_owner(uses, state) && access.keeps
     }
 
     /// The stages and writes of its own queue that the barrier before an access waits for; `None` if it takes no barrier.
     pub(super) fn source(
         self,
         queues: &Queues,
-        subresource: &SubresourceState,
+        state: &SubresourceState,
         access: &SubresourceAccess,
         step: u32,
     ) -> Option<(Stages, Accesses)> {
         let own = self.own(queues, access, step);
-        let changes =
-            access.layout != subresource.layout || self.changes_owner(queues.uses(access.subresource), subresource);
+        let changes = access.layout != state.layout || self.changes_owner(queues.uses(access.subresource), state);
         let changes = changes && self.crossing != Crossing::Buffer;
-        (own.is_some() || changes || !subresource.is_used())
+        (own.is_some() || changes || !state.is_used())
             .then(|| own.map_or_else(Default::default, |own| (own.stages, own.accesses.writes())))
     }
 
@@ -112,7 +98,7 @@ impl Crossed {
     pub(super) fn renew(
         self,
         queues: &mut Queues,
-        subresource: &SubresourceState,
+        state: &SubresourceState,
         access: &SubresourceAccess,
         (step, is_own_step): (u32, bool),
         barrier: Option<u32>,
@@ -121,10 +107,10 @@ impl Crossed {
             let uses = *queues.uses(access.subresource);
             let elsewhere = (0..QUEUES).any(|other| other != self.queue && uses.by[other].until > 0);
             // A final state is waited for like a step in the next frame.
-            if !is_own_step || subresource.is_used() && (elsewhere || self.own(queues, access, step).is_none()) {
+            if !is_own_step || state.is_used() && (elsewhere || self.own(queues, access, step).is_none()) {
                 queues.hold(barrier);
             }
-            if self.transfers(&uses, subresource, access) {
+            if self.transfers(&uses, state, access) {
                 let QueueUse { stages, accesses, until, .. } = uses.by[uses.begun.0];
                 let from = until.saturating_sub(1);
                 queues.transfer(OwnershipTransfer { barrier, from, stages, accesses: accesses.writes() });

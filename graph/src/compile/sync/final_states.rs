@@ -8,19 +8,13 @@ use super::subresource::SubresourceState;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring::last_of_ring;
 use crate::compile::model::{Adapted, MemorySource, PhysicalIndex, PhysicalResource};
-use crate::compile::parts::Grids;
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, Layout, Stages, State};
 use std::ops::Range;
 
 /// The states around the frame of each physical resource, `None` if it lives within the frame. The accesses that final
 /// states take are added to the timeline, in the step behind all others.
-pub(super) fn states(
-    grids: &Grids,
-    adapted: &Adapted,
-    timeline: &mut AccessTimeline,
-    final_step: u32,
-) -> Vec<Option<States>> {
+pub(super) fn states(adapted: &Adapted, timeline: &mut AccessTimeline, final_step: u32) -> Vec<Option<States>> {
     let mut states: Vec<Option<States>> = vec![None; adapted.resources.len()];
     if adapted.resources.iter().all(PhysicalResource::is_transient) {
         return states;
@@ -35,7 +29,7 @@ pub(super) fn states(
         }
         let imported = if let MemorySource::Imported { before } = resource.memory { Some(before) } else { None };
         let crossed = timeline.queues.is_crossed(ring.start);
-        let mut ring = Ring { grids, adapted, timeline, resources: ring, imported, crossed, layouts: Vec::new() };
+        let mut ring = Ring { adapted, timeline, resources: ring, imported, crossed, layouts: Vec::new() };
         let after = ring.leave(final_step);
         let from = after.iter().cycle().skip(after.len() - 1);
         for ((resource, after), from) in ring.resources.zip(&after).zip(from) {
@@ -55,7 +49,6 @@ pub(super) fn states(
 
 /// A history ring, or one resource that comes and goes.
 struct Ring<'a> {
-    grids: &'a Grids,
     adapted: &'a Adapted,
     timeline: &'a mut AccessTimeline,
     resources: Range<PhysicalIndex>,
@@ -137,7 +130,7 @@ impl Ring<'_> {
     }
 
     fn parts(&self) -> Range<u32> {
-        0..self.resource(0).subresources(self.grids).len() as u32
+        0..self.resource(0).subresources().len() as u32
     }
 
     fn subresource(&self, at: usize, part: u32) -> &SubresourceState {

@@ -11,7 +11,6 @@ use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
 use crate::compile::memory::AliasEdge;
 use crate::compile::model::{Adapted, Kind, PhysicalIndex, SubresourceIndex};
-use crate::compile::parts::Grids;
 use crate::compile::queues::{QUEUES, QueueUse, Queues};
 use crate::compile::steps::NEVER;
 use std::ops::Range;
@@ -26,14 +25,13 @@ pub(super) struct Initial {
 
 /// Completes `barriers`, which are those of the timeline.
 pub(super) fn complete(
-    grids: &Grids,
     adapted: &Adapted,
     timeline: &AccessTimeline,
     barriers: Vec<SubresourceBarrier>,
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let mut completing = Completing { grids, adapted, timeline, initial, accesses: Vec::new() };
+    let mut completing = Completing { adapted, timeline, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -51,7 +49,6 @@ pub(super) fn complete(
 }
 
 struct Completing<'c> {
-    grids: &'c Grids,
     adapted: &'c Adapted,
     timeline: &'c AccessTimeline,
     initial: Initial,
@@ -61,13 +58,13 @@ struct Completing<'c> {
 
 impl Completing<'_> {
     fn subresources(&self, resource: PhysicalIndex) -> Range<SubresourceIndex> {
-        self.adapted.resources[resource as usize].subresources(self.grids)
+        self.adapted.resources[resource as usize].subresources()
     }
 
     /// Completes the initial barriers of a resource that outlives the frame, from its state before the frame.
     fn find(&mut self, resource: PhysicalIndex, states: &States) {
         let barriers = &mut self.initial.barriers;
-        for subresource in self.adapted.resources[resource as usize].subresources(self.grids) {
+        for subresource in self.adapted.resources[resource as usize].subresources() {
             let known = &self.timeline.subresources[subresource as usize];
             let Some(barrier) = barriers.get_mut(known.first_barrier as usize) else { continue };
             find(barrier, states, known.second_barrier == NEVER);

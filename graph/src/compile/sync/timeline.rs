@@ -38,7 +38,7 @@ impl AccessTimeline {
     pub(in crate::compile) fn usage(&self, subresources: Range<u32>) -> u32 {
         self.subresources[subresources.start as usize..subresources.end as usize]
             .iter()
-            .fold(0, |usage, subresource| usage | subresource.usage)
+            .fold(0, |usage, state| usage | state.usage)
     }
 
     /// Drops what only other timelines and barriers are made from.
@@ -83,51 +83,50 @@ impl AccessTimeline {
     #[inline(always)]
     fn access(&mut self, access: &SubresourceAccess, crossed: Option<Crossed>, step: u32, is_own_step: bool) {
         let AccessTimeline { subresources, barriers, lifetimes, queues, .. } = self;
-        let subresource = &mut subresources[access.subresource as usize];
-        subresource.usage |= access.usage;
+        let state = &mut subresources[access.subresource as usize];
+        state.usage |= access.usage;
         if is_own_step {
             let lifetime = &mut lifetimes[access.resource as usize];
             *lifetime = [lifetime[0].min(step), step];
         }
         let joins = match crossed {
             None => {
-                subresource.has_layout_for_read(access)
-                    && !subresource.writes()
-                    && (is_own_step || access.stages.contains(subresource.stages))
+                state.has_layout_for_read(access)
+                    && !state.writes()
+                    && (is_own_step || access.stages.contains(state.stages))
             }
-            Some(crossed) => crossed.joins(queues.uses(access.subresource), subresource, access),
+            Some(crossed) => crossed.joins(queues.uses(access.subresource), state, access),
         };
         if joins {
-            subresource.stages |= access.stages;
-            subresource.accesses |= access.accesses;
-            (subresource.layout, subresource.last) = (access.layout, step);
+            state.stages |= access.stages;
+            state.accesses |= access.accesses;
+            (state.layout, state.last) = (access.layout, step);
             return match crossed {
-                None => barriers[subresource.barrier as usize].widen(access.stages, access.accesses),
+                None => barriers[state.barrier as usize].widen(access.stages, access.accesses),
                 Some(crossed) => crossed.join(queues, barriers, access, step, is_own_step),
             };
         }
         let source = match crossed {
-            None => Some((subresource.stages, subresource.accesses.writes())),
-            Some(crossed) => crossed.source(queues, subresource, access, step),
+            None => Some((state.stages, state.accesses.writes())),
+            Some(crossed) => crossed.source(queues, state, access, step),
         };
         let number = barriers.len() as u32;
         if let Some(source) = source {
-            let transfers =
-                crossed.is_some_and(|it| it.transfers(queues.uses(access.subresource), subresource, access));
-            let hazard = if transfers { Hazard::Ownership } else { subresource.hazard(access) };
-            let old_layout = if access.keeps { subresource.layout } else { Layout::Undefined };
-            barriers.push(SubresourceBarrier::before(access, step, (source, subresource.last), old_layout, hazard));
-            if !subresource.is_used() {
-                subresource.first_barrier = number;
-            } else if subresource.barrier == subresource.first_barrier {
-                subresource.second_barrier = number;
+            let transfers = crossed.is_some_and(|it| it.transfers(queues.uses(access.subresource), state, access));
+            let hazard = if transfers { Hazard::Ownership } else { state.hazard(access) };
+            let old_layout = if access.keeps { state.layout } else { Layout::Undefined };
+            barriers.push(SubresourceBarrier::before(access, step, (source, state.last), old_layout, hazard));
+            if !state.is_used() {
+                state.first_barrier = number;
+            } else if state.barrier == state.first_barrier {
+                state.second_barrier = number;
             }
-            subresource.barrier = number;
+            state.barrier = number;
         }
         if let Some(crossed) = crossed {
-            crossed.renew(queues, subresource, access, (step, is_own_step), source.map(|_| number));
+            crossed.renew(queues, state, access, (step, is_own_step), source.map(|_| number));
         }
-        (subresource.stages, subresource.accesses) = (access.stages, access.accesses);
-        (subresource.layout, subresource.last) = (access.layout, step);
+        (state.stages, state.accesses) = (access.stages, access.accesses);
+        (state.layout, state.last) = (access.layout, step);
     }
 }

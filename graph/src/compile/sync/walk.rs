@@ -4,7 +4,6 @@ use super::final_states;
 use super::subresource::{SubresourceAccess, SubresourceState};
 use super::timeline::AccessTimeline;
 use crate::compile::model::{Adapted, Role, Use};
-use crate::compile::parts::Grids;
 use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
 use crate::compile::scope::{Scoped, Step, Target};
@@ -14,14 +13,12 @@ use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
 /// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
 /// behind all others.
 pub(in crate::compile) fn timeline(
-    grids: &Grids,
     adapted: &Adapted,
     scoped: &Scoped,
     load_store: &LoadStoreOps,
     queues: Queues,
 ) -> AccessTimeline {
     let mut walk = Walk {
-        grids,
         adapted,
         timeline: AccessTimeline {
             subresources: vec![SubresourceState::UNUSED; adapted.subresources as usize],
@@ -38,12 +35,11 @@ pub(in crate::compile) fn timeline(
         walk.step(step, number, load_store);
     }
     let Walk { mut timeline, .. } = walk;
-    timeline.states = final_states::states(grids, adapted, &mut timeline, scoped.steps.len() as u32);
+    timeline.states = final_states::states(adapted, &mut timeline, scoped.steps.len() as u32);
     timeline
 }
 
 struct Walk<'w> {
-    grids: &'w Grids,
     adapted: &'w Adapted,
     timeline: AccessTimeline,
     /// Accesses of the current step.
@@ -103,8 +99,8 @@ impl Walk<'_> {
             keeps: used.reads,
             usage,
         };
-        let Walk { grids, adapted, .. } = *self;
-        adapted.for_each_subresource(grids, used, |subresource| self.accessed(access(subresource)));
+        let Walk { adapted, .. } = *self;
+        adapted.for_each_subresource(used, |subresource| self.accessed(access(subresource)));
     }
 
     /// A local read waits only for what its scope loads. What its scope draws is made visible within the scope.
@@ -128,8 +124,8 @@ impl Walk<'_> {
 
     /// Adds the accesses of load and store operations to those of the passes.
     fn also(&mut self, target: Target, stages: Stages, accesses: Accesses) {
-        let Walk { grids, adapted, timeline, accesses: known, .. } = self;
-        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |subresource| {
+        let Walk { adapted, timeline, accesses: known, .. } = self;
+        adapted.resources[target.resource as usize].for_each_in(target.range, |subresource| {
             let at = timeline.subresources[subresource as usize].access as usize;
             if let Some(access) = known.get_mut(at).filter(|access| access.subresource == subresource) {
                 access.stages |= stages;
@@ -159,14 +155,12 @@ impl Walk<'_> {
 
     /// Notes the uses of a step that are in another layout, because of the step's other uses, than they ask for.
     fn join_uses(&mut self, step: &Step) {
-        let Walk { grids, adapted, timeline: AccessTimeline { subresources, layouts, .. }, .. } = self;
+        let Walk { adapted, timeline: AccessTimeline { subresources, layouts, .. }, .. } = self;
         for op in step.ops() {
             for at in adapted.ops[*op as usize].uses.clone() {
                 let used = &adapted.uses[at as usize];
                 let mut layout = used.layout;
-                adapted.for_each_subresource(grids, used, |subresource| {
-                    layout = subresources[subresource as usize].layout
-                });
+                adapted.for_each_subresource(used, |subresource| layout = subresources[subresource as usize].layout);
                 if layout != used.layout {
                     layouts.push((at, layout));
                 }
