@@ -1,9 +1,9 @@
 //! `fragments`: images, buffers and passes that each use of a fragment makes anew.
 
-use super::body::{self, Body, Lists};
+use super::body::{self, Body, Lists, Tables};
 use super::list::entries;
 use super::parameters::{self, ParameterFields};
-use super::textures;
+use super::textures::{self, Pictures};
 use crate::fields;
 use crate::language::scope::Parameter;
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
@@ -36,28 +36,41 @@ fields! {
 /// A list of fragments.
 pub(crate) const FRAGMENTS: Form = Form::List(&Form::Fields(FragmentFields::<'static>::table));
 
-/// A fragment with the fields of its entries.
-pub(crate) struct Fragment<'t> {
+/// A fragment.
+pub(crate) struct Fragment {
     pub(crate) name: Option<Name>,
-    pub(crate) body: Body<'t>,
+    pub(crate) body: Body,
 }
 
-/// Fragments by name; `None` where one couldn't be told apart.
-pub(crate) struct Fragments<'t> {
+/// A fragment with the field tables of its entries.
+pub(crate) struct FragmentTable<'t> {
+    name: Option<Name>,
+    pub(crate) tables: Tables<'t>,
+}
+
+/// Fragments by name, with the field tables of their entries; `None` where one couldn't be told apart.
+pub(crate) struct FragmentTables<'t> {
     pub(crate) names: Names,
-    pub(crate) list: Vec<Option<Fragment<'t>>>,
+    pub(crate) list: Vec<Option<FragmentTable<'t>>>,
 }
 
-impl Fragment<'_> {
+impl Fragment {
     /// Its name; empty if that couldn't be read.
     pub(crate) fn called(&self) -> &str {
         self.name.as_ref().map_or("", |name| &*name.text)
     }
 }
 
-impl<'t> Fragments<'t> {
-    /// Reads lists of fragments, one after the other.
-    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Fragments<'t> {
+impl FragmentTable<'_> {
+    /// Its name; empty if that couldn't be read.
+    pub(crate) fn called(&self) -> &str {
+        self.name.as_ref().map_or("", |name| &*name.text)
+    }
+}
+
+impl<'t> FragmentTables<'t> {
+    /// Tells the fields of fragments apart: of lists of them, one after the other.
+    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> FragmentTables<'t> {
         let mut names = Names::new("fragment");
         let mut list = Vec::new();
         for leaf in lists {
@@ -65,11 +78,20 @@ impl<'t> Fragments<'t> {
                 entries(reader, Some(leaf), "`fragments`", "fragment", &mut names);
             list.extend(fields.into_iter().map(|fields| fields.map(|fields| fragment(reader, &fields))));
         }
-        Fragments { names, list }
+        FragmentTables { names, list }
+    }
+
+    /// Reads the entries of all fragments; they may use each other.
+    pub(crate) fn fragments(&self, reader: &mut Reader, pictures: &Pictures) -> Vec<Option<Fragment>> {
+        let mut read = |table: &FragmentTable<'_>| {
+            let body = table.tables.body(reader, None, self, pictures);
+            Fragment { name: table.name.clone(), body }
+        };
+        self.list.iter().map(|table| table.as_ref().map(&mut read)).collect()
     }
 }
 
-fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t> {
+fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> FragmentTable<'t> {
     let name = reader.name(fields.name, "a fragment");
     if let Some(about) = fields.about {
         reader.words(about, "a description");
@@ -81,5 +103,5 @@ fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t
     let parameters: Vec<Option<Parameter>> = given.into_iter().map(read).collect();
     let FragmentFields { textures, images, buffers, passes, .. } = *fields;
     let lists = Lists { textures, images, buffers, passes: Some(passes) };
-    Fragment { name, body: Body::read(reader, names, parameters, false, lists) }
+    FragmentTable { name, tables: Tables::read(reader, names, parameters, false, lists) }
 }

@@ -1,16 +1,15 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::repeat::REPEAT;
-use super::values::{Decided, optional};
+use super::values::{at, optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
-use crate::base::Diagnostic;
-use crate::expression::{Value, Wanted};
+use crate::base::{Diagnostic, Span};
+use crate::expression::Wanted;
 use crate::frame::ViewIndex;
 use crate::language::model::{Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind};
-use crate::language::scope::{Context, Evaluated, Parameter};
+use crate::language::scope::{Context, Decided, Given, Kept, Parameter, given, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
-use std::sync::Arc;
 
 /// Most array layers that a file may ask for: what desktop devices have.
 pub(crate) const MOST_LAYERS: i64 = 2048;
@@ -135,67 +134,57 @@ static SHAPES: Words = Words {
     ],
 };
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// An image.
-    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Image> {
+    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Given<Image>> {
         let name = self.reader.name(fields.name, "an image");
+        let span = name.as_ref().map_or(Span::NONE, |name| name.span);
         let format = self.image_format(fields.format);
         let size = self.size(fields.size);
-        let samples = match fields.samples {
-            Some(leaf) => self.samples(leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
-            None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
-        };
+        let samples = fields
+            .samples
+            .map_or(Some(Given::Known(Decided::said(Samples::Count(1)))), |leaf| self.samples(leaf, name.as_ref()));
+        let samples_at = fields.samples.map_or(span, Leaf::span);
         let resolve = optional(fields.resolve, |leaf| self.resolve(leaf));
-        let mips = self.or(fields.mips, &name, Mips::Count(1), Self::mips);
-        let layers = self.or(fields.layers, &name, Layers::Default, Self::layers);
-        let shape = self.or(fields.shape, &name, ImageShape::D2, Self::shape);
-        let lifetime = match fields.lifetime {
-            Some(leaf) => self.lifetime(leaf, lifetimes::Of::Image),
-            None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
-        };
-        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
-        let ((size, size_because), (samples, samples_because)) = (size?, samples?);
-        let within = |because: Option<Arc<str>>| because.map(|because| self.scope.within_view(&because).into());
-        Some(Image {
-            name: name?,
-            format: fields.format.spanned(format?),
-            size: fields.size.spanned(size),
-            size_because: within(size_because),
-            samples,
-            samples_because: within(samples_because),
-            resolve: resolve?,
-            mips: mips?,
-            layers: layers?,
-            shape: shape?,
-            lifetime: lifetime?,
-            eyes: None,
-            per_eye: per_eye?,
-            view: ViewIndex::default(),
-            instance: None,
-        })
+        let mips = or(fields.mips, span, Mips::Count(1), |leaf| self.mips(leaf));
+        let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
+        let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
+        let transient = Given::Known(Spanned { value: Lifetime::Transient, span });
+        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, lifetimes::Of::Image));
+        let per_eye = optional(fields.per_eye, |leaf| Some(at(leaf, self.truth(leaf)?)));
+        let (name, size_at) = (name?, fields.size.span());
+        let parts = (
+            (at(fields.format, format?), size?.within_view(), samples?.within_view(), resolve?),
+            (mips?, layers?, shape?, lifetime?, per_eye?),
+        );
+        let image =
+            given(parts, move |((format, size, samples, resolve), (mips, layers, shape, lifetime, per_eye))| Image {
+                name: name.clone(),
+                format,
+                size: Spanned { value: size.value, span: size_at },
+                size_because: size.because,
+                samples: Spanned { value: samples.value, span: samples_at },
+                samples_because: samples.because,
+                resolve,
+                mips,
+                layers,
+                shape,
+                lifetime,
+                eyes: None,
+                per_eye,
+                view: ViewIndex::default(),
+                instance: None,
+            });
+        Some(image)
     }
 
-    /// The value of a field that may be absent; its place is then the image's name.
-    fn or<'src, T>(
-        &mut self,
-        leaf: Option<Leaf<'src>>,
-        name: &Option<Name>,
-        absent: T,
-        read: impl FnOnce(&mut Self, Leaf<'src>) -> Option<T>,
-    ) -> Option<Spanned<T>> {
-        match leaf {
-            Some(leaf) => read(self, leaf).map(|value| leaf.spanned(value)),
-            None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
-        }
-    }
-
-    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Format> {
+    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Given<Format>> {
         if let Shape::Text = leaf.shape() {
             if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
                 self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
                 return None;
             }
-            return self.format(leaf).map(Format::Named);
+            return Some(self.format(leaf)?.map(Format::Named));
         }
         let (word, rest) = match leaf.shape() {
             Shape::Word(word, rest) if vulkan::Format::from_name(word).is_some() => (word, rest),
@@ -207,91 +196,102 @@ impl Context<'_, '_> {
                     Some(_) => self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
                     None => None,
                 };
-                match hdr {
-                    Some(hdr) => self.truth(hdr).map(|hdr| Format::Color { hdr }),
-                    None => Some(Format::Color { hdr: false }),
-                }
+                let hdr = hdr.map_or(Some(Given::Known(false)), |hdr| self.truth(hdr));
+                Some(hdr?.map(|hdr| Format::Color { hdr }))
             }
-            "Depth" => self.reader.bare(word, rest).map(|()| Format::Depth),
-            "DepthStencil" => self.reader.bare(word, rest).map(|()| Format::DepthStencil),
-            "Output" => self.reader.bare(word, rest).map(|()| Format::Output),
-            "Like" => self.like(leaf, rest).map(Format::Like),
+            "Like" => Some(self.like(leaf, rest)?.map(Format::Like)),
             name => {
                 self.reader.bare(word, rest)?;
-                vulkan::Format::from_name(name).map(Format::Named)
+                Some(Given::Known(match name {
+                    "Depth" => Format::Depth,
+                    "DepthStencil" => Format::DepthStencil,
+                    "Output" => Format::Output,
+                    name => Format::Named(vulkan::Format::from_name(name)?),
+                }))
             }
         }
     }
 
-    fn samples(&mut self, leaf: Leaf<'_>, image: &Option<Name>) -> Option<Decided<Samples>> {
-        let (count, because): Decided<i64> = match leaf.shape() {
+    fn samples(&mut self, leaf: Leaf<'_>, image: Option<&Name>) -> Option<Given<Decided<Samples>>> {
+        let is_count = |count: i64| SAMPLE_COUNTS.contains(&count);
+        let count = match leaf.shape() {
             Shape::Text => {
                 let words = ("a whole number", Some("a whole number"));
-                let Evaluated { value, because, setting } =
-                    self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
-                let odd =
-                    |setting: &Parameter| setting.one_of().iter().copied().find(|count| !SAMPLE_COUNTS.contains(count));
+                let (count, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+                let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| !is_count(*count));
                 if let Some(odd) = setting.and_then(odd) {
                     let message = format!("this setting allows {odd}, which is no sample count");
                     self.reader.wrong(leaf, message, &SAMPLES.forms());
                     return None;
                 }
-                let Value::Integer(count) = value else { return None };
-                (count, because)
+                typed(count, whole_number)?
             }
             Shape::Number => {
                 let count = self.reader.integer(leaf)?;
-                if !SAMPLE_COUNTS.contains(&count) {
+                if !is_count(count) {
                     self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                     return None;
                 }
-                (count, None)
+                Given::Known(Decided::said(count))
             }
             _ => {
                 let (_, rest) = self.reader.one_of(leaf, &SAMPLES)?;
-                return self.like(leaf, rest).map(|of| (Samples::Like(of), None));
+                return Some(self.like(leaf, rest)?.map(|of| Decided::said(Samples::Like(of))));
             }
         };
-        if !SAMPLE_COUNTS.contains(&count) {
-            let why =
-                because.map(|because: Arc<str>| format!(" ({})", self.scope.within_view(&because))).unwrap_or_default();
-            let name = image.as_ref().map_or("", |name| &*name.text);
-            let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
+        let (span, name) = (leaf.span(), image.map_or_else(|| "".into(), |name| name.text.clone()));
+        count.checked(self.reader, move |count, view| {
+            if let Some(known) = u32::try_from(count.value).ok().filter(|_| is_count(count.value)) {
+                return Ok(count.map(|_| Samples::Count(known)));
+            }
+            let why = count.because.as_ref().map(|because| format!(" ({})", within_view(view, because)));
+            let message = format!("image `{name}` can't have {} samples{}", count.value, why.unwrap_or_default());
             let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-            self.fault(leaf, wrong.help(format!("sample counts are {allowed}")));
-            return None;
-        }
-        u32::try_from(count).ok().map(|count| (Samples::Count(count), because))
+            Err(Diagnostic::new(span, message).help(format!("sample counts are {allowed}")))
+        })
     }
 
-    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Mips> {
+    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Given<Mips>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return self.whole(leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
+            return Some(self.whole(leaf, "number of mip levels", 1..=MOST_MIPS)?.map(Mips::Count));
         }
         let (word, rest) = self.reader.one_of(leaf, &MIPS)?;
         match word {
-            "Full" => self.reader.bare(word, rest).map(|()| Mips::Full),
-            _ => self.like(leaf, rest).map(Mips::Like),
+            "Full" => self.reader.bare(word, rest).map(|()| Given::Known(Mips::Full)),
+            _ => Some(self.like(leaf, rest)?.map(Mips::Like)),
         }
     }
 
-    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Layers> {
+    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Given<Layers>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return self.whole(leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
+            return Some(self.whole(leaf, "number of layers", 1..=MOST_LAYERS)?.map(Layers::Count));
         }
         let (_, rest) = self.reader.one_of(leaf, &LAYERS)?;
-        self.like(leaf, rest).map(Layers::Like)
+        Some(self.like(leaf, rest)?.map(Layers::Like))
     }
 
-    fn shape(&mut self, leaf: Leaf<'_>) -> Option<ImageShape> {
+    fn shape(&mut self, leaf: Leaf<'_>) -> Option<Given<ImageShape>> {
         let (word, rest) = self.reader.one_of(leaf, &SHAPES)?;
         match word {
-            "D2" => self.reader.bare(word, rest).map(|()| ImageShape::D2),
-            "Cube" => self.reader.bare(word, rest).map(|()| ImageShape::Cube),
+            "D2" => self.reader.bare(word, rest).map(|()| Given::Known(ImageShape::D2)),
+            "Cube" => self.reader.bare(word, rest).map(|()| Given::Known(ImageShape::Cube)),
             _ => {
                 let [depth]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "D3(64)")?;
-                self.whole(depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
+                Some(self.whole(depth, "depth", 1..=i64::from(LARGEST_SIZE))?.map(ImageShape::D3))
             }
         }
+    }
+}
+
+/// The value of a field of an image that may be absent; its place is then the image's name.
+fn or<'src, T: Kept>(
+    leaf: Option<Leaf<'src>>,
+    span: Span,
+    absent: T,
+    read: impl FnOnce(Leaf<'src>) -> Option<Given<T>>,
+) -> Option<Given<Spanned<T>>> {
+    match leaf {
+        Some(leaf) => Some(at(leaf, read(leaf)?)),
+        None => Some(Given::Known(Spanned { value: absent, span })),
     }
 }

@@ -16,6 +16,7 @@ pub(crate) mod parameters;
 pub(crate) mod parts;
 pub(crate) mod pass_fields;
 pub(crate) mod passes;
+pub(crate) mod pipeline;
 pub(crate) mod precision;
 pub(crate) mod presets;
 pub(crate) mod repeat;

@@ -11,13 +11,13 @@ use crate::language::scope::{Parameter, ParameterKind};
 use crate::ron::{Name, Reader};
 use crate::vulkan::Format;
 
-impl Evaluation<'_, '_> {
+impl Evaluation<'_> {
     /// Evaluates the bodies of fragments that were never put in. Their arguments are images and buffers of which nothing is
     /// known, and default values, so that only mistakes are reported that don't depend on arguments.
     pub(super) fn unused(&mut self, reader: &mut Reader) {
         self.purpose = Purpose::CheckUnused;
         let fragments = self.fragments;
-        for (at, fragment) in fragments.list.iter().enumerate() {
+        for (at, fragment) in fragments.iter().enumerate() {
             let Some(fragment) = fragment.as_ref().filter(|_| !self.used.contains(&at) && !self.is_full) else {
                 continue;
             };

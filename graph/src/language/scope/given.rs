@@ -1,0 +1,195 @@
+//! A value of an entry: known when its file is read, or asked of settings, parameters, images and surroundings at each
+//! lowering.
+
+use super::evaluator::{Evaluator, within_view};
+use super::level::Decided;
+use crate::base::Diagnostic;
+use crate::ron::{Name, Reader};
+use std::sync::Arc;
+
+/// What values of entries have in common: they are kept in a document, and copied into pipelines.
+pub(crate) trait Kept: Clone + Send + Sync + 'static {}
+
+impl<T: Clone + Send + Sync + 'static> Kept for T {}
+
+/// What finds a value.
+type Ask<T> = dyn Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync;
+
+/// A value of an entry.
+#[derive(Clone)]
+pub(crate) enum Given<T> {
+    /// The file says it.
+    Known(T),
+    /// It is found at each lowering; `None` if there is none, which is reported then.
+    Asked(Arc<Ask<T>>),
+}
+
+impl<T: Kept> Given<T> {
+    pub(crate) fn asked(ask: impl Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync + 'static) -> Given<T> {
+        Given::Asked(Arc::new(ask))
+    }
+
+    /// What is made of the value, if anything is.
+    pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<Given<U>> {
+        match self {
+            Given::Known(value) => make(value).map(Given::Known),
+            Given::Asked(ask) => Some(Given::asked(move |evaluator| ask(evaluator).and_then(&make))),
+        }
+    }
+
+    /// What is made of the value.
+    pub(crate) fn map<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<U> {
+        given(self, make)
+    }
+
+    /// What is made of the value, or what is wrong with it. That is reported to `reader` if the value is known; else it is
+    /// a fault at each lowering, see [`Evaluator::fault`]. The second argument is the view of the entry, unless it is the
+    /// main one.
+    pub(crate) fn checked<U: Kept>(
+        self,
+        reader: &mut Reader,
+        check: impl Fn(T, Option<&Name>) -> Result<U, Diagnostic> + Send + Sync + 'static,
+    ) -> Option<Given<U>> {
+        self.checked_as(reader, false, check)
+    }
+
+    /// The same. Of a value whose wrong part is `said` by the file, what is wrong is always reported.
+    pub(crate) fn checked_as<U: Kept>(
+        self,
+        reader: &mut Reader,
+        said: bool,
+        check: impl Fn(T, Option<&Name>) -> Result<U, Diagnostic> + Send + Sync + 'static,
+    ) -> Option<Given<U>> {
+        match self {
+            Given::Known(value) => check(value, None).map_err(|wrong| reader.report(wrong)).ok().map(Given::Known),
+            Given::Asked(ask) => Some(Given::asked(move |evaluator| {
+                let value = ask(evaluator)?;
+                let checked = check(value, evaluator.scope.view);
+                let tell = |wrong| if said { evaluator.reader.report(wrong) } else { evaluator.fault(wrong) };
+                checked.map_err(tell).ok()
+            })),
+        }
+    }
+
+    /// Whether the file says the value.
+    pub(crate) const fn is_known(&self) -> bool {
+        matches!(self, Given::Known(_))
+    }
+}
+
+impl<T: Kept> Given<Decided<T>> {
+    /// With what decided it as it is told outside of the entry: with the view that it is of, if that isn't the main one.
+    pub(crate) fn within_view(self) -> Self {
+        let Given::Asked(ask) = self else { return self };
+        Given::asked(move |evaluator| {
+            let Decided { value, because } = ask(evaluator)?;
+            let because = because.map(|because| within_view(evaluator.scope.view, &because).into());
+            Some(Decided { value, because })
+        })
+    }
+}
+
+/// Values of an entry that belong together: one, a tuple or a list of them, or none.
+pub(crate) trait Parts: Send + Sync + 'static {
+    /// The values.
+    type Values: Kept;
+
+    /// All of them, if the file says them.
+    fn known(&self) -> Option<Self::Values>;
+
+    /// All of them; each is evaluated, so that all mistakes are told.
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values>;
+}
+
+/// What is made of several values.
+pub(crate) fn given<P: Parts, T: Kept>(parts: P, make: impl Fn(P::Values) -> T + Send + Sync + 'static) -> Given<T> {
+    match parts.known() {
+        Some(values) => Given::Known(make(values)),
+        None => Given::asked(move |evaluator| parts.evaluate(evaluator).map(&make)),
+    }
+}
+
+impl<T: Kept> Parts for Given<T> {
+    type Values = T;
+
+    fn known(&self) -> Option<T> {
+        if let Given::Known(value) = self { Some(value.clone()) } else { None }
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<T> {
+        match self {
+            Given::Known(value) => Some(value.clone()),
+            Given::Asked(ask) => ask(evaluator),
+        }
+    }
+}
+
+impl<P: Parts> Parts for Option<P> {
+    type Values = Option<P::Values>;
+
+    fn known(&self) -> Option<Self::Values> {
+        self.as_ref().map_or(Some(None), |part| part.known().map(Some))
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        self.as_ref().map_or(Some(None), |part| part.evaluate(evaluator).map(Some))
+    }
+}
+
+impl<P: Parts> Parts for Vec<P> {
+    type Values = Vec<P::Values>;
+
+    fn known(&self) -> Option<Self::Values> {
+        self.iter().map(P::known).collect()
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        let mut values = Vec::with_capacity(self.len());
+        for part in self {
+            values.extend(part.evaluate(evaluator));
+        }
+        (values.len() == self.len()).then_some(values)
+    }
+}
+
+impl<P: Parts, const N: usize> Parts for [P; N] {
+    type Values = [P::Values; N];
+
+    fn known(&self) -> Option<Self::Values> {
+        let values: Option<Vec<_>> = self.iter().map(P::known).collect();
+        values?.try_into().ok()
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        let values = self.each_ref().map(|part| part.evaluate(evaluator));
+        let values: Option<Vec<_>> = values.into_iter().collect();
+        values?.try_into().ok()
+    }
+}
+
+macro_rules! tuples {
+    ($($part:ident)*) => {
+        impl<$($part: Parts),*> Parts for ($($part,)*) {
+            type Values = ($($part::Values,)*);
+
+            #[allow(non_snake_case, reason = "parts have the names of their types")]
+            fn known(&self) -> Option<Self::Values> {
+                let ($($part,)*) = self;
+                Some(($($part.known()?,)*))
+            }
+
+            #[allow(non_snake_case, reason = "parts have the names of their types")]
+            fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+                let ($($part,)*) = self;
+                let ($($part,)*) = ($($part.evaluate(evaluator),)*);
+                Some(($($part?,)*))
+            }
+        }
+    };
+}
+
+tuples!(A B);
+tuples!(A B C);
+tuples!(A B C D);
+tuples!(A B C D E);
+tuples!(A B C D E F);
