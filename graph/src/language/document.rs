@@ -13,7 +13,7 @@ use crate::language::compose::loader::{self, Loader};
 use crate::language::compose::origins::Origins;
 use crate::language::compose::tables::{self, PIPELINE, Sections};
 use crate::language::entries::body::{Lists, Tables};
-use crate::language::entries::fragments::FragmentTables;
+use crate::language::entries::fragments::Fragments;
 use crate::language::entries::pipeline::Entries;
 use crate::language::entries::textures::Pictures;
 use crate::language::entries::values::optional;
@@ -177,7 +177,7 @@ fn read_entries(
 ) -> Entries {
     let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
     let included = included.iter().filter_map(|tree| tree.root().field("fragments"));
-    let fragments = FragmentTables::read(reader, sections.get(&tables::FRAGMENTS).into_iter().chain(included));
+    let fragments = Fragments::read(reader, sections.get(&tables::FRAGMENTS).into_iter().chain(included));
     let lists = Lists {
         textures: sections.get(&tables::TEXTURES),
         images: sections.get(&tables::IMAGES),
@@ -193,6 +193,6 @@ fn read_entries(
     let depth_format = optional(sections.get(&tables::DEPTH_FORMAT), |leaf| context.depth_format_policy(leaf));
     let outputs = sections.get(&tables::OUTPUTS).and_then(|leaf| context.outputs(leaf));
     let body = tables.body(reader, Some(&views), &fragments, pictures);
-    let fragments = fragments.fragments(reader, pictures);
+    let fragments = fragments.bodies(reader, pictures);
     Entries { body, fragments, views, depth, color, depth_format, outputs }
 }

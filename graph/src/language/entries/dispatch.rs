@@ -1,9 +1,9 @@
 //! `dispatch`: how many workgroups a compute pass runs.
 
-use super::values::{MANY, at, each};
+use super::values::{MANY, at};
 use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, Given, all, given};
 use crate::ron::{Form, Leaf, Takes, Word, Words};
 
 /// What `groups` takes.
@@ -129,6 +129,6 @@ impl Context<'_> {
             }
         };
         let one = || Some(Given::Known(1));
-        each([Some(x), y, z].map(|leaf| leaf.map_or_else(one, |leaf| self.whole(leaf, what, 1..=most))))
+        all([Some(x), y, z].map(|leaf| leaf.map_or_else(one, |leaf| self.whole(leaf, what, 1..=most))))
     }
 }

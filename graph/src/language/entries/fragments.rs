@@ -6,7 +6,7 @@ use super::parameters::{self, ParameterFields};
 use super::textures::{self, Pictures};
 use crate::fields;
 use crate::language::scope::Parameter;
-use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
+use crate::ron::{Described, Form, Leaf, Names, Plain, Reader};
 
 fields! {
     /// A fragment: images, buffers and passes that belong together.
@@ -36,63 +36,47 @@ fields! {
 /// A list of fragments.
 pub(crate) const FRAGMENTS: Form = Form::List(&Form::Fields(FragmentFields::<'static>::table));
 
-/// A fragment.
-pub(crate) struct Fragment {
-    pub(crate) name: Option<Name>,
-    pub(crate) body: Body,
-}
-
-/// A fragment with the field tables of its entries.
-pub(crate) struct FragmentTable<'t> {
-    name: Option<Name>,
-    pub(crate) tables: Tables<'t>,
-}
-
-/// Fragments by name, with the field tables of their entries; `None` where one couldn't be told apart.
-pub(crate) struct FragmentTables<'t> {
+/// Fragments by name: the field tables of their entries, or the entries. `None` where one couldn't be told apart.
+pub(crate) struct Fragments<T> {
     pub(crate) names: Names,
-    pub(crate) list: Vec<Option<FragmentTable<'t>>>,
+    pub(crate) list: Vec<Option<T>>,
 }
 
-impl Fragment {
-    /// Its name; empty if that couldn't be read.
-    pub(crate) fn called(&self) -> &str {
-        self.name.as_ref().map_or("", |name| &*name.text)
+impl<T> Fragments<T> {
+    /// The fragment of this number, if it could be told apart.
+    pub(crate) fn get(&self, at: usize) -> Option<&T> {
+        self.list.get(at)?.as_ref()
+    }
+
+    /// What the fragment of this number is called; empty if its name couldn't be read.
+    pub(crate) fn called(&self, at: usize) -> &str {
+        self.names.get(at).map_or("", |name| &*name.text)
     }
 }
 
-impl FragmentTable<'_> {
-    /// Its name; empty if that couldn't be read.
-    pub(crate) fn called(&self) -> &str {
-        self.name.as_ref().map_or("", |name| &*name.text)
-    }
-}
-
-impl<'t> FragmentTables<'t> {
+impl<'t> Fragments<Tables<'t>> {
     /// Tells the fields of fragments apart: of lists of them, one after the other.
-    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> FragmentTables<'t> {
+    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Self {
         let mut names = Names::new("fragment");
         let mut list = Vec::new();
         for leaf in lists {
             let fields: Vec<Option<FragmentFields<'t>>> =
                 entries(reader, Some(leaf), "`fragments`", "fragment", &mut names);
-            list.extend(fields.into_iter().map(|fields| fields.map(|fields| fragment(reader, &fields))));
+            list.extend(fields.into_iter().map(|fields| fields.map(|fields| tables(reader, &fields))));
         }
-        FragmentTables { names, list }
+        Fragments { names, list }
     }
 
     /// Reads the entries of all fragments; they may use each other.
-    pub(crate) fn fragments(&self, reader: &mut Reader, pictures: &Pictures) -> Vec<Option<Fragment>> {
-        let mut read = |table: &FragmentTable<'_>| {
-            let body = table.tables.body(reader, None, self, pictures);
-            Fragment { name: table.name.clone(), body }
-        };
-        self.list.iter().map(|table| table.as_ref().map(&mut read)).collect()
+    pub(crate) fn bodies(self, reader: &mut Reader, pictures: &Pictures) -> Fragments<Body> {
+        let mut body = |tables: &Tables<'t>| tables.body(reader, None, &self, pictures);
+        let list = self.list.iter().map(|tables| tables.as_ref().map(&mut body)).collect();
+        Fragments { names: self.names, list }
     }
 }
 
-fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> FragmentTable<'t> {
-    let name = reader.name(fields.name, "a fragment");
+fn tables<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Tables<'t> {
+    reader.name(fields.name, "a fragment");
     if let Some(about) = fields.about {
         reader.words(about, "a description");
     }
@@ -103,5 +87,5 @@ fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> FragmentTab
     let parameters: Vec<Option<Parameter>> = given.into_iter().map(read).collect();
     let FragmentFields { textures, images, buffers, passes, .. } = *fields;
     let lists = Lists { textures, images, buffers, passes: Some(passes) };
-    FragmentTable { name, tables: Tables::read(reader, names, parameters, false, lists) }
+    Tables::read(reader, names, parameters, false, lists)
 }

@@ -26,6 +26,7 @@ pub(crate) mod sizes;
 pub(crate) mod stand_ins;
 pub(crate) mod targets;
 pub(crate) mod textures;
+pub(crate) mod told;
 pub(crate) mod transfer;
 pub(crate) mod uses;
 pub(crate) mod values;

@@ -1,147 +1,106 @@
 //! A pass: its work, bindings and targets, and what fills its targets when it is off.
 
 use super::pass_fields::PassFields;
-use super::stand_ins::{Of, Otherwise, stand_ins_make_sense};
-use super::values::optional;
+use super::stand_ins::{Of, stand_ins_make_sense};
+use super::values::{at, optional};
 use crate::base::{Diagnostic, Span};
-use crate::language::model::{BufferPart, Color, Depth, LeftOut, Off, Param, Pass, Sample, Storage, Uniform, Work};
-use crate::language::scope::{Context, Evaluator, Given, Parts};
-use crate::ron::{Leaf, Name, Reader};
+use crate::language::model::{Color, Depth, Pass};
+use crate::language::scope::{Context, Given, Parts};
+use crate::ron::{Name, Reader};
 use std::collections::HashMap;
 
-/// A pass that a file says; `None` where a field couldn't be read.
-pub(crate) struct PassEntry {
-    name: Option<Name>,
-    name_at: Span,
-    /// Whether it has the field `draw`.
-    draws: bool,
-    off: Option<Given<Option<Off>>>,
-    otherwise: Option<Option<Otherwise>>,
-    work: Option<Given<Work>>,
-    sample: Option<Given<(Vec<Sample>, Vec<LeftOut>)>>,
-    storage: Option<Vec<Given<Storage>>>,
-    uniform: Option<Vec<Given<Uniform>>>,
-    vertex: Option<Option<Given<BufferPart>>>,
-    index: Option<Option<Given<BufferPart>>>,
-    color: Option<Vec<Given<Color>>>,
-    depth: Option<Option<Given<Depth>>>,
-    alpha_to_coverage: Option<Given<Option<Span>>>,
-    params: Option<Vec<Given<Param>>>,
-    side_effect: Option<Given<bool>>,
-}
-
 impl Context<'_> {
-    /// A pass.
-    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> PassEntry {
+    /// A pass. An expression that has no value is no mistake if the pass is off.
+    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> Given<Pass> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
-        let work = self.work(fields, &called(name.as_ref()));
-        let none = || Some(Given::Known((Vec::new(), Vec::new())));
-        let no = || Some(Given::Known(false));
-        PassEntry {
-            name_at: fields.name.span(),
-            draws: fields.draw.is_some(),
-            sample: fields.sample.map_or_else(none, |leaf| self.sampled(leaf)),
-            storage: listed(fields.storage, |leaf| self.storage(leaf)),
-            uniform: listed(fields.uniform, |leaf| self.uniforms(leaf)),
-            vertex: optional(fields.vertex, |leaf| self.buffer_part(leaf)),
-            index: optional(fields.index, |leaf| self.buffer_part(leaf)),
-            color: listed(fields.color, |leaf| self.color_targets(leaf)),
-            depth: optional(fields.depth, |leaf| self.depth_target(leaf)),
-            alpha_to_coverage: fields.alpha_to_coverage.map_or(Some(Given::Known(None)), |leaf| {
-                let span = leaf.span();
-                Some(self.truth(leaf)?.map(move |covers| covers.then_some(span)))
-            }),
-            params: listed(fields.params, |leaf| self.params(leaf)),
-            side_effect: fields.side_effect.map_or_else(no, |leaf| self.truth(leaf)),
-            name,
-            off,
-            otherwise,
-            work,
-        }
-    }
-}
-
-/// The values of a field that may be absent: there are none then.
-fn listed<'src, T>(leaf: Option<Leaf<'src>>, read: impl FnOnce(Leaf<'src>) -> Option<Vec<T>>) -> Option<Vec<T>> {
-    leaf.map_or_else(|| Some(Vec::new()), read)
-}
-
-/// What a pass is called in messages.
-fn called(name: Option<&Name>) -> String {
-    name.map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text))
-}
-
-impl Evaluator<'_, '_> {
-    /// A pass. An expression that has no value is no mistake if the pass is off.
-    pub(crate) fn pass(&mut self, entry: &PassEntry) -> Option<Pass> {
-        let off = self.put_in(&entry.off);
-        let is_off = matches!(off, Some(Some(_)));
-        // What never comes to pass needs no values.
-        self.forgave = false;
-        let stand_ins = entry.otherwise.as_ref().map(|otherwise| otherwise.as_ref().map(|it| &it.stand_ins));
-        let otherwise = self.leniently(!is_off, |evaluator| match stand_ins? {
-            Some(stand_ins) => stand_ins.evaluate(evaluator),
-            None => Some(Vec::new()),
-        });
-        let otherwise = otherwise.or_else(|| self.forgave.then(Vec::new));
-        self.forgave = false;
-        let before = self.reader.errors.len();
-        let pass = self.leniently(is_off, |evaluator| evaluator.pass_parts(entry));
-        let idle = pass.is_none() && is_off && self.forgave && self.reader.errors.len() == before;
-        let (name, off, otherwise) = (entry.name.clone()?, off?, otherwise?);
-        if idle {
-            return Some(Pass { off, otherwise, ..Pass::idle(name) });
-        }
-        let pass = Pass { off, otherwise, ..pass? };
-        bindings_differ(self.reader, &pass);
-        if let Some(Some(otherwise)) = &entry.otherwise {
-            stand_ins_make_sense(self.reader, otherwise, Of::Pass, &pass);
-        }
-        Some(pass)
+        let parts = self.pass_parts(fields, name.clone());
+        Given::asked(move |evaluator| {
+            let off = evaluator.put_in(&off);
+            let is_off = matches!(off, Some(Some(_)));
+            // What never comes to pass needs no values.
+            evaluator.forgave = false;
+            let stand_ins = evaluator.leniently(!is_off, |evaluator| match otherwise.as_ref()? {
+                Some(otherwise) => otherwise.stand_ins.evaluate(evaluator),
+                None => Some(Vec::new()),
+            });
+            let stand_ins = stand_ins.or_else(|| evaluator.forgave.then(Vec::new));
+            evaluator.forgave = false;
+            let before = evaluator.reader.errors.len();
+            let pass = evaluator.leniently(is_off, |evaluator| parts.evaluate(evaluator));
+            let idle = pass.is_none() && is_off && evaluator.forgave && evaluator.reader.errors.len() == before;
+            let (name, off, stand_ins) = (name.clone()?, off?, stand_ins?);
+            if idle {
+                return Some(Pass { off, otherwise: stand_ins, ..Pass::idle(name) });
+            }
+            let pass = Pass { off, otherwise: stand_ins, ..pass? };
+            bindings_differ(evaluator.reader, &pass);
+            if let Some(Some(otherwise)) = &otherwise {
+                stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
+            }
+            Some(pass)
+        })
     }
 
-    /// What the pass does, with what.
-    fn pass_parts(&mut self, entry: &PassEntry) -> Option<Pass> {
-        let work = self.put_in(&entry.work);
-        let sample = self.put_in(&entry.sample);
-        let storage = self.put_in(&entry.storage);
-        let uniform = self.put_in(&entry.uniform);
-        let vertex = self.put_in(&entry.vertex);
-        let index = self.put_in(&entry.index);
-        let color = self.put_in(&entry.color);
-        let depth = self.put_in(&entry.depth);
-        let alpha_to_coverage = self.put_in(&entry.alpha_to_coverage);
-        let params = self.put_in(&entry.params);
-        let side_effect = self.put_in(&entry.side_effect);
-        if let (Some(color), Some(depth)) = (&color, &depth) {
-            targets_make_sense(self.reader, entry, color, depth.as_ref());
-        }
-        let (sample, left_out) = sample?;
-        Some(Pass {
-            work: work?,
-            sample,
-            left_out,
-            storage: storage?,
-            uniform: uniform?,
-            vertex: vertex?,
-            index: index?,
-            color: color?,
-            depth: depth?,
-            alpha_to_coverage: alpha_to_coverage?,
-            params: params?,
-            side_effect: side_effect?,
-            ..Pass::idle(entry.name.clone()?)
+    /// What the pass does, with what. Each field is evaluated, even where another couldn't be read.
+    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Given<Pass> {
+        let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
+        let work = self.work(fields, &what);
+        let sample = optional(fields.sample, |leaf| self.sampled(leaf));
+        let storage = optional(fields.storage, |leaf| self.storage(leaf));
+        let uniform = optional(fields.uniform, |leaf| self.uniforms(leaf));
+        let vertex = optional(fields.vertex, |leaf| self.buffer_part(leaf));
+        let index = optional(fields.index, |leaf| self.buffer_part(leaf));
+        let color = optional(fields.color, |leaf| self.color_targets(leaf));
+        let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
+        let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| Some(at(leaf, self.truth(leaf)?)));
+        let params = optional(fields.params, |leaf| self.params(leaf));
+        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf));
+        let (draws, span) = (fields.draw.is_some(), fields.name.span());
+        Given::asked(move |evaluator| {
+            let work = evaluator.put_in(&work);
+            let sample = evaluator.put_in(&sample);
+            let storage = evaluator.put_in(&storage);
+            let uniform = evaluator.put_in(&uniform);
+            let vertex = evaluator.put_in(&vertex);
+            let index = evaluator.put_in(&index);
+            let color = evaluator.put_in(&color);
+            let depth = evaluator.put_in(&depth);
+            let alpha_to_coverage = evaluator.put_in(&alpha_to_coverage);
+            let params = evaluator.put_in(&params);
+            let side_effect = evaluator.put_in(&side_effect);
+            if let (Some(color), Some(depth)) = (&color, &depth) {
+                let draws = draws.then_some(span);
+                targets_make_sense(evaluator.reader, draws, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
+            }
+            let (sample, left_out) = sample?.unwrap_or_default();
+            Some(Pass {
+                work: work?,
+                sample,
+                left_out,
+                storage: storage?.unwrap_or_default(),
+                uniform: uniform?.unwrap_or_default(),
+                vertex: vertex?,
+                index: index?,
+                color: color?.unwrap_or_default(),
+                depth: depth?,
+                alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
+                params: params?.unwrap_or_default(),
+                side_effect: side_effect?.unwrap_or_default(),
+                ..Pass::idle(name.clone()?)
+            })
         })
     }
 }
 
 /// A draw has targets, and none of them twice.
-fn targets_make_sense(reader: &mut Reader, entry: &PassEntry, color: &[Color], depth: Option<&Depth>) {
-    if entry.draws && color.is_empty() && depth.is_none() {
-        let nothing = format!("{} draws into nothing", called(entry.name.as_ref()));
-        let nothing = Diagnostic::new(entry.name_at, nothing);
+fn targets_make_sense(reader: &mut Reader, draws: Option<Span>, what: &str, color: &[Color], depth: Option<&Depth>) {
+    if let Some(draws) = draws
+        && color.is_empty()
+        && depth.is_none()
+    {
+        let nothing = Diagnostic::new(draws, format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
     let mut first = HashMap::new();
@@ -151,8 +110,7 @@ fn targets_make_sense(reader: &mut Reader, entry: &PassEntry, color: &[Color], d
             (number(selection.first), number(selection.count))
         });
         if let Some(first) = first.insert((target.image.index, numbers), target.image.span) {
-            let twice = format!("{} draws into this image twice", called(entry.name.as_ref()));
-            let twice = Diagnostic::new(target.image.span, twice);
+            let twice = Diagnostic::new(target.image.span, format!("{what} draws into this image twice"));
             reader.report(twice.remark("again here").label(first, "first here"));
         }
     }

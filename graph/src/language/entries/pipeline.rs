@@ -1,7 +1,7 @@
 //! All entries of a pipeline, as its files say them.
 
 use super::body::Body;
-use super::fragments::Fragment;
+use super::fragments::Fragments;
 use super::views::ViewEntries;
 use crate::language::model::{Output, Precisions, Resolves};
 use crate::language::scope::Given;
@@ -10,7 +10,7 @@ use std::fmt;
 /// The entries of a pipeline, with the values that its files say; `None` where a field couldn't be read.
 pub(crate) struct Entries {
     pub(crate) body: Body,
-    pub(crate) fragments: Vec<Option<Fragment>>,
+    pub(crate) fragments: Fragments<Body>,
     pub(crate) views: ViewEntries,
     pub(crate) depth: Option<Option<Given<Option<Resolves>>>>,
     pub(crate) color: Option<Option<Given<Precisions>>>,

@@ -1,11 +1,11 @@
 //! Sizes of images: a number of texels, or a share of the size of a view or another image.
 
 use super::parts;
-use super::values::{each, optional};
+use super::values::optional;
 use crate::base::{Diagnostic, shown_number};
 use crate::fields;
 use crate::language::model::{LARGEST_SIZE, Size};
-use crate::language::scope::{Context, Decided, Given, given, within_view};
+use crate::language::scope::{Context, Decided, Given, all, given, within_view};
 use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
 
 fields! {
@@ -95,7 +95,7 @@ impl Context<'_> {
     /// Width and height of `Fixed(width, height)`.
     pub(crate) fn fixed(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<[Given<u32>; 2]> {
         let sides: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
-        each(sides.map(|side| self.extent(side)))
+        all(sides.map(|side| self.extent(side)))
     }
 
     /// One side of an image, in texels.

@@ -6,7 +6,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, Given, all, given};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
@@ -209,7 +209,7 @@ impl Context<'_> {
             return None;
         }
         let parts: [Leaf<'_>; 4] = self.reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
-        let parts = values::each(parts.map(|part| self.color_component(part)))?;
+        let parts = all(parts.map(|part| self.color_component(part)))?;
         Some(given(parts, |parts| parts))
     }
 

@@ -1,7 +1,8 @@
 //! `use`: a fragment is put in under a name of its own, with arguments for its parameters.
 
+use super::body::Tables;
 use super::condition::CONDITION;
-use super::fragments::FragmentTables;
+use super::fragments::Fragments;
 use super::repeat::REPEAT;
 use super::stand_ins::{OTHERWISE, Otherwise};
 use super::{parameters, views};
@@ -65,16 +66,15 @@ pub(crate) struct Argument {
 
 impl Context<'_> {
     /// A use of one of the fragments.
-    pub(crate) fn use_entry(&mut self, fields: &UseFields<'_>, fragments: &FragmentTables<'_>) -> Option<UseEntry> {
+    pub(crate) fn use_entry(&mut self, fields: &UseFields<'_>, fragments: &Fragments<Tables<'_>>) -> Option<UseEntry> {
         let name = self.reader.name(fields.name, "a use");
         let fragment = self.reader.reference(fields.r#use, "a fragment");
         let fragment = fragment.and_then(|name| fragments.names.find(self.reader, &name));
         let off = self.off(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
-        let found = fragment.and_then(|at| Some((at, fragments.list.get(at)?.as_ref()?)));
-        let arguments =
-            found.map(|(_, fragment)| self.arguments(fields, (fragment.called(), &fragment.tables.symbols)));
-        let ((fragment, _), arguments) = (found?, arguments?);
+        let found = fragment.and_then(|at| Some((fragments.called(at), &*fragments.get(at)?.symbols)));
+        let arguments = found.map(|found| self.arguments(fields, found));
+        let (fragment, arguments) = (fragment?, arguments?);
         Some(UseEntry { name: name?, fragment, off: off?, otherwise: otherwise?, arguments })
     }
 

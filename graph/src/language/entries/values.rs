@@ -5,7 +5,7 @@ use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
 use crate::frame::ParamValue;
 use crate::language::model::{Fill, SettingKind};
-use crate::language::scope::{Context, Decided, Given, Kept, Quoted, decided, given, within_view};
+use crate::language::scope::{Context, Decided, Given, Kept, Quoted, all, decided, given, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
 use std::ops::RangeInclusive;
@@ -178,7 +178,7 @@ impl Context<'_> {
             let (depth, stencil) = (self.fill_number(depth), self.fill_number(stencil));
             given((depth?, stencil?), |(depth, stencil)| Fill::DepthStencil(depth, stencil))
         } else if let Some(parts) = leaf.tuple::<4>() {
-            given(each(parts.map(|part| self.fill_number(part)))?, Fill::Color)
+            given(all(parts.map(|part| self.fill_number(part)))?, Fill::Color)
         } else {
             self.reader.wrong(leaf, "this is no value for all texels", FILLS);
             return None;
@@ -236,12 +236,6 @@ fn text(value: Value) -> Option<Arc<str>> {
 pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: Given<T>) -> Given<Spanned<T>> {
     let span = leaf.span();
     value.map(move |value| Spanned { value, span })
-}
-
-/// All of several values, if none is wrong.
-pub(crate) fn each<T, const N: usize>(values: [Option<T>; N]) -> Option<[T; N]> {
-    let values: Option<Vec<T>> = values.into_iter().collect();
-    values?.try_into().ok()
 }
 
 /// A whole number of `range` that stands there by itself.

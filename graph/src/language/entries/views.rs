@@ -1,6 +1,6 @@
 //! `views`: from where, how large and with what the parts of a frame are drawn.
 
-use super::values::{each, optional};
+use super::values::optional;
 use super::{list, presets, sizes};
 use crate::base::{Diagnostic, Label, OutsideChoice, shown_number};
 use crate::fields;
@@ -8,7 +8,7 @@ use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Context, Decided, DecidedValue, Evaluator, Given, Parts, ScopeValues, given};
+use crate::language::scope::{Context, Decided, DecidedValue, Evaluator, Given, Parts, ScopeValues, all, given};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
@@ -233,7 +233,7 @@ impl Context<'_> {
         let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf)));
         let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
         let jitter = self.jitter(fields);
-        let (set, allows) = (set?, each(allows)?);
+        let (set, allows) = (set?, all(allows)?);
         Some(ViewEntry { name: name?, extent: extent?, camera: camera?, allows, set, jitter: jitter? })
     }
 

@@ -3,12 +3,12 @@
 use super::lists::Flat;
 use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
-use crate::language::entries::body::{Body, Told};
-use crate::language::entries::fragments::Fragment;
+use crate::language::entries::body::Body;
+use crate::language::entries::fragments::Fragments;
 use crate::language::entries::repeat::{MOST_THINGS, Repeat};
 use crate::language::entries::views::Views;
 use crate::language::inputs::Surroundings;
-use crate::language::scope::{DecidedValue, Elements, Evaluator, Given, LevelValues, Parts, ScopeValues};
+use crate::language::scope::{DecidedValue, Elements, Evaluator, LevelValues, Parts, ScopeValues};
 use crate::ron::{Name, Reader};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub(crate) enum Purpose {
 pub(super) struct Evaluation<'a> {
     pub(super) purpose: Purpose,
     pub(super) surroundings: &'a Surroundings<'a>,
-    pub(super) fragments: &'a [Option<Fragment>],
+    pub(super) fragments: &'a Fragments<Body>,
     pub(super) views: Views<'a>,
     pub(super) flat: Flat,
     /// Fragments that are being put in, by number, and where.
@@ -110,7 +110,7 @@ fn below(body: &Body, values: Vec<Option<DecidedValue>>) -> LevelValues {
 }
 
 impl<'a> Evaluation<'a> {
-    pub(super) fn new(purpose: Purpose, surroundings: &'a Surroundings<'a>, fragments: &'a [Option<Fragment>]) -> Self {
+    pub(super) fn new(purpose: Purpose, surroundings: &'a Surroundings<'a>, fragments: &'a Fragments<Body>) -> Self {
         Evaluation {
             purpose,
             surroundings,
@@ -154,7 +154,7 @@ impl<'a> Evaluation<'a> {
         reader: &mut Reader,
         level: &Level<'_>,
         view: ViewIndex,
-        repeat: Option<&Repeat<Told<Given<u32>>>>,
+        repeat: Option<&Repeat>,
         early: bool,
     ) -> Count {
         let is_check = self.purpose != Purpose::Pipeline;

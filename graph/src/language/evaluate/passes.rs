@@ -3,6 +3,7 @@
 use super::evaluation::{Count, Evaluation, Level};
 use crate::language::entries::body::{Entry, Item};
 use crate::language::model::Pass;
+use crate::language::scope::Parts;
 use crate::ron::Reader;
 
 impl Evaluation<'_> {
@@ -24,8 +25,8 @@ impl Evaluation<'_> {
             let before = reader.errors.len();
             let number = entry.repeat.is_list().then_some(number);
             match entry.value.get(reader)? {
-                Item::Pass(fields) => {
-                    let pass = self.evaluator(reader, level, view, number).pass(fields);
+                Item::Pass(pass) => {
+                    let pass = pass.evaluate(&mut self.evaluator(reader, level, view, number));
                     self.flat.passes.push(pass.map(|pass| {
                         let name = level.full(&pass.name, number);
                         Pass { name, view, instance: level.instance, ..pass }

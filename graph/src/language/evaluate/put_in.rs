@@ -4,7 +4,6 @@ use super::evaluation::{Evaluation, Level, Purpose};
 use crate::base::{Diagnostic, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
-use crate::language::entries::fragments::Fragment;
 use crate::language::entries::stand_ins::{self, Of};
 use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
@@ -41,7 +40,7 @@ impl Evaluation<'_> {
         });
         let values: Vec<Option<(DecidedValue, Option<Span>)>> = arguments.collect();
         let (name, at, fragments) = (&entry.name, entry.fragment, self.fragments);
-        let (Some(found), Some(off)) = (fragments.get(at).and_then(Option::as_ref), off) else {
+        let (Some(found), Some(off)) = (fragments.get(at), off) else {
             self.flat.fail();
             return;
         };
@@ -65,7 +64,7 @@ impl Evaluation<'_> {
         let whole = level.full(name, number);
         let start = self.flat.lengths();
         let instance = u32::try_from(self.flat.instances.len()).ok();
-        let mut inner = Level::within(level, (&found.body, values), (&whole, view, instance), is_off);
+        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off);
         self.flat.instances.push(Instance { name: whole.text.clone(), span: name.span, within: level.instance });
         self.used.insert(at);
         self.path.push((at, name.clone()));
@@ -115,10 +114,7 @@ impl Evaluation<'_> {
             return false;
         }
         if let Some(first) = self.path.iter().position(|(outer, _)| *outer == at) {
-            let called = |at: usize| {
-                let fragment = self.fragments.get(at).and_then(Option::as_ref);
-                format!("`{}`", fragment.map_or("", Fragment::called))
-            };
+            let called = |at: usize| format!("`{}`", self.fragments.called(at));
             let circle: Vec<(usize, &Name)> =
                 self.path[first + 1..].iter().map(|(at, name)| (*at, name)).chain([(at, name)]).collect();
             let mut path = vec![called(at)];

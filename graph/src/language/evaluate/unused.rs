@@ -17,18 +17,18 @@ impl Evaluation<'_> {
     pub(super) fn unused(&mut self, reader: &mut Reader) {
         self.purpose = Purpose::CheckUnused;
         let fragments = self.fragments;
-        for (at, fragment) in fragments.iter().enumerate() {
+        for (at, fragment) in fragments.list.iter().enumerate() {
             let Some(fragment) = fragment.as_ref().filter(|_| !self.used.contains(&at) && !self.is_full) else {
                 continue;
             };
             let mut stand_ins = StandIns::default();
-            let parameters = fragment.body.symbols.parameters.iter();
+            let parameters = fragment.symbols.parameters.iter();
             let values = parameters.map(|parameter| parameter.as_ref().map(|it| stand_ins.give(it).into())).collect();
             self.flat = Flat::nothing_known(stand_ins.images, stand_ins.buffers);
             let unnamed = || Name { text: "".into(), span: Span::NONE };
             self.used.insert(at);
-            self.path.push((at, fragment.name.clone().unwrap_or_else(unnamed)));
-            self.level(reader, &mut Level::top(&fragment.body, values));
+            self.path.push((at, fragments.names.get(at).cloned().unwrap_or_else(unnamed)));
+            self.level(reader, &mut Level::top(fragment, values));
             self.path.pop();
             circles::find(&self.flat.images, &self.flat.buffers, &mut reader.errors);
             previous::check(&self.flat.images, &self.flat.buffers, &self.flat.passes, &mut reader.errors);

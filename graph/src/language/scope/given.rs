@@ -94,16 +94,18 @@ pub(crate) trait Parts: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
-    /// All of them, if the file says them.
-    fn known(&self) -> Option<Self::Values>;
+    /// All of them; without an evaluator only if all are known. Each is evaluated, so that all mistakes are told.
+    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values>;
 
-    /// All of them; each is evaluated, so that all mistakes are told.
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values>;
+    /// All of them.
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        self.find(Some(evaluator))
+    }
 }
 
 /// What is made of several values.
 pub(crate) fn given<P: Parts, T: Kept>(parts: P, make: impl Fn(P::Values) -> T + Send + Sync + 'static) -> Given<T> {
-    match parts.known() {
+    match parts.find(None) {
         Some(values) => Given::Known(make(values)),
         None => Given::asked(move |evaluator| parts.evaluate(evaluator).map(&make)),
     }
@@ -112,14 +114,10 @@ pub(crate) fn given<P: Parts, T: Kept>(parts: P, make: impl Fn(P::Values) -> T +
 impl<T: Kept> Parts for Given<T> {
     type Values = T;
 
-    fn known(&self) -> Option<T> {
-        if let Given::Known(value) = self { Some(value.clone()) } else { None }
-    }
-
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<T> {
+    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<T> {
         match self {
             Given::Known(value) => Some(value.clone()),
-            Given::Asked(ask) => ask(evaluator),
+            Given::Asked(ask) => ask(evaluator?),
         }
     }
 }
@@ -127,26 +125,18 @@ impl<T: Kept> Parts for Given<T> {
 impl<P: Parts> Parts for Option<P> {
     type Values = Option<P::Values>;
 
-    fn known(&self) -> Option<Self::Values> {
-        self.as_ref().map_or(Some(None), |part| part.known().map(Some))
-    }
-
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
-        self.as_ref().map_or(Some(None), |part| part.evaluate(evaluator).map(Some))
+    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
+        self.as_ref().map_or(Some(None), |part| part.find(evaluator).map(Some))
     }
 }
 
 impl<P: Parts> Parts for Vec<P> {
     type Values = Vec<P::Values>;
 
-    fn known(&self) -> Option<Self::Values> {
-        self.iter().map(P::known).collect()
-    }
-
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+    fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
         let mut values = Vec::with_capacity(self.len());
         for part in self {
-            values.extend(part.evaluate(evaluator));
+            values.extend(part.find(evaluator.as_deref_mut()));
         }
         (values.len() == self.len()).then_some(values)
     }
@@ -155,16 +145,15 @@ impl<P: Parts> Parts for Vec<P> {
 impl<P: Parts, const N: usize> Parts for [P; N] {
     type Values = [P::Values; N];
 
-    fn known(&self) -> Option<Self::Values> {
-        let values: Option<Vec<_>> = self.iter().map(P::known).collect();
-        values?.try_into().ok()
+    fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
+        all(self.each_ref().map(|part| part.find(evaluator.as_deref_mut())))
     }
+}
 
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
-        let values = self.each_ref().map(|part| part.evaluate(evaluator));
-        let values: Option<Vec<_>> = values.into_iter().collect();
-        values?.try_into().ok()
-    }
+/// All of several values, if there are all.
+pub(crate) fn all<T, const N: usize>(values: [Option<T>; N]) -> Option<[T; N]> {
+    let values: Option<Vec<T>> = values.into_iter().collect();
+    values?.try_into().ok()
 }
 
 macro_rules! tuples {
@@ -173,15 +162,9 @@ macro_rules! tuples {
             type Values = ($($part::Values,)*);
 
             #[allow(non_snake_case, reason = "parts have the names of their types")]
-            fn known(&self) -> Option<Self::Values> {
+            fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
                 let ($($part,)*) = self;
-                Some(($($part.known()?,)*))
-            }
-
-            #[allow(non_snake_case, reason = "parts have the names of their types")]
-            fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
-                let ($($part,)*) = self;
-                let ($($part,)*) = ($($part.evaluate(evaluator),)*);
+                let ($($part,)*) = ($($part.find(evaluator.as_deref_mut()),)*);
                 Some(($($part?,)*))
             }
         }
@@ -192,4 +175,3 @@ tuples!(A B);
 tuples!(A B C);
 tuples!(A B C D);
 tuples!(A B C D E);
-tuples!(A B C D E F);
