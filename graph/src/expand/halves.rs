@@ -1,7 +1,7 @@
 //! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
 
 use super::chosen::Chosen;
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::Diagnostic;
 use crate::frame::EyeForm;
 use crate::language;
@@ -10,14 +10,14 @@ use crate::shader::{ShaderInterface, Unturned};
 /// Reports a shader that takes where its fragments lie for their place in one eye's picture.
 pub(super) fn check(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     pass: &language::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
     let targets = pass.color.iter().map(|target| target.part.image).chain(pass.depth.iter().map(|it| it.part.image));
     let halves = |image: &language::ImageRef| {
-        things.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
+        resources.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
     };
     let Some(target) = targets.into_iter().find(halves) else { return };
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&Unturned::FragCoord)) else { return };

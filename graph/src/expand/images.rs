@@ -10,14 +10,14 @@ use crate::vulkan::Format;
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
-pub(super) struct Resolved {
+pub(super) struct FrameImage {
     pub(super) image: Image,
     /// "msaa = 4" if a setting decides how many samples it has.
     pub(super) samples_because: Option<Arc<str>>,
 }
 
 /// Every image of the pipeline; `None` where a mistake was reported.
-pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
+pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Option<FrameImage>> {
     let images = &chosen.pipeline.images;
     let formats = follow_all(
         images,
@@ -74,7 +74,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
         let image = Image { span: described.name.span, samples, room, eyes: described.eyes, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
-        Some(Resolved { image, samples_because })
+        Some(FrameImage { image, samples_because })
     })
     .collect()
 }
@@ -127,7 +127,7 @@ fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -
     }
 }
 
-impl Resolved {
+impl FrameImage {
     /// How many samples, and why: "4 samples (msaa = 4)".
     pub(super) fn samples_words(&self) -> String {
         let samples = self.image.samples;

@@ -3,8 +3,8 @@
 use super::accesses::{self, Read, Write};
 use super::chosen::Chosen;
 use super::parts::Cells;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
 use super::written::{Cell, Written};
@@ -19,7 +19,7 @@ const MANY_MISTAKES: usize = 100;
 
 struct Check<'a> {
     chosen: &'a Chosen<'a>,
-    things: &'a Things,
+    resources: &'a Resources,
     states: &'a [State],
     writers: Writers,
     /// What holds something by now. All that was reported as holding nothing does: once is enough.
@@ -30,14 +30,14 @@ struct Check<'a> {
 /// Walks through the passes in their order.
 pub(super) fn check(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     states: &[State],
     outputs: &[Output],
     errors: &mut Vec<Diagnostic>,
 ) {
-    let writers = Writers::find(chosen, things, states);
+    let writers = Writers::find(chosen, resources, states);
     let written = writers.on.iter().map(|_| Written::default()).collect();
-    let mut check = Check { chosen, things, states, writers, written, errors };
+    let mut check = Check { chosen, resources, states, writers, written, errors };
     for (position, state) in states.iter().enumerate() {
         let name = &chosen.pipeline.passes[position].name.text;
         let before = check.errors.len();
@@ -60,7 +60,7 @@ pub(super) fn check(
         );
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().iter().flat_map(|pass| accesses::reads(things, pass)) {
+        for read in state.runs().iter().flat_map(|pass| accesses::reads(resources, pass)) {
             if read.frames_ago > 0 {
                 let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
                 check.needs(states.len(), &read, &reader);
@@ -69,7 +69,7 @@ pub(super) fn check(
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Some(cells) = accesses::whole(things, output.resource) {
+        if let Some(cells) = accesses::whole(resources, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
             check.needs(states.len(), &read, reader);
         }
@@ -79,11 +79,11 @@ pub(super) fn check(
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
     fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
-        for read in accesses::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
+        for read in accesses::reads(self.resources, pass).into_iter().filter(|read| read.frames_ago == 0) {
             let span = named.unwrap_or(read.span);
             self.needs(position, &Read { span, ..read }, reader);
         }
-        for write in accesses::writes(self.things, pass) {
+        for write in accesses::writes(self.resources, pass) {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
@@ -92,7 +92,7 @@ impl Check<'_> {
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {
-        if let Some(whole) = accesses::whole(self.things, of) {
+        if let Some(whole) = accesses::whole(self.resources, of) {
             let at = self.writers.index(of);
             self.written[at].add(cells, &whole);
         }
@@ -100,7 +100,7 @@ impl Check<'_> {
 
     /// The first of `cells` that holds nothing when the frame has come this far.
     fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
-        let holds = self.things.lifetime(of)?.has_contents(of);
+        let holds = self.resources.lifetime(of)?.has_contents(of);
         if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
     }
 
@@ -139,7 +139,7 @@ impl Check<'_> {
             wrong.help("each frame writes what has history anew")
         } else if let Some(writer) = self.writer_of(of, cell) {
             self.too_early(position, read, &what, writer)
-        } else if let Some(Lifetime::Imported { .. }) = self.things.lifetime(of) {
+        } else if let Some(Lifetime::Imported { .. }) = self.resources.lifetime(of) {
             let message = format!("{reader} reads {what}, which is handed in without contents, and no pass writes it");
             let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "imported here");
             wrong.help("`before: Undefined` says that there is nothing to read: say in which state it really is")
@@ -170,7 +170,7 @@ impl Check<'_> {
         }
         let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
         let few = self.errors.len() < MANY_MISTAKES;
-        if few && let Some(circle) = waits::circle(self.things, self.states, &self.writers, first) {
+        if few && let Some(circle) = waits::circle(self.resources, self.states, &self.writers, first) {
             return waits::report(self.chosen, &circle);
         }
         let below = &self.chosen.pipeline.passes[writer.position].name.text;
@@ -181,12 +181,12 @@ impl Check<'_> {
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
         // Further up it would itself read what nothing has written.
-        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.things, pass));
+        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.resources, pass));
         if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
         let wrong = self.removed(wrong, &self.chosen.name(of).text);
-        if let Some(Lifetime::History { .. }) = self.things.lifetime(of) {
+        if let Some(Lifetime::History { .. }) = self.resources.lifetime(of) {
             let name = &self.chosen.name(of).text;
             let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
             return wrong.help(format!(
@@ -222,7 +222,7 @@ impl Check<'_> {
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
-        let clear = match accesses::whole(self.things, write.resource) {
+        let clear = match accesses::whole(self.resources, write.resource) {
             Some(whole) => {
                 let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
                 let layer = match layers.len() {
@@ -248,7 +248,7 @@ impl Check<'_> {
     /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
     fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
         let name = &self.chosen.name(of).text;
-        let Some(whole) = accesses::whole(self.things, of) else { return format!("`{name}`") };
+        let Some(whole) = accesses::whole(self.resources, of) else { return format!("`{name}`") };
         if *cells == whole && self.written[self.writers.index(of)].is_blank() {
             return format!("`{name}`");
         }
@@ -271,7 +271,7 @@ impl Check<'_> {
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.iter().flat_map(|pass| accesses::writes(self.things, pass));
+            let writes = pass.iter().flat_map(|pass| accesses::writes(self.resources, pass));
             writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };

@@ -2,7 +2,7 @@
 
 use super::chosen::Chosen;
 use super::inputs::Inputs;
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::{Diagnostic, Span, suggestion};
 use crate::frame::{Eye, ImageIndex, Output, Resource};
 use crate::language::{self, Pipeline};
@@ -12,7 +12,7 @@ use crate::vulkan::{Encoding, Rotation};
 /// The pipeline's outputs, then dumped images that aren't among them.
 pub(super) fn outputs(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     inputs: &Inputs<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<Output> {
@@ -21,8 +21,8 @@ pub(super) fn outputs(
     let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
     for output in &pipeline.outputs {
         let language::ResourceRef { resource, span } = output.resource;
-        let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
-        let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
+        let after = output.after.and_then(|after| resources.left(chosen, resource, after, errors));
+        let encoding = output.encoding.filter(|encoding| encoded(chosen, resources, resource, *encoding, errors));
         let encoding = encoding.map(|encoding| encoding.value);
         let rotation = if shown(chosen, resource, encoding) { inputs.rotation } else { Rotation::Identity };
         outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });
@@ -54,13 +54,13 @@ fn shown(chosen: &Chosen<'_>, resource: Resource, encoding: Option<Encoding>) ->
 /// Whether an output's format can hold its encoding.
 fn encoded(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     of: Resource,
     encoding: Spanned<Encoding>,
     errors: &mut Vec<Diagnostic>,
 ) -> bool {
     let Resource::Image(index) = of else { return false };
-    let Some(format) = things.image(index).map(|image| image.image.format) else { return false };
+    let Some(format) = resources.image(index).map(|image| image.image.format) else { return false };
     let fits = encoding.value.fits(format);
     if !fits {
         let (image, word) = (chosen.image(index), encoding.value.name());

@@ -5,9 +5,9 @@
 //! those that are copied texel for texel, have one format. Colour whose alpha counts keeps it.
 
 use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::Checked;
 use super::state::State;
-use super::things::Things;
 use super::variant;
 use crate::base::Span;
 use crate::frame::{Access, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
@@ -74,7 +74,7 @@ fn reach(format: Format) -> f64 {
 pub(super) fn choose(
     chosen: &Chosen<'_>,
     depth_range: Option<f64>,
-    things: &mut Things,
+    resources: &mut Resources,
     states: &[State],
     outputs: &[Output],
     shaders: &mut Checked<'_>,
@@ -90,13 +90,13 @@ pub(super) fn choose(
         }
     }
     let passes = running(states);
-    for [one, other] in passes.iter().filter_map(|pass| copied(things, pass)) {
+    for [one, other] in passes.iter().filter_map(|pass| copied(resources, pass)) {
         alike.union(one.0, other.0);
     }
-    let uses = Uses::find(chosen, things, states, outputs, shaders);
+    let uses = Uses::find(chosen, resources, states, outputs, shaders);
     let mut remarks = Vec::new();
     for group in groups(&mut alike, pipeline.images.len()) {
-        let format = |at: &u32| things.image(ImageIndex(*at)).map(|image| image.image.format);
+        let format = |at: &u32| resources.image(ImageIndex(*at)).map(|image| image.image.format);
         // Maps of shadows hold distances of a projection whose steps are everywhere the same.
         let range =
             depth_range.filter(|_| group.iter().any(|at| is_seen_depth(&passes, ImageIndex(*at)))).unwrap_or(1.0);
@@ -131,7 +131,7 @@ pub(super) fn choose(
             continue;
         }
         for at in &group {
-            if let Some(image) = things.images[*at as usize].as_mut().map(|image| &mut image.image) {
+            if let Some(image) = resources.images[*at as usize].as_mut().map(|image| &mut image.image) {
                 (image.format, image.chosen) = (format, Some(choice.clone()));
             }
         }
@@ -166,9 +166,9 @@ fn running(states: &[State]) -> Vec<&Pass> {
 }
 
 /// Two images of one format that a pass copies one into the other.
-fn copied(things: &Things, pass: &Pass) -> Option<[ImageIndex; 2]> {
+fn copied(resources: &Resources, pass: &Pass) -> Option<[ImageIndex; 2]> {
     let pair = pass.moved_images()?;
-    let [one, other] = pair.map(|image| things.image(image).map(|image| image.image.format));
+    let [one, other] = pair.map(|image| resources.image(image).map(|image| image.image.format));
     (one.is_some() && one == other).then_some(pair)
 }
 
@@ -195,14 +195,14 @@ impl Uses {
 
     fn find(
         chosen: &Chosen<'_>,
-        things: &Things,
+        resources: &Resources,
         states: &[State],
         outputs: &[Output],
         shaders: &mut Checked<'_>,
     ) -> Uses {
         let images = &chosen.pipeline.images;
         let mut uses = Uses { fixed: vec![None; images.len()], alpha: vec![None; images.len()] };
-        for (image, fixed) in things.images.iter().zip(&mut uses.fixed) {
+        for (image, fixed) in resources.images.iter().zip(&mut uses.fixed) {
             let Some(image) = image.as_ref().map(|image| &image.image) else { continue };
             let why = match image.lifetime {
                 Lifetime::Imported { .. } => "it is handed in",
@@ -218,7 +218,7 @@ impl Uses {
             }
         }
         let passes = running(states);
-        let format = |image: ImageIndex| things.image(image).map(|known| known.image.format);
+        let format = |image: ImageIndex| resources.image(image).map(|known| known.image.format);
         for pass in &passes {
             for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
                 if let Some(image) = access.image_index() {
@@ -228,7 +228,7 @@ impl Uses {
                 }
             }
         }
-        uses.alpha(chosen, things, states, shaders);
+        uses.alpha(chosen, resources, states, shaders);
         uses
     }
 
@@ -237,9 +237,9 @@ impl Uses {
     }
 
     /// Finds the images whose alpha counts: somebody makes use of it, or it is handed on to where it counts.
-    fn alpha(&mut self, chosen: &Chosen<'_>, things: &Things, states: &[State], shaders: &mut Checked<'_>) {
+    fn alpha(&mut self, chosen: &Chosen<'_>, resources: &Resources, states: &[State], shaders: &mut Checked<'_>) {
         let has_alpha =
-            |image: &ImageIndex| things.image(*image).is_some_and(|image| image.image.format.components() == 4);
+            |image: &ImageIndex| resources.image(*image).is_some_and(|image| image.image.format.components() == 4);
         // What others are told the format of may be looked at with its alpha.
         for at in 0..self.fixed.len() {
             self.alpha[at] = self.fixed[at].clone().filter(|_| has_alpha(&ImageIndex(at as u32)));
@@ -258,7 +258,7 @@ impl Uses {
                 }
             };
             handed_on.extend(pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
-            let Some(alpha) = alpha_of(chosen, things, described, pass, shaders) else { continue };
+            let Some(alpha) = alpha_of(chosen, resources, described, pass, shaders) else { continue };
             for sampled in &pass.sampled {
                 let Some((_, used)) = alpha.iter().find(|(name, _)| **name == *sampled.binding) else { continue };
                 let weighs = |blend: Blend| matches!(blend, Blend::Alpha | Blend::Premultiplied);
@@ -289,7 +289,7 @@ impl Uses {
 /// What a pass's shader does with alpha; `None` if it has none, or it can't be had, which is reported elsewhere.
 fn alpha_of(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     described: &language::Pass,
     pass: &Pass,
     shaders: &mut Checked<'_>,
@@ -297,5 +297,5 @@ fn alpha_of(
     if pass.sampled.is_empty() {
         return None;
     }
-    shaders.interface(described, &variant::of(chosen, things, described), &mut Vec::new()).map(|found| found.alpha)
+    shaders.interface(described, &variant::of(chosen, resources, described), &mut Vec::new()).map(|found| found.alpha)
 }

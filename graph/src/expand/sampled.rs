@@ -1,10 +1,10 @@
 //! Images that a shader samples: the parts that the pass gives, against what the shader declares.
 
 use super::chosen::Chosen;
-use super::images::Resolved;
+use super::images::FrameImage;
 use super::parts::{self, Cells};
+use super::resources::Resources;
 use super::shader::{self, component_words, shape_words};
-use super::things::Things;
 use super::{storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
@@ -46,13 +46,13 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 
 /// A sampled image of the frame. `None` if the image or the shader's name isn't known; mistakes are reported elsewhere.
 pub(super) fn lower(
-    things: &Things,
+    resources: &Resources,
     sample: &language::Sample,
     mut range: Subresources,
     interface: Option<&ShaderInterface>,
     raster: bool,
 ) -> Option<Sampled> {
-    let image = &things.image(sample.part.image.index)?.image;
+    let image = &resources.image(sample.part.image.index)?.image;
     let name = &sample.binding.text;
     let declared = match interface {
         Some(interface) => Some(declared(interface, name)?),
@@ -106,7 +106,7 @@ fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filte
 /// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
@@ -130,10 +130,10 @@ pub(super) fn check<'i>(
             errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });
             continue;
         };
-        let Some(image) = things.image(sample.part.image.index) else { continue };
+        let Some(image) = resources.image(sample.part.image.index) else { continue };
         let Some(sampled) = lowered.sampled.iter().find(|sampled| sampled.binding == *name) else { continue };
         let mut out_of_range = Vec::new();
-        parts::range(chosen, things, &sample.part, &mut out_of_range);
+        parts::range(chosen, resources, &sample.part, &mut out_of_range);
         if !out_of_range.is_empty() {
             // It is reported with the pass.
             continue;
@@ -147,11 +147,11 @@ pub(super) fn check<'i>(
             check.samples(errors);
             check.filters(errors);
             check.address(errors);
-            check.own_pixel(things, lowered, sampled.own_pixel, errors);
+            check.own_pixel(resources, lowered, sampled.own_pixel, errors);
             check.part(interface, errors);
         }
     }
-    too_many_parts(things, pass, errors);
+    too_many_parts(resources, pass, errors);
     misspelt
 }
 
@@ -172,7 +172,7 @@ struct Check<'a> {
     pass: &'a language::Pass,
     sample: &'a language::Sample,
     shader: &'a str,
-    image: &'a Resolved,
+    image: &'a FrameImage,
     /// The part that is given.
     cells: Cells,
     declared: Declared,
@@ -342,7 +342,7 @@ impl Check<'_> {
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.
-    fn own_pixel(&self, things: &Things, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+    fn own_pixel(&self, resources: &Resources, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         if self.declared.input && !own_pixel {
             let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
@@ -358,7 +358,7 @@ impl Check<'_> {
             errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is for passes that draw"));
             return;
         };
-        let Some(target) = things.image(target).map(|target| &target.image) else { return };
+        let Some(target) = resources.image(target).map(|target| &target.image) else { return };
         let (own, drawn) = (image.extent_at(self.cells.mips.start), target.target_shape(range).extent);
         if (&own[..2], image.room) != (&drawn[..2], target.room)
             || self.cells.mips.len() > 1
@@ -378,8 +378,8 @@ impl Check<'_> {
 }
 
 /// A shader can be told of some parts only.
-fn too_many_parts(things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    if let Some(surplus) = variant::in_part(things, pass).nth(MOST_PARTS) {
+fn too_many_parts(resources: &Resources, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    if let Some(surplus) = variant::in_part(resources, pass).nth(MOST_PARTS) {
         let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
         errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
     }

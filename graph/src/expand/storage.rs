@@ -1,8 +1,8 @@
 //! Images and buffers that a shader reads and writes by itself, against what it declares.
 
 use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::{self, PARAMS, component_words, shape_words};
-use super::things::Things;
 use super::{parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
@@ -54,7 +54,7 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
 /// Adds a storage image or buffer to the frame's pass.
 pub(super) fn lower(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     storage: &language::Storage,
     interface: Option<&ShaderInterface>,
     raster: bool,
@@ -70,7 +70,7 @@ pub(super) fn lower(
             lowered.buffers.push(used);
         }
         Part::Image(part) => {
-            let range = parts::range(chosen, things, part, errors);
+            let range = parts::range(chosen, resources, part, errors);
             let (image, span) = (part.image.index, part.image.span);
             lowered.storage.push(Storage { binding, image, range, span, read, write, stages });
         }
@@ -87,7 +87,7 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 /// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
@@ -112,7 +112,7 @@ pub(super) fn check<'i>(
         let kind = of_pass(interface, &name.text).map(|binding| &binding.kind);
         match (&storage.part, kind) {
             (Part::Image(part), Some(BindingKind::StorageImage { shape, format, .. })) => {
-                let Some(image) = things.image(part.image.index).map(|image| &image.image) else { continue };
+                let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { continue };
                 let Some(given) = lowered.storage.iter().find(|given| given.binding == name.text) else { continue };
                 let check = ImageCheck { chosen, shader, name: &name.text, image, part };
                 check.fits(given.range, *shape, *format, errors);
@@ -137,7 +137,7 @@ pub(super) fn check<'i>(
             Some(BindingKind::UniformBlock(block)) if *name.text != *PARAMS => {
                 let what = format!("the members of the block `{}`", name.text);
                 let (buffer, span) = (&uniform.part.buffer, uniform.part.buffer.span);
-                work::holds(things, buffer, u64::from(block.bytes), &what, span, errors);
+                work::holds(resources, buffer, u64::from(block.bytes), &what, span, errors);
             }
             Some(BindingKind::UniformBlock(_)) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");

@@ -1,9 +1,9 @@
 //! What passes draw into: formats that fit, targets that agree, and shaders that feed them.
 
 use super::chosen::Chosen;
-use super::images::Resolved;
+use super::images::FrameImage;
+use super::resources::Resources;
 use super::shader::component_words;
-use super::things::Things;
 use super::{parts, transfers};
 use crate::base::Diagnostic;
 use crate::frame::{Blend, TargetShape};
@@ -12,8 +12,8 @@ use crate::shader::ShaderInterface;
 use crate::vulkan::{Aspects, Component, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
-pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    let resolved = |image: ImageRef| things.image(image.index);
+pub(super) fn fit(chosen: &Chosen<'_>, resources: &Resources, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    let resolved = |image: ImageRef| resources.image(image.index);
     let declared = |image: ImageRef| chosen.image(image.index).format.span;
     for target in &pass.color {
         let Some(image) = resolved(target.part.image) else { continue };
@@ -45,7 +45,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, e
         errors.push(wrong.help(format!("say `format: DepthStencil` of `{}`", image.image.name)));
     }
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
-    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
+    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, resources, part, errors)).collect();
     agree(pass, &parts, errors);
     for stand_in in &pass.otherwise {
         let language::StandIn::Forward(forward) = stand_in else { continue };
@@ -63,7 +63,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, e
 }
 
 /// What an image holds, in words.
-fn kind(image: &Resolved) -> &'static str {
+fn kind(image: &FrameImage) -> &'static str {
     match image.image.format {
         format if format.is_depth() => "depth",
         format if format.is_integer() => "integers",
@@ -74,18 +74,18 @@ fn kind(image: &Resolved) -> &'static str {
 /// A part of an image that is drawn into.
 struct Part<'a> {
     part: &'a ImagePart,
-    image: &'a Resolved,
+    image: &'a FrameImage,
     shape: TargetShape,
 }
 
 /// The one mip level, and the layers, that are drawn into. `None` if that can't be; mistakes were reported then.
 fn drawn<'a>(
     chosen: &Chosen<'_>,
-    things: &'a Things,
+    resources: &'a Resources,
     part: &'a ImagePart,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Part<'a>> {
-    let resolved = things.image(part.image.index)?;
+    let resolved = resources.image(part.image.index)?;
     let (image, name) = (&resolved.image, &resolved.image.name);
     if image.shape == Shape::D3 {
         let message = format!("`{name}` is three-dimensional and can't be drawn into");
@@ -96,7 +96,7 @@ fn drawn<'a>(
     }
     // Parts out of range are reported with the pass.
     let mut known = Vec::new();
-    let range = parts::range(chosen, things, part, &mut known);
+    let range = parts::range(chosen, resources, part, &mut known);
     if !known.is_empty() {
         return None;
     }
@@ -161,7 +161,12 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
 }
 
 /// Every colour target is fed by an output of the same type.
-pub(super) fn fed(things: &Things, pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fed(
+    resources: &Resources,
+    pass: &language::Pass,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     if let Some(span) = pass.alpha_to_coverage {
         let first = interface.outputs.iter().find(|output| output.location == 0);
@@ -178,7 +183,7 @@ pub(super) fn fed(things: &Things, pass: &language::Pass, interface: &ShaderInte
         }
     }
     for (location, target) in (0..).zip(&pass.color) {
-        let Some(image) = things.image(target.part.image.index) else { continue };
+        let Some(image) = resources.image(target.part.image.index) else { continue };
         let (name, format) = (&image.image.name, image.image.format);
         let Some(output) = interface.outputs.iter().find(|output| output.location == location) else {
             let message = format!("shader `{shader}` has no output at location {location} for `{name}`");

@@ -3,7 +3,7 @@
 use super::chosen::Chosen;
 use super::fills;
 use super::parts::{self, Cells};
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::Diagnostic;
 use crate::frame::{Image, Pass, TransferUse};
 use crate::language::{self, Fill, ImagePart, Part};
@@ -38,13 +38,13 @@ impl Side<'_> {
 /// The side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
 fn side<'a>(
     chosen: &Chosen<'_>,
-    things: &'a Things,
+    resources: &'a Resources,
     part: &'a Part,
     transfer: &TransferUse,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Side<'a>> {
     let Part::Image(part) = part else { return None };
-    let image = &things.image(part.image.index)?.image;
+    let image = &resources.image(part.image.index)?.image;
     let cells = parts::cells(image, &transfer.range);
     one_mip(chosen, image, part, &cells, "is copied", errors)?;
     let extent = image.extent_at(cells.mips.start);
@@ -77,7 +77,7 @@ pub(super) fn one_mip(
 /// Reports a copy that can't be.
 pub(super) fn copy(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     [from, to]: [&Part; 2],
     lowered: &Pass,
     errors: &mut Vec<Diagnostic>,
@@ -85,7 +85,8 @@ pub(super) fn copy(
     let [source, target] = &lowered.transfers[..] else { return };
     match (from, to) {
         (Part::Buffer(one), Part::Buffer(other)) => {
-            let (Some(source), Some(target)) = (things.buffer(one.buffer.index), things.buffer(other.buffer.index))
+            let (Some(source), Some(target)) =
+                (resources.buffer(one.buffer.index), resources.buffer(other.buffer.index))
             else {
                 return;
             };
@@ -102,20 +103,21 @@ pub(super) fn copy(
             }
         }
         (Part::Image(_), Part::Image(_)) => {
-            let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+            let (one, other) =
+                (side(chosen, resources, from, source, errors), side(chosen, resources, to, target, errors));
             if let (Some(one), Some(other)) = (one, other) {
                 images_fit([&one, &other], [source, target], errors);
                 same_texels(chosen, &one, &other, errors);
             }
         }
         (Part::Image(_), Part::Buffer(buffer)) => {
-            if let Some(image) = side(chosen, things, from, source, errors) {
-                rows_fit(things, &image, &buffer.buffer, true, errors);
+            if let Some(image) = side(chosen, resources, from, source, errors) {
+                rows_fit(resources, &image, &buffer.buffer, true, errors);
             }
         }
         (Part::Buffer(buffer), Part::Image(_)) => {
-            if let Some(image) = side(chosen, things, to, target, errors) {
-                rows_fit(things, &image, &buffer.buffer, false, errors);
+            if let Some(image) = side(chosen, resources, to, target, errors) {
+                rows_fit(resources, &image, &buffer.buffer, false, errors);
             }
         }
     }
@@ -167,7 +169,7 @@ fn images_fit([from, to]: [&Side<'_>; 2], [source, target]: [&TransferUse; 2], e
 
 /// The texels of one plane fill the buffer, or lie in it.
 fn rows_fit(
-    things: &Things,
+    resources: &Resources,
     image: &Side<'_>,
     buffer: &language::BufferRef,
     filled: bool,
@@ -183,7 +185,7 @@ fn rows_fit(
         let help = format!("write `(image: \"{name}\", plane: Depth)`");
         errors.push(Diagnostic::new(image.part.image.span, message).help(help));
     }
-    let Some(there) = things.buffer(buffer.index) else { return };
+    let Some(there) = resources.buffer(buffer.index) else { return };
     let [width, height, depth] = image.extent.map(u64::from);
     // At most 2^14 to the third, 2^11 layers and 2^4 bytes: no more than 2^57.
     let format = image.image.format;
@@ -204,14 +206,14 @@ fn rows_fit(
 /// Reports a blit that can't be.
 pub(super) fn blit(
     chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources,
     [from, to]: [&Part; 2],
     filter: Option<Spanned<Filter>>,
     lowered: &Pass,
     errors: &mut Vec<Diagnostic>,
 ) {
     let [source, target] = &lowered.transfers[..] else { return };
-    let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+    let (one, other) = (side(chosen, resources, from, source, errors), side(chosen, resources, to, target, errors));
     let (Some(one), Some(other)) = (one, other) else { return };
     images_fit([&one, &other], [source, target], errors);
     for side in [&one, &other] {
@@ -247,14 +249,14 @@ pub(super) fn blit(
 }
 
 /// Reports a fill whose value doesn't fit.
-pub(super) fn fill(things: &Things, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fill(resources: &Resources, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
     let (format, name) = match to {
         Part::Image(part) => {
-            let Some(image) = things.image(part.image.index) else { return };
+            let Some(image) = resources.image(part.image.index) else { return };
             (Some(image.image.format), &image.image.name)
         }
         Part::Buffer(part) => {
-            let Some(buffer) = things.buffer(part.buffer.index) else { return };
+            let Some(buffer) = resources.buffer(part.buffer.index) else { return };
             (None, &buffer.name)
         }
     };

@@ -2,8 +2,8 @@
 
 use super::accesses;
 use super::chosen::Chosen;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use super::writers::Writers;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
@@ -25,14 +25,14 @@ pub(super) struct Need {
 
 /// The circle that `first`, a read of what a pass further below writes, is part of; `None` if that pass doesn't depend
 /// on the reader.
-pub(super) fn circle(things: &Things, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
+pub(super) fn circle(resources: &Resources, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
     let mut found: HashMap<usize, Need> = HashMap::new();
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
         let runs = states.get(at).map_or(&[][..], State::runs);
-        let read = runs.iter().flat_map(|pass| accesses::reads(things, pass)).filter(|read| read.frames_ago == 0);
+        let read = runs.iter().flat_map(|pass| accesses::reads(resources, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
-        let continued = runs.iter().flat_map(|pass| accesses::writes(things, pass));
+        let continued = runs.iter().flat_map(|pass| accesses::writes(resources, pass));
         let continued = continued.filter(|write| write.continues.is_some());
         for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {

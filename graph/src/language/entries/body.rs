@@ -39,7 +39,7 @@ pub(crate) struct Entry<T> {
 /// An entry of `passes`.
 pub(crate) enum Item {
     /// A pass.
-    Pass(Given<Pass>),
+    Pass(Box<Given<Pass>>),
     /// A fragment is used.
     Use(Box<UseEntry>),
     /// A place that extensions may name.
@@ -160,7 +160,7 @@ impl<'t> Tables<'t> {
         let items = self.items.iter().map(|item| {
             Some(match item.as_ref()? {
                 ItemFields::Pass(fields) => {
-                    level.entry(fields.repeat, fields.view, |context| Some(Item::Pass(context.pass(fields))))
+                    level.entry(fields.repeat, fields.view, |context| Some(Item::Pass(Box::new(context.pass(fields)))))
                 }
                 ItemFields::Use(fields) => level.entry(fields.repeat, fields.view, |context| {
                     Some(Item::Use(Box::new(context.use_entry(fields, fragments)?)))

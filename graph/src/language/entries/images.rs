@@ -5,7 +5,7 @@ use super::values::{at, optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
 use crate::base::{Diagnostic, Span};
 use crate::expression::Wanted;
-use crate::frame::ViewIndex;
+use crate::frame::{SAMPLE_COUNTS, ViewIndex};
 use crate::language::model::{Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind};
 use crate::language::scope::{Context, Decided, Given, Kept, Parameter, given, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
@@ -16,9 +16,6 @@ pub(crate) const MOST_LAYERS: i64 = 2048;
 
 /// Mip levels that an image of the largest size has.
 const MOST_MIPS: i64 = 15;
-
-/// Sample counts that a file may ask for.
-pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 
 fields! {
     /// An image: texels that passes draw into, write and read.
@@ -213,12 +210,12 @@ impl Context<'_> {
     }
 
     fn samples(&mut self, leaf: Leaf<'_>, image: Option<&Name>) -> Option<Given<Decided<Samples>>> {
-        let is_count = |count: i64| SAMPLE_COUNTS.contains(&count);
+        let known = |count: i64| u32::try_from(count).ok().filter(|count| SAMPLE_COUNTS.contains(count));
         let count = match leaf.shape() {
             Shape::Text => {
                 let words = ("a whole number", Some("a whole number"));
                 let (count, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
-                let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| !is_count(*count));
+                let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| known(*count).is_none());
                 if let Some(odd) = setting.and_then(odd) {
                     let message = format!("this setting allows {odd}, which is no sample count");
                     self.reader.wrong(leaf, message, &SAMPLES.forms());
@@ -228,7 +225,7 @@ impl Context<'_> {
             }
             Shape::Number => {
                 let count = self.reader.integer(leaf)?;
-                if !is_count(count) {
+                if known(count).is_none() {
                     self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                     return None;
                 }
@@ -241,7 +238,7 @@ impl Context<'_> {
         };
         let (span, name) = (leaf.span(), image.map_or_else(|| "".into(), |name| name.text.clone()));
         count.checked(self.reader, move |count, view| {
-            if let Some(known) = u32::try_from(count.value).ok().filter(|_| is_count(count.value)) {
+            if let Some(known) = known(count.value) {
                 return Ok(count.map(|_| Samples::Count(known)));
             }
             let why = count.because.as_ref().map(|because| format!(" ({})", within_view(view, because)));

@@ -1,9 +1,9 @@
 //! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
 
 use framewright_graph::base::{self, Diagnostic, FilePath, Quote, Sources};
-use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Draw, Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Files, Found, NoFiles, Unread};
+use framewright_graph::language::{self, Facts, Files, Found, NoFiles, Unread};
 use framewright_graph::shader::{
     AlphaUse, Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface,
     ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
