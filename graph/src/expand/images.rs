@@ -123,7 +123,7 @@ fn asked(
 fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {
     match image.samples.value {
         Samples::Like(_) => followed,
-        Samples::Count(count) => Some((count, image.samples_because.clone())),
+        Samples::Count(count) => Some((count, image.samples.because.clone())),
     }
 }
 

@@ -120,7 +120,7 @@ fn bytes(
     let (bytes, because) = match buffer.bytes.value {
         Bytes::Count(bytes) => (bytes.checked_next_multiple_of(4), format!("{bytes} bytes")),
         Bytes::Times(each, count) => {
-            let because = buffer.bytes_because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
+            let because = buffer.bytes.because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
             (each.checked_mul(count), format!("{each} bytes times {count}{because}"))
         }
         Bytes::PerTexel(each, of) => {

@@ -1,4 +1,4 @@
-//! A document: the files of a pipeline, read. It is evaluated for each choice of settings, scene, view and device.
+//! A document: the entries of a pipeline's files. It is lowered for each choice of settings, scene, view and device.
 
 use super::mistakes::{in_order, never_none};
 use super::settings_file;

@@ -2,11 +2,11 @@
 
 use super::condition;
 use super::parts::{self, Either, Selected};
-use super::values::{self, at, optional};
+use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::{Context, Decided, Given, Kept, Parts, given};
+use crate::language::scope::{Context, Given, Kept, Parts, given};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;
@@ -174,7 +174,7 @@ impl Context<'_> {
         let filter = self.sampler_word(filter, "a filter", &FILTERS);
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
         let address = self.sampler_word(address, "an address mode", &ADDRESSES);
-        let own_pixel = optional(own_pixel, |leaf| Some(at(leaf, self.truth(leaf)?)));
+        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(Given::spanned));
         let (part, face) = image?;
         let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, own_pixel?));
         Some(given(parts, move |(part, filter, mip_filter, address, own_pixel)| Sample {
@@ -195,7 +195,7 @@ impl Context<'_> {
         what: &'static str,
         choices: &'static [(&'static str, T)],
     ) -> Option<Option<Given<Spanned<T>>>> {
-        optional(leaf, |leaf| Some(at(leaf, self.word(leaf, what, choices)?)))
+        optional(leaf, |leaf| self.word(leaf, what, choices).map(Given::spanned))
     }
 
     /// Images and buffers that the shader reads and writes, by its names.
@@ -243,11 +243,10 @@ impl Context<'_> {
     pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Param>>> {
         self.entries(leaf, "`params`", "a parameter", |context, name, leaf| {
             let (value, name) = (context.param(leaf)?, name?);
-            let span = leaf.span();
-            Some(value.map(move |Decided { value, because }| Param {
+            Some(value.map(move |value| Param {
                 name: name.clone(),
-                value: Spanned { value, span },
-                written: because,
+                written: value.because.clone(),
+                value: value.spanned(),
             }))
         })
     }

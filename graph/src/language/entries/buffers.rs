@@ -4,8 +4,8 @@ use super::repeat::REPEAT;
 use super::{lifetimes, parts, views};
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::model::{Buffer, Bytes, Lifetime};
-use crate::language::scope::{Context, Decided, Given, Parameter, ParameterKind, given};
+use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
+use crate::language::scope::{Context, Given, Parameter, ParameterKind, given};
 use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
 
 /// Most bytes that a buffer may have: 1 TiB.
@@ -65,18 +65,17 @@ impl Context<'_> {
         let transient = Spanned { value: Lifetime::Transient, span: fields.name.span() };
         let lifetime =
             fields.lifetime.map_or(Some(Given::Known(transient)), |leaf| self.lifetime(leaf, lifetimes::Of::Buffer));
-        let (name, span) = (name?, fields.bytes.span());
-        Some(given((bytes?, lifetime?), move |(bytes, lifetime)| Buffer {
+        let (name, bytes) = (name?, bytes?.at(fields.bytes));
+        Some(given((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
             name: name.clone(),
-            bytes: Spanned { value: bytes.value, span },
-            bytes_because: bytes.because,
+            bytes,
             lifetime,
             instance: None,
         }))
     }
 
     fn bytes(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Bytes>>> {
-        let what = "size of a buffer in bytes";
+        let (what, span) = ("size of a buffer in bytes", leaf.span());
         match leaf.shape() {
             Shape::Text | Shape::Number => {
                 let bytes = self.whole_because(leaf, what, 4..=LARGEST_BUFFER)?;
@@ -87,19 +86,21 @@ impl Context<'_> {
                     self.reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);
                     return None;
                 }
-                Some(bytes.map(|bytes| bytes.map(Bytes::Count)))
+                Some(bytes.of(Bytes::Count))
             }
             _ => {
                 let (word, rest) = self.reader.one_of(leaf, &BYTES)?;
                 if word == "Like" {
                     let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"buffer\")")?;
-                    return Some(self.buffer(other)?.map(|other| Decided::said(Bytes::Like(other))));
+                    return Some(self.buffer(other)?.map(move |other| Decided::said(span, Bytes::Like(other))));
                 }
                 let [each, of]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
                 let each = self.whole(each, "number of bytes", 1..=LARGEST_BUFFER);
                 if word == "PerTexel" {
                     let image = self.image(of);
-                    return Some(given((each?, image?), |(each, image)| Decided::said(Bytes::PerTexel(each, image))));
+                    return Some(given((each?, image?), move |(each, image)| {
+                        Decided::said(span, Bytes::PerTexel(each, image))
+                    }));
                 }
                 let count = self.bytes_times(of)?;
                 Some(given((each?, count), |(each, count)| count.map(|count| Bytes::Times(each, count))))
@@ -116,13 +117,12 @@ impl Context<'_> {
             self.reader.wrong(leaf, message, "let the setting begin at 1");
             return None;
         }
-        let (count, span): (Given<Decided<i64>>, _) =
-            (self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?, leaf.span());
-        count.checked(self.reader, move |Decided { value, because }, _| match u64::try_from(value) {
-            Ok(value @ 1..) => Ok(Decided { value, because }),
+        let count: Given<Decided<i64>> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
+        count.checked(self.reader, move |count, _| match u64::try_from(count.value) {
+            Ok(value @ 1..) => Ok(count.map(|_| value)),
             _ => {
-                let empty = Diagnostic::new(span, format!("{value} of something leave the buffer empty"));
-                Err(empty.remark(because.as_deref().unwrap_or_default()))
+                let message = format!("{} of something leave the buffer empty", count.value);
+                Err(Diagnostic::new(count.span, message).remark(count.remark()))
             }
         })
     }

@@ -60,14 +60,13 @@ impl Context<'_> {
 
     /// How far shadows reach; `None`: through the whole scene.
     fn reach(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Metres>>> {
-        let (metres, span) = (self.number_because(leaf, "how far shadows reach")?, leaf.span());
-        metres.checked(self.reader, move |metres, _| {
+        self.number_because(leaf, "how far shadows reach")?.checked(self.reader, move |metres, _| {
             if metres.value == 0.0 {
                 return Ok(None);
             }
             #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
             Metres::try_from(metres.value as f32).map(Some).map_err(|_| {
-                let wrong = Diagnostic::new(span, "shadows can't reach that far");
+                let wrong = Diagnostic::new(metres.span, "shadows can't reach that far");
                 let help = "write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold";
                 wrong.help(help).remark(metres.remark())
             })

@@ -1,8 +1,8 @@
 //! `when`: a condition that switches an entry off.
 
 use crate::expression::{Value, Wanted};
-use crate::language::model::{Off, SettingKind};
-use crate::language::scope::{Context, Decided, Given, Parts, Quoted, within_view};
+use crate::language::model::{Decided, Off, SettingKind};
+use crate::language::scope::{Context, Given, Parts, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
 use std::sync::Arc;
 
@@ -32,10 +32,12 @@ impl Context<'_> {
         Some(match self.quoted(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))? {
             Quoted::Parameter(parameter, at) => {
                 let unknown: Arc<str> = format!("`{}` is false", parameter.name.text).into();
-                Given::asked(move |evaluator| evaluator.parameter(at)).map(move |Decided { value, because }| {
-                    let because = || because.as_ref().unwrap_or(&unknown).to_string();
-                    (value != Value::Bool(true)).then(|| Off { span, because: because() })
-                })
+                Given::asked(move |evaluator| evaluator.parameter(at, span)).map(
+                    move |Decided { value, because, .. }| {
+                        let because = || because.as_ref().unwrap_or(&unknown).to_string();
+                        (value != Value::Bool(true)).then(|| Off { span, because: because() })
+                    },
+                )
             }
             Quoted::Expression(condition) => Given::asked(move |evaluator| {
                 let outcome = evaluator.evaluate(&condition)?;

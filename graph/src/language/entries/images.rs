@@ -1,13 +1,15 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::repeat::REPEAT;
-use super::values::{at, optional, typed, whole_number};
+use super::values::{optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
 use crate::base::{Diagnostic, Span};
 use crate::expression::Wanted;
 use crate::frame::{SAMPLE_COUNTS, ViewIndex};
-use crate::language::model::{Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind};
-use crate::language::scope::{Context, Decided, Given, Kept, Parameter, given, within_view};
+use crate::language::model::{
+    Decided, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
+};
+use crate::language::scope::{Context, Given, Kept, Parameter, given, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
 
@@ -138,50 +140,41 @@ impl Context<'_> {
         let span = name.as_ref().map_or(Span::NONE, |name| name.span);
         let format = self.image_format(fields.format);
         let size = self.size(fields.size);
-        let samples = fields
-            .samples
-            .map_or(Some(Given::Known(Decided::said(Samples::Count(1)))), |leaf| self.samples(leaf, name.as_ref()));
-        let samples_at = fields.samples.map_or(span, Leaf::span);
+        let samples = or(fields.samples, span, Samples::Count(1), |leaf| self.samples(leaf, name.as_ref()));
         let resolve = optional(fields.resolve, |leaf| self.resolve(leaf));
         let mips = or(fields.mips, span, Mips::Count(1), |leaf| self.mips(leaf));
         let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
         let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
         let transient = Given::Known(Spanned { value: Lifetime::Transient, span });
         let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, lifetimes::Of::Image));
-        let per_eye = optional(fields.per_eye, |leaf| Some(at(leaf, self.truth(leaf)?)));
-        let (name, size_at) = (name?, fields.size.span());
-        let parts = (
-            (at(fields.format, format?), size?.within_view(), samples?.within_view(), resolve?),
-            (mips?, layers?, shape?, lifetime?, per_eye?),
-        );
-        let image =
-            given(parts, move |((format, size, samples, resolve), (mips, layers, shape, lifetime, per_eye))| Image {
-                name: name.clone(),
-                format,
-                size: Spanned { value: size.value, span: size_at },
-                size_because: size.because,
-                samples: Spanned { value: samples.value, span: samples_at },
-                samples_because: samples.because,
-                resolve,
-                mips,
-                layers,
-                shape,
-                lifetime,
-                eyes: None,
-                per_eye,
-                view: ViewIndex::default(),
-                instance: None,
-            });
-        Some(image)
+        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(Given::spanned));
+        let (format, size) = (in_field(fields.format, format?), in_field(fields.size, size?));
+        let (name, how_many) = (name?, (samples?, mips?, layers?));
+        let parts = ((format, size, shape?), how_many, resolve?, lifetime?, per_eye?);
+        Some(given(parts, move |((format, size, shape), (samples, mips, layers), resolve, lifetime, per_eye)| Image {
+            name: name.clone(),
+            format,
+            size,
+            samples,
+            resolve,
+            mips,
+            layers,
+            shape,
+            lifetime,
+            eyes: None,
+            per_eye,
+            view: ViewIndex::default(),
+            instance: None,
+        }))
     }
 
-    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Given<Format>> {
+    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
         if let Shape::Text = leaf.shape() {
             if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
                 self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
                 return None;
             }
-            return Some(self.format(leaf)?.map(Format::Named));
+            return Some(self.format(leaf)?.of(Format::Named));
         }
         let (word, rest) = match leaf.shape() {
             Shape::Word(word, rest) if vulkan::Format::from_name(word).is_some() => (word, rest),
@@ -193,18 +186,19 @@ impl Context<'_> {
                     Some(_) => self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
                     None => None,
                 };
-                let hdr = hdr.map_or(Some(Given::Known(false)), |hdr| self.truth(hdr));
-                Some(hdr?.map(|hdr| Format::Color { hdr }))
+                let hdr = hdr.map_or_else(|| Some(Given::said(leaf, false)), |hdr| self.truth(hdr));
+                Some(hdr?.of(|hdr| Format::Color { hdr }))
             }
-            "Like" => Some(self.like(leaf, rest)?.map(Format::Like)),
+            "Like" => self.like(leaf, rest, Format::Like),
             name => {
                 self.reader.bare(word, rest)?;
-                Some(Given::Known(match name {
+                let format = match name {
                     "Depth" => Format::Depth,
                     "DepthStencil" => Format::DepthStencil,
                     "Output" => Format::Output,
                     name => Format::Named(vulkan::Format::from_name(name)?),
-                }))
+                };
+                Some(Given::said(leaf, format))
             }
         }
     }
@@ -229,14 +223,14 @@ impl Context<'_> {
                     self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                     return None;
                 }
-                Given::Known(Decided::said(count))
+                Given::said(leaf, count)
             }
             _ => {
                 let (_, rest) = self.reader.one_of(leaf, &SAMPLES)?;
-                return Some(self.like(leaf, rest)?.map(|of| Decided::said(Samples::Like(of))));
+                return self.like(leaf, rest, Samples::Like);
             }
         };
-        let (span, name) = (leaf.span(), image.map_or_else(|| "".into(), |name| name.text.clone()));
+        let name = image.map_or_else(|| "".into(), |name| name.text.clone());
         count.checked(self.reader, move |count, view| {
             if let Some(known) = known(count.value) {
                 return Ok(count.map(|_| Samples::Count(known)));
@@ -244,37 +238,37 @@ impl Context<'_> {
             let why = count.because.as_ref().map(|because| format!(" ({})", within_view(view, because)));
             let message = format!("image `{name}` can't have {} samples{}", count.value, why.unwrap_or_default());
             let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-            Err(Diagnostic::new(span, message).help(format!("sample counts are {allowed}")))
+            Err(Diagnostic::new(count.span, message).help(format!("sample counts are {allowed}")))
         })
     }
 
-    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Given<Mips>> {
+    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Mips>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return Some(self.whole(leaf, "number of mip levels", 1..=MOST_MIPS)?.map(Mips::Count));
+            return Some(self.whole_because(leaf, "number of mip levels", 1..=MOST_MIPS)?.of(Mips::Count));
         }
         let (word, rest) = self.reader.one_of(leaf, &MIPS)?;
         match word {
-            "Full" => self.reader.bare(word, rest).map(|()| Given::Known(Mips::Full)),
-            _ => Some(self.like(leaf, rest)?.map(Mips::Like)),
+            "Full" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Mips::Full)),
+            _ => self.like(leaf, rest, Mips::Like),
         }
     }
 
-    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Given<Layers>> {
+    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Layers>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return Some(self.whole(leaf, "number of layers", 1..=MOST_LAYERS)?.map(Layers::Count));
+            return Some(self.whole_because(leaf, "number of layers", 1..=MOST_LAYERS)?.of(Layers::Count));
         }
         let (_, rest) = self.reader.one_of(leaf, &LAYERS)?;
-        Some(self.like(leaf, rest)?.map(Layers::Like))
+        self.like(leaf, rest, Layers::Like)
     }
 
-    fn shape(&mut self, leaf: Leaf<'_>) -> Option<Given<ImageShape>> {
+    fn shape(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ImageShape>>> {
         let (word, rest) = self.reader.one_of(leaf, &SHAPES)?;
         match word {
-            "D2" => self.reader.bare(word, rest).map(|()| Given::Known(ImageShape::D2)),
-            "Cube" => self.reader.bare(word, rest).map(|()| Given::Known(ImageShape::Cube)),
+            "D2" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::D2)),
+            "Cube" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::Cube)),
             _ => {
                 let [depth]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "D3(64)")?;
-                Some(self.whole(depth, "depth", 1..=i64::from(LARGEST_SIZE))?.map(ImageShape::D3))
+                Some(self.whole_because(depth, "depth", 1..=i64::from(LARGEST_SIZE))?.of(ImageShape::D3))
             }
         }
     }
@@ -283,12 +277,17 @@ impl Context<'_> {
 /// The value of a field of an image that may be absent; its place is then the image's name.
 fn or<'src, T: Kept>(
     leaf: Option<Leaf<'src>>,
-    span: Span,
+    name: Span,
     absent: T,
-    read: impl FnOnce(Leaf<'src>) -> Option<Given<T>>,
-) -> Option<Given<Spanned<T>>> {
+    read: impl FnOnce(Leaf<'src>) -> Option<Given<Decided<T>>>,
+) -> Option<Given<Decided<T>>> {
     match leaf {
-        Some(leaf) => Some(at(leaf, read(leaf)?)),
-        None => Some(Given::Known(Spanned { value: absent, span })),
+        Some(leaf) => Some(in_field(leaf, read(leaf)?)),
+        None => Some(Given::Known(Decided::said(name, absent))),
     }
+}
+
+/// The value of a field of an image, as it is told outside of its entry.
+fn in_field<T: Kept>(leaf: Leaf<'_>, value: Given<Decided<T>>) -> Given<Decided<T>> {
+    value.at(leaf).within_view()
 }

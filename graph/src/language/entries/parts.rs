@@ -3,8 +3,8 @@
 use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
-use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Part, ResourceRef, Selection};
-use crate::language::scope::{Context, Given, given};
+use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
+use crate::language::scope::{Context, Given, Kept, given};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -277,9 +277,15 @@ impl Context<'_> {
         Some(given((first?, count?), |(first, count)| Selection { first, count }))
     }
 
-    /// The image of `Like("image")`.
-    pub(crate) fn like(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Given<ImageRef>> {
+    /// What `make` makes of the image of `Like("image")`.
+    pub(crate) fn like<T: Kept>(
+        &mut self,
+        leaf: Leaf<'_>,
+        rest: Option<Leaf<'_>>,
+        make: fn(ImageRef) -> T,
+    ) -> Option<Given<Decided<T>>> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
-        self.image(image)
+        let span = leaf.span();
+        Some(self.image(image)?.map(move |image| Decided::said(span, make(image))))
     }
 }

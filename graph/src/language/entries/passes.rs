@@ -2,7 +2,7 @@
 
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
-use super::values::{at, optional};
+use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::language::model::{Color, Depth, Pass};
 use crate::language::scope::{Context, Given, Parts};
@@ -54,9 +54,9 @@ impl Context<'_> {
         let index = optional(fields.index, |leaf| self.buffer_part(leaf));
         let color = optional(fields.color, |leaf| self.color_targets(leaf));
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
-        let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| Some(at(leaf, self.truth(leaf)?)));
+        let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let params = optional(fields.params, |leaf| self.params(leaf));
-        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf));
+        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(Given::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
         Given::asked(move |evaluator| {
             let work = evaluator.put_in(&work);

@@ -1,8 +1,8 @@
 //! How exactly images hold what they are asked to: colour (`color`) and depth (`depth_format`).
 
 use super::values::said;
-use crate::language::model::{Precision, Precisions};
-use crate::language::scope::{Context, Decided, Given};
+use crate::language::model::{Decided, Precision, Precisions};
+use crate::language::scope::{Context, Given};
 use crate::ron::{Form, Leaf, Word, Words};
 
 /// What `Color` becomes.
@@ -60,7 +60,7 @@ impl Context<'_> {
 
     fn precision(&mut self, leaf: Leaf<'_>, field: &'static str, words: &'static Words) -> Option<Given<Precisions>> {
         let span = leaf.span();
-        self.bare_word(leaf, words)?.then(move |Decided { value: word, because }| {
+        self.bare_word(leaf, words)?.then(move |Decided { value: word, because, .. }| {
             let (_, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
             Some(Precisions { precision, span, said: said(field, word, because) })
         })

@@ -4,8 +4,8 @@ use super::parts;
 use super::values::optional;
 use crate::base::{Diagnostic, shown_number};
 use crate::fields;
-use crate::language::model::{LARGEST_SIZE, Size};
-use crate::language::scope::{Context, Decided, Given, all, given, within_view};
+use crate::language::model::{Decided, LARGEST_SIZE, Size};
+use crate::language::scope::{Context, Given, all, given, within_view};
 use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
 
 fields! {
@@ -54,26 +54,26 @@ impl Context<'_> {
     pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Size>>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
         match word {
-            "Output" => self.reader.bare(word, rest).map(|()| Given::Known(Decided::said(Size::Output))),
-            "Like" => Some(self.like(leaf, rest)?.map(|of| Decided::said(Size::Like(of)))),
-            "Fixed" => Some(given(self.fixed(leaf, rest)?, |extent| Decided::said(Size::Fixed(extent)))),
+            "Output" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Size::Output)),
+            "Like" => self.like(leaf, rest, Size::Like),
+            "Fixed" => {
+                let span = leaf.span();
+                Some(given(self.fixed(leaf, rest)?, move |extent| Decided::said(span, Size::Fixed(extent))))
+            }
             "Dynamic" => {
                 let fields = self.reader.inside::<DynamicFields<'_>>(leaf, rest, "Dynamic(by: …, up_to: …)")?;
                 let of = optional(fields.of, |of| self.image(of));
                 let (by, up_to) = (self.scale(fields.by), self.scale(fields.up_to));
-                let [by_at, up_to_at] = [fields.by.span(), fields.up_to.span()];
                 let by = by?;
                 let said = by.is_known();
                 let factors = given((by, up_to?, of?), |factors| factors);
-                factors.checked_as(self.reader, said, move |(Decided { value: by, because }, up_to, of), view| {
-                    let up_to = up_to.value;
-                    if by > up_to {
-                        let message = format!("the factor {} is more than there is room for", shown_number(by));
-                        let remark = within_view(view, because.as_deref().unwrap_or_default());
-                        let most = format!("at most {}", shown_number(up_to));
-                        return Err(Diagnostic::new(by_at, message).remark(remark).label(up_to_at, most));
+                factors.checked_as(self.reader, said, move |(by, up_to, of), view| {
+                    if by.value > up_to.value {
+                        let message = format!("the factor {} is more than there is room for", shown_number(by.value));
+                        let wrong = Diagnostic::new(by.span, message).remark(within_view(view, by.remark()));
+                        return Err(wrong.label(up_to.span, format!("at most {}", shown_number(up_to.value))));
                     }
-                    Ok(Decided { value: Size::Dynamic { by, up_to, of }, because })
+                    Ok(by.map(|by| Size::Dynamic { by, up_to: up_to.value, of }))
                 })
             }
             _ => {
@@ -122,14 +122,13 @@ impl Context<'_> {
             self.reader.wrong(leaf, message, "let the setting begin above 0");
             return None;
         }
-        let (by, span) = (self.number_because(leaf, "a scale")?, leaf.span());
-        by.checked(self.reader, move |by, view| {
+        self.number_because(leaf, "a scale")?.checked(self.reader, move |by, view| {
             if by.value > 0.0 {
                 return Ok(by);
             }
             let wrong = format!("a scale is greater than 0, found {}", shown_number(by.value));
             let help = "write a number above 0: `1` is the same size, `0.5` half the width and half the height";
-            Err(Diagnostic::new(span, wrong).remark(within_view(view, by.remark())).help(help))
+            Err(Diagnostic::new(by.span, wrong).remark(within_view(view, by.remark())).help(help))
         })
     }
 }

@@ -161,7 +161,7 @@ impl Context<'_> {
                 let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
                 let clear = optional(fields.clear, |clear| self.clear_depth(clear));
                 let test = fields.test.map_or(Some(test), |test| choice(self.reader, test, "a depth test", &TESTS));
-                let write = fields.write.map_or(Some(Given::Known(true)), |write| self.truth(write));
+                let write = fields.write.map_or(Some(Given::Known(true)), |write| self.truth(write).map(Given::alone));
                 let stencil = optional(fields.stencil, |leaf| self.stencil(leaf));
                 let test = test?;
                 Some(given((part?, clear?, write?, stencil?), move |(part, clear, write, stencil)| Depth {
@@ -214,26 +214,24 @@ impl Context<'_> {
     }
 
     fn color_component(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
-        let (number, span) = (self.number_because(leaf, "a channel of a colour")?, leaf.span());
-        number.checked(self.reader, move |number, _| {
+        self.number_because(leaf, "a channel of a colour")?.checked(self.reader, move |number, _| {
             #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
             let component = number.value as f32;
             if component.is_finite() {
                 return Ok(component);
             }
             let wrong = format!("{} is too large for a colour", crate::base::shown_number(number.value));
-            let wrong = Diagnostic::new(span, wrong).remark(number.remark());
+            let wrong = Diagnostic::new(number.span, wrong).remark(number.remark());
             Err(wrong.help("32-bit floating point reaches about 3.4e38"))
         })
     }
 
     fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
-        let (depth, span) = (self.number_because(leaf, "depth")?, leaf.span());
-        depth.checked(self.reader, move |depth, _| {
+        self.number_because(leaf, "depth")?.checked(self.reader, move |depth, _| {
             if !(0.0..=1.0).contains(&depth.value) {
                 let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
                 let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth.value));
-                return Err(Diagnostic::new(span, wrong).remark(depth.remark()).help(help));
+                return Err(Diagnostic::new(depth.span, wrong).remark(depth.remark()).help(help));
             }
             #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
             Ok(depth.value as f32)

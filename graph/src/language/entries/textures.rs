@@ -4,7 +4,7 @@ use super::parameters;
 use super::values::{self, optional};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
-use crate::language::model::{Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
+use crate::language::model::{Decided, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
 use crate::language::scope::{Context, Given};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
 use crate::{fields, vulkan};
@@ -62,23 +62,22 @@ impl Context<'_> {
         });
         let format = optional(fields.format, |leaf| match leaf.shape() {
             crate::ron::Shape::Text => self.format(leaf),
-            _ => parameters::format(self.reader, leaf).map(Given::Known),
+            _ => parameters::format(self.reader, leaf).map(|format| Given::said(leaf, format)),
         });
         let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
         let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
         let format = match format {
             Some(format) => {
                 let (file, name) = (Arc::clone(file), name.clone());
-                let span = fields.format.map_or(Span::NONE, Leaf::span);
-                format.checked_as(self.reader, true, move |format, _| match format_problem(&file, format) {
+                format.checked_as(self.reader, true, move |format, _| match format_problem(&file, format.value) {
                     None => Ok(format),
                     Some(why) => {
-                        let message = format!("texture `{}` can't be {format}: {why}", name.text);
-                        Err(Diagnostic::new(span, message))
+                        let message = format!("texture `{}` can't be {}: {why}", name.text, format.value);
+                        Err(Diagnostic::new(format.span, message))
                     }
                 })?
             }
-            None => Given::Known(info.format),
+            None => Given::said(fields.file, info.format),
         };
         let extent = match info.image_extent(shape) {
             Ok(extent) => extent,
@@ -90,10 +89,7 @@ impl Context<'_> {
             }
         };
         let image = image(name, file, info.format, extent, shape, fields);
-        Some(format.map(move |format| {
-            let format = Spanned { value: Format::Named(format), ..image.format };
-            Image { format, ..image.clone() }
-        }))
+        Some(format.of(Format::Named).map(move |format| Image { format, ..image.clone() }))
     }
 }
 
@@ -109,15 +105,13 @@ fn image(
     let shape = if shape == vulkan::Shape::D3 { ImageShape::D3(depth) } else { ImageShape::D2 };
     Image {
         name,
-        format: fields.format.unwrap_or(from).spanned(Format::Named(format)),
-        size: from.spanned(Size::Fixed([width, height])),
-        size_because: None,
-        samples: Spanned { value: Samples::Count(1), span },
-        samples_because: None,
+        format: Decided::said(from.span(), Format::Named(format)),
+        size: Decided::said(from.span(), Size::Fixed([width, height])),
+        samples: Decided::said(span, Samples::Count(1)),
         resolve: None,
-        mips: Spanned { value: Mips::Count(1), span },
-        layers: Spanned { value: Layers::Default, span },
-        shape: fields.shape.unwrap_or(from).spanned(shape),
+        mips: Decided::said(span, Mips::Count(1)),
+        layers: Decided::said(span, Layers::Default),
+        shape: Decided::said(fields.shape.unwrap_or(from).span(), shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
         per_eye: Some(Spanned { value: false, span }),
         eyes: None,

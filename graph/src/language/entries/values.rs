@@ -4,8 +4,8 @@
 use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
 use crate::frame::ParamValue;
-use crate::language::model::{Fill, SettingKind};
-use crate::language::scope::{Context, Decided, Given, Kept, Quoted, all, decided, given, within_view};
+use crate::language::model::{Decided, Fill, SettingKind};
+use crate::language::scope::{Context, Given, Kept, Quoted, all, decided, given, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
 use std::ops::RangeInclusive;
@@ -19,7 +19,7 @@ impl Context<'_> {
         what: &'static str,
         range: RangeInclusive<i64>,
     ) -> Option<Given<T>> {
-        self.whole_because(leaf, what, range).map(|number| number.map(|number| number.value))
+        self.whole_because(leaf, what, range).map(Given::alone)
     }
 
     /// The same with its place.
@@ -29,7 +29,7 @@ impl Context<'_> {
         what: &'static str,
         range: RangeInclusive<i64>,
     ) -> Option<Given<Spanned<T>>> {
-        self.whole(leaf, what, range).map(|number| at(leaf, number))
+        self.whole_because(leaf, what, range).map(Given::spanned)
     }
 
     /// The same with what decided it.
@@ -44,7 +44,7 @@ impl Context<'_> {
                 self.reader.expected(leaf, "a whole number, or an expression in quotes");
                 return None;
             }
-            return constant(self.reader, leaf, what, range).map(|number| Given::Known(Decided::said(number)));
+            return constant(self.reader, leaf, what, range).map(|number| Given::said(leaf, number));
         };
         let words = ("a whole number", Some("a whole number"));
         let (number, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
@@ -53,14 +53,12 @@ impl Context<'_> {
             self.reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
             return None;
         }
-        let span = leaf.span();
         typed(number, whole_number)?.checked(self.reader, move |number, _| {
-            let Decided { value, because } = number;
-            match T::try_from(value).ok().filter(|_| range.contains(&value)) {
-                Some(value) => Ok(Decided { value, because }),
+            match T::try_from(number.value).ok().filter(|_| range.contains(&number.value)) {
+                Some(value) => Ok(number.map(|_| value)),
                 None => {
-                    let wrong = Diagnostic::new(span, outside(value, what, &range));
-                    Err(wrong.remark(because.as_deref().unwrap_or_default()))
+                    let wrong = Diagnostic::new(number.span, outside(number.value, what, &range));
+                    Err(wrong.remark(number.remark()))
                 }
             }
         })
@@ -68,13 +66,13 @@ impl Context<'_> {
 
     /// A number to fill with.
     fn fill_number(&mut self, leaf: Leaf<'_>) -> Option<Given<f64>> {
-        self.number_because(leaf, "a value to fill with").map(|number| number.map(|number| number.value))
+        self.number_because(leaf, "a value to fill with").map(Given::alone)
     }
 
     /// A number, and what decided it. `what` names it: "a scale".
     pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Given<Decided<f64>>> {
         let Shape::Text = leaf.shape() else {
-            return self.reader.number_as(leaf, Some(what)).map(|number| Given::Known(Decided::said(number)));
+            return self.reader.number_as(leaf, Some(what)).map(|number| Given::said(leaf, number));
         };
         let words = ("a number", Some("a number"));
         let (number, _) = self.value(leaf, SettingKind::is_number, Wanted::NUMBER, words)?;
@@ -87,20 +85,17 @@ impl Context<'_> {
     }
 
     /// `true` or `false`.
-    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<Given<bool>> {
-        let Shape::Text = leaf.shape() else { return self.reader.truth(leaf).map(Given::Known) };
+    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<bool>>> {
+        let Shape::Text = leaf.shape() else { return self.reader.truth(leaf).map(|value| Given::said(leaf, value)) };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
         let (value, _) = self.value(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))?;
-        value.then(|value| if let Value::Bool(value) = value.value { Some(value) } else { None })
+        typed(value, |value| if let Value::Bool(value) = value { Some(value) } else { None })
     }
 
     /// A format that an expression says.
-    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<Given<Format>> {
-        let expression = self.expression(leaf, Wanted::FORMAT)?;
-        Some(Given::asked(move |evaluator| match evaluator.evaluate(&expression)?.value {
-            Value::Format(format) => Some(format),
-            _ => None,
-        }))
+    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
+        let format = decided(self.expression(leaf, Wanted::FORMAT)?, leaf.span());
+        typed(format, |value| if let Value::Format(format) = value { Some(format) } else { None })
     }
 
     /// A value for a shader's parameter, and what stands for it in the file.
@@ -108,14 +103,14 @@ impl Context<'_> {
         match leaf.shape() {
             Shape::Text => {}
             Shape::Word("true" | "false", None) => {
-                return self.reader.truth(leaf).map(|value| Given::Known(Decided::said(ParamValue::Bool(value))));
+                return self.reader.truth(leaf).map(|value| Given::said(leaf, ParamValue::Bool(value)));
             }
             Shape::Number | Shape::Word("NaN" | "inf", None) => {
                 let value = match leaf.number() {
                     Some(Number::Whole(number)) => ParamValue::Integer(number),
                     _ => ParamValue::Number(self.reader.number_as(leaf, Some("a parameter"))?),
                 };
-                return Some(Given::Known(Decided::said(value)));
+                return Some(Given::said(leaf, value));
             }
             _ => {
                 self.reader.expected(leaf, "a number, `true`, `false`, or an expression in quotes");
@@ -128,12 +123,13 @@ impl Context<'_> {
             Quoted::Parameter(parameter, at) => {
                 let written: Arc<str> =
                     format!("{} `{}`", self.scope.symbols.parameter_word(), parameter.name.text).into();
-                let value = Given::asked(move |evaluator| evaluator.parameter(at));
+                let span = leaf.span();
+                let value = Given::asked(move |evaluator| evaluator.parameter(at, span));
                 value.map(move |decided| Decided { because: Some(written.clone()), ..decided })
             }
             Quoted::Expression(expression) => {
                 let written: Arc<str> = leaf.text().into();
-                decided(expression).map(move |decided| {
+                decided(expression, leaf.span()).map(move |decided| {
                     let because = decided.because.or_else(|| Some(written.clone()));
                     Decided { because, ..decided }
                 })
@@ -153,17 +149,17 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         what: &'static str,
         choices: &'static [(&'static str, T)],
-    ) -> Option<Given<T>> {
+    ) -> Option<Given<Decided<T>>> {
         let quoted = leaf.plain().filter(|text| !self.scope.names_nothing(text));
         if quoted.is_none() {
-            return choice(self.reader, leaf, what, choices).map(Given::Known);
+            return choice(self.reader, leaf, what, choices).map(|word| Given::said(leaf, word));
         }
-        let (expression, span) = (self.expression(leaf, Wanted::TEXT)?, leaf.span());
-        typed(decided(expression), text)?.checked(self.reader, move |said, view| {
+        let said = decided(self.expression(leaf, Wanted::TEXT)?, leaf.span());
+        typed(said, text)?.checked(self.reader, move |said, view| {
             if let Some((_, value)) = choices.iter().find(|(word, _)| *word == &*said.value) {
-                return Ok(*value);
+                return Ok(said.map(|_| *value));
             }
-            let wrong = Diagnostic::new(span, format!("`{}` is not {what}", said.value));
+            let wrong = Diagnostic::new(said.span, format!("`{}` is not {what}", said.value));
             let known: Vec<String> = choices.iter().map(|(word, _)| format!("`'{word}'`")).collect();
             let wrong = wrong.remark(within_view(view, said.remark()));
             Err(wrong.help(format!("it is one of {}", known.join(", "))))
@@ -190,7 +186,7 @@ impl Context<'_> {
     pub(crate) fn bare_word(&mut self, leaf: Leaf<'_>, words: &'static Words) -> Option<Given<Decided<&'static str>>> {
         let Shape::Text = leaf.shape() else {
             let (word, rest) = self.reader.one_of(leaf, words)?;
-            return self.reader.bare(word, rest).map(|()| Given::Known(Decided::said(word)));
+            return self.reader.bare(word, rest).map(|()| Given::said(leaf, word));
         };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
         let (said, setting) = self.value(leaf, fits, Wanted::TEXT, ("a text", None))?;
@@ -204,11 +200,10 @@ impl Context<'_> {
             self.reader.report(wrong.help(help));
             return None;
         }
-        let span = leaf.span();
         typed(said, text)?.checked(self.reader, move |said, _| match words.find(&said.value) {
-            Some(known) => Ok(Decided { value: known.word, because: said.because }),
+            Some(known) => Ok(said.map(|_| known.word)),
             None => {
-                let wrong = Diagnostic::new(span, format!("`{}` is not {}", said.value, words.what));
+                let wrong = Diagnostic::new(said.span, format!("`{}` is not {}", said.value, words.what));
                 Err(wrong.remark(said.remark()).help(words.forms()))
             }
         })
@@ -220,7 +215,7 @@ pub(crate) fn typed<T: Kept>(
     value: Given<Decided<Value>>,
     make: impl Fn(Value) -> Option<T> + Send + Sync + 'static,
 ) -> Option<Given<Decided<T>>> {
-    value.then(move |Decided { value, because }| Some(Decided { value: make(value)?, because }))
+    value.then(move |Decided { value, span, because }| Some(Decided { value: make(value)?, span, because }))
 }
 
 /// The whole number that a value is.

@@ -8,7 +8,7 @@ use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Context, Decided, DecidedValue, Evaluator, Given, Parts, ScopeValues, all, given};
+use crate::language::scope::{Context, DecidedValue, Evaluator, Given, Parts, ScopeValues, all, given};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
@@ -230,7 +230,7 @@ impl Context<'_> {
         };
         let camera = optional(fields.camera, |leaf| self.reader.reference(leaf, "a camera"));
         let allows = [fields.allows_msaa, fields.allows_hdr, fields.allows_scale];
-        let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf)));
+        let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf).map(Given::alone)));
         let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
         let jitter = self.jitter(fields);
         let (set, allows) = (set?, all(allows)?);
@@ -254,20 +254,15 @@ impl Context<'_> {
             "Fixed" => Some(given(self.fixed(leaf, rest)?, |extent| extent)),
             _ => {
                 let [by]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Scaled(0.5)")?;
-                let (factor, span) = (self.scale(by)?, by.span());
                 // While a file is read no frame is known; then this is no mistake.
-                given((factor, own_size()), |of| of).checked(
-                    self.reader,
-                    move |(Decided { value, because }, frame), _| {
-                        times(frame, value).map_err(|[width, height]| {
-                            let message =
-                                format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-                            let because = because.map_or_else(|| shown_number(value), |because| because.to_string());
-                            let wrong = Diagnostic::new(span, message);
-                            wrong.remark(format!("{because} times {}×{}", frame[0], frame[1]))
-                        })
-                    },
-                )
+                given((self.scale(by)?, own_size()), |of| of).checked(self.reader, |(factor, frame), _| {
+                    times(frame, factor.value).map_err(|[width, height]| {
+                        let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
+                        let wrong = Diagnostic::new(factor.span, message);
+                        let because = factor.because.map_or_else(|| shown_number(factor.value), |it| it.to_string());
+                        wrong.remark(format!("{because} times {}×{}", frame[0], frame[1]))
+                    })
+                })
             }
         }
     }

@@ -2,12 +2,11 @@
 
 use super::evaluator::joined;
 use super::given::Given;
-use super::level::Decided;
 use super::lookup::{Scope, is_expression};
 use super::parameter::{Parameter, ParameterKind};
-use crate::base::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::expression::{Expression, Value, Wanted};
-use crate::language::model::SettingKind;
+use crate::language::model::{Decided, SettingKind};
 use crate::ron::{Leaf, Reader, Shape};
 
 /// The context of an entry: the reader that mistakes are reported to, and the scope that names are looked up in. The files
@@ -36,12 +35,13 @@ impl<'c> Context<'c> {
         wanted: Wanted<'static>,
         words: (&str, Option<&str>),
     ) -> Option<(Given<Decided<Value>>, Option<&'c Parameter>)> {
+        let span = leaf.span();
         Some(match self.quoted(leaf, fits, wanted, words)? {
             Quoted::Parameter(parameter, at) => {
                 let setting = Some(parameter).filter(|_| self.scope.symbols.settings);
-                (Given::asked(move |evaluator| evaluator.parameter(at)), setting)
+                (Given::asked(move |evaluator| evaluator.parameter(at, span)), setting)
             }
-            Quoted::Expression(expression) => (decided(expression), None),
+            Quoted::Expression(expression) => (decided(expression, span), None),
         })
     }
 
@@ -110,10 +110,10 @@ impl<'c> Context<'c> {
     }
 }
 
-/// The value of an expression, and what decided it.
-pub(crate) fn decided(expression: Expression) -> Given<Decided<Value>> {
+/// The value of an expression that stands at `span`, and what decided it.
+pub(crate) fn decided(expression: Expression, span: Span) -> Given<Decided<Value>> {
     Given::asked(move |evaluator| {
         let outcome = evaluator.evaluate(&expression)?;
-        Some(Decided { value: outcome.value, because: joined(&outcome.decided) })
+        Some(Decided { value: outcome.value, span, because: joined(&outcome.decided) })
     })
 }

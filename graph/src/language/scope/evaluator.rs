@@ -1,13 +1,14 @@
 //! Where the values of entries are found at a lowering.
 
 use super::given::Parts;
-use super::level::{Decided, DecidedValue, Elements, LevelValues, Properties};
+use super::level::{DecidedValue, Elements, LevelValues, Properties};
 use super::lookup::Declared;
 use super::symbols::Symbols;
-use crate::base::{Diagnostic, Label};
+use crate::base::{Diagnostic, Label, Span};
 use crate::expression::{Decision, Expression, Outcome, Value};
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::language::inputs::Surroundings;
+use crate::language::model::Decided;
 use crate::ron::{Name, Reader};
 use std::sync::Arc;
 
@@ -82,8 +83,8 @@ impl<'e, 'a> Evaluator<'e, 'a> {
         }
     }
 
-    /// The value of a setting or parameter, and what decided it: "msaa = 4".
-    pub(crate) fn parameter(&self, at: usize) -> Option<Decided<Value>> {
+    /// The value of a setting or parameter that is named at `span`.
+    pub(crate) fn parameter(&self, at: usize, span: Span) -> Option<Decided<Value>> {
         let DecidedValue { value, decided } = self.scope.values.get(at)?.as_ref()?;
         let because = if self.scope.symbols.settings {
             let parameter = self.scope.symbols.parameters.get(at)?.as_ref()?;
@@ -91,7 +92,7 @@ impl<'e, 'a> Evaluator<'e, 'a> {
         } else {
             joined(decided)
         };
-        Some(Decided { value: value.clone(), because })
+        Some(Decided { value: value.clone(), span, because })
     }
 
     /// The image or buffer that a declaration of this level stands for.

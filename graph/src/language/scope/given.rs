@@ -2,9 +2,9 @@
 //! lowering.
 
 use super::evaluator::{Evaluator, within_view};
-use super::level::Decided;
 use crate::base::Diagnostic;
-use crate::ron::{Name, Reader};
+use crate::language::model::Decided;
+use crate::ron::{Leaf, Name, Reader, Spanned};
 use std::sync::Arc;
 
 /// What values of entries have in common: they are kept in a document, and copied into pipelines.
@@ -82,10 +82,36 @@ impl<T: Kept> Given<Decided<T>> {
     pub(crate) fn within_view(self) -> Self {
         let Given::Asked(ask) = self else { return self };
         Given::asked(move |evaluator| {
-            let Decided { value, because } = ask(evaluator)?;
-            let because = because.map(|because| within_view(evaluator.scope.view, &because).into());
-            Some(Decided { value, because })
+            let decided = ask(evaluator)?;
+            let because = decided.because.map(|because| within_view(evaluator.scope.view, &because).into());
+            Some(Decided { because, ..decided })
         })
+    }
+
+    /// A value that `leaf` says itself.
+    pub(crate) fn said(leaf: Leaf<'_>, value: T) -> Self {
+        Given::Known(Decided::said(leaf.span(), value))
+    }
+
+    /// The same value, at the place of `leaf`.
+    pub(crate) fn at(self, leaf: Leaf<'_>) -> Self {
+        let span = leaf.span();
+        self.map(move |decided| Decided { span, ..decided })
+    }
+
+    /// What is made of the value; the same decided it.
+    pub(crate) fn of<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<Decided<U>> {
+        self.map(move |decided| decided.map(&make))
+    }
+
+    /// The value and its place alone.
+    pub(crate) fn spanned(self) -> Given<Spanned<T>> {
+        self.map(Decided::spanned)
+    }
+
+    /// The value alone.
+    pub(crate) fn alone(self) -> Given<T> {
+        self.map(|decided| decided.value)
     }
 }
 

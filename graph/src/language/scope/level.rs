@@ -2,31 +2,6 @@
 
 use crate::expression::{Decision, Value};
 use crate::language::model::Area;
-use std::sync::Arc;
-
-/// A value, and what decided it: "msaa = 4".
-#[derive(Debug, Clone)]
-pub(crate) struct Decided<T> {
-    pub(crate) value: T,
-    pub(crate) because: Option<Arc<str>>,
-}
-
-impl<T> Decided<T> {
-    /// A value that the file says.
-    pub(crate) const fn said(value: T) -> Decided<T> {
-        Decided { value, because: None }
-    }
-
-    /// What is made of the value; the same decided it.
-    pub(crate) fn map<U>(self, make: impl FnOnce(T) -> U) -> Decided<U> {
-        Decided { value: make(self.value), because: self.because }
-    }
-
-    /// What decided it, as remarks have it.
-    pub(crate) fn remark(&self) -> &str {
-        self.because.as_deref().unwrap_or_default()
-    }
-}
 
 /// The value of a setting or parameter, and what decided it.
 #[derive(Debug, Clone)]
