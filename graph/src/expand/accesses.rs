@@ -24,11 +24,11 @@ pub(super) struct Write {
 }
 
 /// All of an image or buffer; `None` if nothing is known about it.
-pub(super) fn whole(resources: &Resources, resource: Resource) -> Option<Cells> {
+pub(super) fn whole(resources: &Resources<'_>, resource: Resource) -> Option<Cells> {
     part(resources, resource, &Subresources::WHOLE)
 }
 
-fn image(resources: &Resources, resource: Resource) -> Option<&Image> {
+fn image<'r>(resources: &'r Resources<'_>, resource: Resource) -> Option<&'r Image> {
     match resource {
         Resource::Image(index) => Some(&resources.image(index)?.image),
         Resource::Buffer(_) => None,
@@ -36,7 +36,7 @@ fn image(resources: &Resources, resource: Resource) -> Option<&Image> {
 }
 
 /// A part of an image, or a buffer.
-fn part(resources: &Resources, resource: Resource, range: &Subresources) -> Option<Cells> {
+fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> Option<Cells> {
     match resource {
         Resource::Image(_) => Some(parts::cells(image(resources, resource)?, range)),
         Resource::Buffer(_) => Some(Cells { mips: 0..1, layers: 0..1, planes: Aspects::COLOR }),
@@ -44,7 +44,7 @@ fn part(resources: &Resources, resource: Resource, range: &Subresources) -> Opti
 }
 
 /// What `pass` reads. What it only adds to stands among its writes.
-pub(super) fn reads(resources: &Resources, pass: &Pass) -> Vec<Read> {
+pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
     let mut reads = Vec::new();
     for access in pass.accesses().filter(|access| !access.attaches()) {
         let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
@@ -60,7 +60,7 @@ pub(super) fn reads(resources: &Resources, pass: &Pass) -> Vec<Read> {
 }
 
 /// What `pass` writes, and all that it draws into.
-pub(super) fn writes(resources: &Resources, pass: &Pass) -> Vec<Write> {
+pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
     let mut writes = Vec::new();
     for access in pass.accesses() {
         let (resource, span) = (access.resource(), access.span());

@@ -1,6 +1,5 @@
 //! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
 
-use super::chosen::Chosen;
 use super::resources::Resources;
 use crate::base::Diagnostic;
 use crate::frame::EyeForm;
@@ -9,8 +8,7 @@ use crate::shader::{ShaderInterface, Unturned};
 
 /// Reports a shader that takes where its fragments lie for their place in one eye's picture.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
@@ -21,7 +19,7 @@ pub(super) fn check(
     };
     let Some(target) = targets.into_iter().find(halves) else { return };
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&Unturned::FragCoord)) else { return };
-    let name = &chosen.image(target.index).name.text;
+    let name = &resources.declared(target.index).name.text;
     let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
     let wrong = Diagnostic::new(shader.span, message);
     let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));

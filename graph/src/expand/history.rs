@@ -7,7 +7,7 @@ use super::state::State;
 use crate::frame::{Lifetime, Resource};
 
 /// Shortens the history of images and buffers to what is read of it.
-pub(super) fn shorten(resources: &mut Resources, states: &[State]) {
+pub(super) fn shorten(resources: &mut Resources<'_>, states: &[State]) {
     let mut images = vec![0_u32; resources.images.len()];
     let mut buffers = vec![0_u32; resources.buffers.len()];
     for read in states.iter().flat_map(State::runs).flat_map(|pass| accesses::reads(resources, pass)) {

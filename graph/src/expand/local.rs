@@ -10,7 +10,7 @@ use crate::shader::{BindingKind, PASS_SET, ShaderInterface, Variant};
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
 /// shader as it is compiled without, as `variant`; what is wrong with that was reported.
 pub(super) fn check(
-    resources: &Resources,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     (interface, variant): (&ShaderInterface, &Variant),

@@ -7,7 +7,6 @@
 
 mod accesses;
 mod casters;
-mod chosen;
 mod depth_only;
 mod eyes;
 mod fills;
@@ -17,6 +16,7 @@ mod halves;
 mod history;
 mod images;
 mod inputs;
+mod instances;
 mod local;
 mod once;
 mod order;

@@ -1,29 +1,29 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
-use super::chosen::Chosen;
 use super::follow::{follow, follow_all};
 use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
-use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described};
+use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Pipeline};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::State;
 use crate::vulkan::states::{Subject, When};
 use std::sync::Arc;
 
-/// Everything that passes name; `None` where a mistake was reported.
-pub(super) struct Resources {
+/// The pipeline at hand, with everything that passes name; `None` where a mistake was reported.
+pub(super) struct Resources<'a> {
+    pub(super) pipeline: &'a Pipeline,
     pub(super) images: Vec<Option<images::FrameImage>>,
     pub(super) buffers: Vec<Option<Buffer>>,
 }
 
-impl Resources {
-    /// Resolves all of them.
-    pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Resources {
-        let mut images = images::resolve(chosen, errors);
-        let lifetimes = lifetimes(chosen);
+impl<'a> Resources<'a> {
+    /// Resolves all of them, in a frame of this size.
+    pub(super) fn resolve(pipeline: &'a Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Resources<'a> {
+        let mut images = images::resolve(pipeline, extent, errors);
+        let lifetimes = lifetimes(pipeline);
         let (of_images, of_buffers) = lifetimes.split_at(images.len());
-        for ((image, described), kept) in images.iter_mut().zip(&chosen.pipeline.images).zip(of_images) {
+        for ((image, described), kept) in images.iter_mut().zip(&pipeline.images).zip(of_images) {
             if let Some(resolved) = image {
                 let (format, samples) = (Some(resolved.image.format), resolved.image.samples);
                 let subject = Subject { name: &described.name.text, format, samples };
@@ -32,11 +32,11 @@ impl Resources {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
-                super::chosen::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
+                super::instances::used_here(pipeline, described.instance, &mut errors[before..]);
             }
         }
-        let mut sizes = vec![None; chosen.pipeline.buffers.len()];
-        let buffers = &chosen.pipeline.buffers;
+        let mut sizes = vec![None; pipeline.buffers.len()];
+        let buffers = &pipeline.buffers;
         let buffers = buffers.iter().enumerate().map(|(at, buffer)| {
             let before = errors.len();
             let next = |buffer: &language::Buffer| match buffer.bytes.value {
@@ -47,12 +47,25 @@ impl Resources {
                 follow(buffers, &mut sizes, at, next, |buffer, followed| bytes(&images, buffer, followed, errors));
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(buffer.lifetime.span, of_buffers[at], subject, errors);
-            super::chosen::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
+            super::instances::used_here(pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
         });
         let buffers = buffers.collect();
-        Resources { images, buffers }
+        Resources { pipeline, images, buffers }
+    }
+
+    /// What the file says of an image.
+    pub(super) fn declared(&self, index: ImageIndex) -> &'a language::Image {
+        &self.pipeline.images[index.0 as usize]
+    }
+
+    /// The name of an image or buffer.
+    pub(super) fn name(&self, of: Resource) -> &'a Name {
+        match of {
+            Resource::Image(index) => &self.pipeline.images[index.0 as usize].name,
+            Resource::Buffer(index) => &self.pipeline.buffers[index.0 as usize].name,
+        }
     }
 
     /// The image, if it could be resolved.
@@ -68,7 +81,6 @@ impl Resources {
     /// The state in which an output is to be left, if nothing contradicts it.
     pub(super) fn left(
         &self,
-        chosen: &Chosen<'_>,
         of: Resource,
         after: Spanned<language::State>,
         errors: &mut Vec<Diagnostic>,
@@ -78,7 +90,7 @@ impl Resources {
             Resource::Buffer(_) => None,
         };
         let (format, samples) = (image.map(|image| image.format), image.map_or(1, |image| image.samples));
-        let name = chosen.name(of);
+        let name = self.name(of);
         let lowered = states::lower(after, Subject { name: &name.text, format, samples }, When::After, errors)?;
         if let Some(Lifetime::Imported { after: Some(promised), .. }) = self.lifetime(of)
             && *promised != lowered
@@ -96,16 +108,6 @@ impl Resources {
         match of {
             Resource::Image(index) => self.image(index).map(|image| &image.image.lifetime),
             Resource::Buffer(index) => self.buffer(index).map(|buffer| &buffer.lifetime),
-        }
-    }
-}
-
-impl<'a> Chosen<'a> {
-    /// The name of an image or buffer.
-    pub(super) fn name(&self, of: Resource) -> &'a Name {
-        match of {
-            Resource::Image(index) => &self.pipeline.images[index.0 as usize].name,
-            Resource::Buffer(index) => &self.pipeline.buffers[index.0 as usize].name,
         }
     }
 }
@@ -141,8 +143,7 @@ fn bytes(
 }
 
 /// What the file says of the lifetime of each image, then of each buffer: its own, or that of the one that it follows.
-fn lifetimes<'a>(chosen: &Chosen<'a>) -> Vec<Option<&'a Spanned<Described>>> {
-    let language::Pipeline { images, buffers, .. } = chosen.pipeline;
+fn lifetimes(Pipeline { images, buffers, .. }: &Pipeline) -> Vec<Option<&Spanned<Described>>> {
     let of_images = images.iter().map(|image| &image.lifetime);
     let all: Vec<_> = of_images.chain(buffers.iter().map(|buffer| &buffer.lifetime)).collect();
     let next = |lifetime: &&Spanned<Described>| match &lifetime.value {

@@ -1,6 +1,5 @@
 //! Copies, blits and fills: what goes from where to where must fit.
 
-use super::chosen::Chosen;
 use super::fills;
 use super::parts::{self, Cells};
 use super::resources::Resources;
@@ -37,8 +36,7 @@ impl Side<'_> {
 
 /// The side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
 fn side<'a>(
-    chosen: &Chosen<'_>,
-    resources: &'a Resources,
+    resources: &'a Resources<'_>,
     part: &'a Part,
     transfer: &TransferUse,
     errors: &mut Vec<Diagnostic>,
@@ -46,14 +44,14 @@ fn side<'a>(
     let Part::Image(part) = part else { return None };
     let image = &resources.image(part.image.index)?.image;
     let cells = parts::cells(image, &transfer.range);
-    one_mip(chosen, image, part, &cells, "is copied", errors)?;
+    one_mip(resources, image, part, &cells, "is copied", errors)?;
     let extent = image.extent_at(cells.mips.start);
     Some(Side { image, part, cells, extent })
 }
 
 /// Reports a part of several mip levels where one is needed.
 pub(super) fn one_mip(
-    chosen: &Chosen<'_>,
+    resources: &Resources<'_>,
     image: &Image,
     part: &ImagePart,
     cells: &Cells,
@@ -65,7 +63,7 @@ pub(super) fn one_mip(
     }
     let (name, count) = (&image.name, image.mips);
     let message = format!("`{name}` has {count} mip levels: say which one {what}");
-    let declared = chosen.image(part.image.index).mips.span;
+    let declared = resources.declared(part.image.index).mips.span;
     errors.push(
         Diagnostic::new(parts::place(part), message)
             .label(declared, "declared here")
@@ -75,13 +73,7 @@ pub(super) fn one_mip(
 }
 
 /// Reports a copy that can't be.
-pub(super) fn copy(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
-    [from, to]: [&Part; 2],
-    lowered: &Pass,
-    errors: &mut Vec<Diagnostic>,
-) {
+pub(super) fn copy(resources: &Resources<'_>, [from, to]: [&Part; 2], lowered: &Pass, errors: &mut Vec<Diagnostic>) {
     let [source, target] = &lowered.transfers[..] else { return };
     match (from, to) {
         (Part::Buffer(one), Part::Buffer(other)) => {
@@ -103,20 +95,19 @@ pub(super) fn copy(
             }
         }
         (Part::Image(_), Part::Image(_)) => {
-            let (one, other) =
-                (side(chosen, resources, from, source, errors), side(chosen, resources, to, target, errors));
+            let (one, other) = (side(resources, from, source, errors), side(resources, to, target, errors));
             if let (Some(one), Some(other)) = (one, other) {
                 images_fit([&one, &other], [source, target], errors);
-                same_texels(chosen, &one, &other, errors);
+                same_texels(resources, &one, &other, errors);
             }
         }
         (Part::Image(_), Part::Buffer(buffer)) => {
-            if let Some(image) = side(chosen, resources, from, source, errors) {
+            if let Some(image) = side(resources, from, source, errors) {
                 rows_fit(resources, &image, &buffer.buffer, true, errors);
             }
         }
         (Part::Buffer(buffer), Part::Image(_)) => {
-            if let Some(image) = side(chosen, resources, to, target, errors) {
+            if let Some(image) = side(resources, to, target, errors) {
                 rows_fit(resources, &image, &buffer.buffer, false, errors);
             }
         }
@@ -124,7 +115,7 @@ pub(super) fn copy(
 }
 
 /// Texels have as many bytes, samples and planes, and lie in as large images.
-fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
+fn same_texels(resources: &Resources<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
     let (one, other) = (from.image, to.image);
     let alike = one.format.copies_to(other.format) && from.cells.planes == to.cells.planes;
     let formats = |span| (span, format!("{}", one.format));
@@ -140,7 +131,7 @@ fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut
     }
     if one.samples != other.samples {
         let message = format!("`{}` can't be copied to `{}`: their sample counts differ", one.name, other.name);
-        let declared = chosen.image(from.part.image.index).samples.span;
+        let declared = resources.declared(from.part.image.index).samples.span;
         errors.push(
             Diagnostic::new(to.part.image.span, message)
                 .remark(format!("{}× a texel", other.samples))
@@ -169,7 +160,7 @@ fn images_fit([from, to]: [&Side<'_>; 2], [source, target]: [&TransferUse; 2], e
 
 /// The texels of one plane fill the buffer, or lie in it.
 fn rows_fit(
-    resources: &Resources,
+    resources: &Resources<'_>,
     image: &Side<'_>,
     buffer: &language::BufferRef,
     filled: bool,
@@ -205,15 +196,14 @@ fn rows_fit(
 
 /// Reports a blit that can't be.
 pub(super) fn blit(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
+    resources: &Resources<'_>,
     [from, to]: [&Part; 2],
     filter: Option<Spanned<Filter>>,
     lowered: &Pass,
     errors: &mut Vec<Diagnostic>,
 ) {
     let [source, target] = &lowered.transfers[..] else { return };
-    let (one, other) = (side(chosen, resources, from, source, errors), side(chosen, resources, to, target, errors));
+    let (one, other) = (side(resources, from, source, errors), side(resources, to, target, errors));
     let (Some(one), Some(other)) = (one, other) else { return };
     images_fit([&one, &other], [source, target], errors);
     for side in [&one, &other] {
@@ -249,7 +239,7 @@ pub(super) fn blit(
 }
 
 /// Reports a fill whose value doesn't fit.
-pub(super) fn fill(resources: &Resources, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fill(resources: &Resources<'_>, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
     let (format, name) = match to {
         Part::Image(part) => {
             let Some(image) = resources.image(part.image.index) else { return };

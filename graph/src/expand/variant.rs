@@ -1,6 +1,5 @@
 //! How a pass's shader is compiled: its declarations of what it samples may follow what the pass gives.
 
-use super::chosen::Chosen;
 use super::parts::{self, Cells};
 use super::resources::Resources;
 use super::shader::Checked;
@@ -11,10 +10,10 @@ use crate::shader::Variant;
 use crate::vulkan::{Aspects, Component, ImageShape};
 
 /// The variant of its shader that a pass needs. What isn't known is left out: mistakes are reported elsewhere.
-pub(super) fn of(chosen: &Chosen<'_>, resources: &Resources, pass: &language::Pass) -> Variant {
+pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
     let texture = |sample: &language::Sample| {
         let image = &resources.image(sample.part.image.index)?.image;
-        let range = parts::range(chosen, resources, &sample.part, &mut Vec::new());
+        let range = parts::range(resources, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
@@ -45,7 +44,7 @@ pub(super) fn in_part<'p>(
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.
-fn covers_samples(resources: &Resources, pass: &language::Pass) -> bool {
+fn covers_samples(resources: &Resources<'_>, pass: &language::Pass) -> bool {
     let several = |color: &language::Color| {
         resources.image(color.part.image.index).is_some_and(|target| target.image.samples > 1)
     };
@@ -54,11 +53,11 @@ fn covers_samples(resources: &Resources, pass: &language::Pass) -> bool {
 
 /// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
 /// that could tell.
-pub(super) fn with_all(chosen: &Chosen<'_>, resources: &Resources, pass: &language::Pass) -> Option<Variant> {
+pub(super) fn with_all(resources: &Resources<'_>, pass: &language::Pass) -> Option<Variant> {
     let left_out = pass.left_out.iter().map(|left_out| left_out.sample.clone());
     let left_out: Vec<language::Sample> = left_out.collect::<Option<_>>()?;
     let whole = language::Pass { sample: [&pass.sample[..], &left_out].concat(), ..pass.clone() };
-    Some(of(chosen, resources, &whole))
+    Some(of(resources, &whole))
 }
 
 /// As what a shader that leaves it to the pass declares a part of an image.

@@ -1,6 +1,5 @@
 //! What passes do: draws, dispatches and their groups, copies, blits, fills; and whether they can.
 
-use super::chosen::Chosen;
 use super::resources::Resources;
 use super::{fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
@@ -23,12 +22,7 @@ pub(super) fn draw(draw: &language::Draw) -> Draw {
 }
 
 /// What the pass does. After a mistake it does something like it.
-pub(super) fn lower(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
-    pass: &language::Pass,
-    interface: Option<&ShaderInterface>,
-) -> Work {
+pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface: Option<&ShaderInterface>) -> Work {
     let drawn = |draw, shader: &Name| Work::Draw {
         draw,
         shader: shader.text.clone(),
@@ -39,7 +33,7 @@ pub(super) fn lower(
     match &pass.work {
         language::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
         language::Work::Dispatch { shader, groups } => {
-            Work::Dispatch { shader: shader.text.clone(), groups: self::groups(chosen, resources, &groups.value) }
+            Work::Dispatch { shader: shader.text.clone(), groups: self::groups(resources, &groups.value) }
         }
         language::Work::Copy { .. } => Work::Copy,
         language::Work::Blit { from, filter, .. } => {
@@ -65,27 +59,26 @@ pub(super) fn lower(
     }
 }
 
-fn groups(chosen: &Chosen<'_>, resources: &Resources, groups: &Described) -> Groups {
+fn groups(resources: &Resources<'_>, groups: &Described) -> Groups {
     match groups {
         Described::Count(count) => Groups::Count(*count),
         Described::Invocations(count) => Groups::Invocations(*count),
-        Described::Texels(part) => Groups::Invocations(texels(chosen, resources, part)),
+        Described::Texels(part) => Groups::Invocations(texels(resources, part)),
         Described::Indirect { offset, .. } => Groups::Indirect { offset: *offset },
     }
 }
 
 /// Width, height, and depth or layers of a part of an image.
-fn texels(chosen: &Chosen<'_>, resources: &Resources, part: &language::ImagePart) -> [u32; 3] {
+fn texels(resources: &Resources<'_>, part: &language::ImagePart) -> [u32; 3] {
     let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
-    let cells = parts::cells(image, &parts::range(chosen, resources, part, &mut Vec::new()));
+    let cells = parts::cells(image, &parts::range(resources, part, &mut Vec::new()));
     let [width, height, depth] = image.extent_at(cells.mips.start);
     [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
 }
 
 /// Reports what the pass can't do.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     interface: Option<&ShaderInterface>,
@@ -94,11 +87,11 @@ pub(super) fn check(
     match &pass.work {
         language::Work::Draw { draw, .. } => counts_fit(resources, pass, draw, lowered, errors),
         language::Work::Dispatch { groups, .. } => {
-            dispatch_fits(chosen, resources, pass, groups, lowered, interface, errors);
+            dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
-        language::Work::Copy { from, to } => transfers::copy(chosen, resources, [from, to], lowered, errors),
+        language::Work::Copy { from, to } => transfers::copy(resources, [from, to], lowered, errors),
         language::Work::Blit { from, to, filter } => {
-            transfers::blit(chosen, resources, [from, to], *filter, lowered, errors);
+            transfers::blit(resources, [from, to], *filter, lowered, errors);
         }
         language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
         language::Work::Custom { .. } => {}
@@ -107,7 +100,7 @@ pub(super) fn check(
 
 /// Indices and counts lie within their buffers.
 fn counts_fit(
-    resources: &Resources,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     draw: &language::Draw,
     lowered: &Pass,
@@ -127,7 +120,7 @@ fn counts_fit(
 
 /// Reports a buffer that is too small for what is read there.
 pub(super) fn holds(
-    resources: &Resources,
+    resources: &Resources<'_>,
     buffer: &language::BufferRef,
     bytes: u64,
     what: &str,
@@ -142,8 +135,7 @@ pub(super) fn holds(
 }
 
 fn dispatch_fits(
-    chosen: &Chosen<'_>,
-    resources: &Resources,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     groups: &Spanned<Described>,
     lowered: &Pass,
@@ -161,7 +153,7 @@ fn dispatch_fits(
             holds(resources, &buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
         }
         Described::Texels(part) => {
-            parts::range(chosen, resources, part, errors);
+            parts::range(resources, part, errors);
             if let Some(previous) = part.previous {
                 errors
                     .push(Diagnostic::new(previous.span, "an image has one size in all frames: leave `previous` out"));
