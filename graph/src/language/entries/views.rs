@@ -70,21 +70,8 @@ static SIZES: Words = Words {
 /// The views that a pipeline's file says, the main one first; none if it names none.
 pub(crate) struct ViewEntries {
     names: Names,
-    /// `None` where one couldn't be read.
-    list: Vec<Option<ViewEntry>>,
-}
-
-/// A view that a file says.
-struct ViewEntry {
-    name: Name,
-    extent: Given<[u32; 2]>,
-    camera: Option<Name>,
-    /// What it says of multisampling, of high dynamic range and of its scale.
-    allows: [Option<Given<bool>>; 3],
-    /// Values of settings that hold within it.
-    set: Vec<Choice>,
-    /// Asked of what expressions see within it.
-    jitter: Given<Option<Jitter>>,
+    /// Views, with the values that settings have within them; `None` where one couldn't be read.
+    list: Vec<Option<Given<(View, Vec<Option<DecidedValue>>)>>>,
 }
 
 /// What expressions see that stand in a view.
@@ -148,8 +135,12 @@ impl<'a> Views<'a> {
         surroundings: &Surroundings<'a>,
         evaluator: &mut Evaluator<'_, '_>,
     ) -> Views<'a> {
-        let view = |entry: &Option<ViewEntry>| view(entry.as_ref()?, surroundings, evaluator);
-        Views(entries.list.iter().map(view).collect())
+        let views = entries.list.iter().map(|entry| {
+            let (view, values) = evaluator.put_in(entry)?;
+            let surroundings = Surroundings { extent: view.extent, allows: view.allows, ..*surroundings };
+            Some((view, ViewInputs { surroundings, values }))
+        });
+        Views(views.collect())
     }
 
     /// What expressions see within a view; `None`: what they see of the frame.
@@ -180,39 +171,18 @@ fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
 /// Said of a first view with a size.
 const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
 
-fn view<'a>(
-    entry: &ViewEntry,
-    surroundings: &Surroundings<'a>,
-    evaluator: &mut Evaluator<'_, '_>,
-) -> Option<(View, ViewInputs<'a>)> {
-    let extent = entry.extent.evaluate(evaluator);
-    let allows = entry.allows.evaluate(evaluator);
-    let mut values = evaluator.scope.values.to_vec();
-    for Choice { setting, value, .. } in &entry.set {
-        if let Some(slot) = values.get_mut(*setting) {
-            *slot = Some(value.clone().into());
-        }
-    }
-    // Evaluated even where something else is wrong, so that all mistakes are told.
-    let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
-    let scope = ScopeValues { values: &values, surroundings: &seen, ..evaluator.scope };
-    let jitter = entry.jitter.evaluate(&mut Evaluator::new(evaluator.reader, scope, evaluator.lenient));
-    let ([msaa, hdr, scale], all) = (allows?, surroundings.allows);
-    let allows =
-        Allowances { msaa: msaa.unwrap_or(all.msaa), hdr: hdr.unwrap_or(all.hdr), scale: scale.unwrap_or(all.scale) };
-    let (name, camera) = (entry.name.clone(), entry.camera.clone());
-    let view = View { name, extent: extent?, camera, allows, jitter: jitter?, eye: None };
-    let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
-    Some((view, ViewInputs { surroundings, values }))
-}
-
 /// The size of the frame, or of the view at hand.
 fn own_size() -> Given<[u32; 2]> {
     Given::asked(|evaluator| Some(evaluator.scope.surroundings.extent))
 }
 
 impl Context<'_> {
-    fn view(&mut self, settings: &[Option<Setting>], main: bool, fields: &ViewFields<'_>) -> Option<ViewEntry> {
+    fn view(
+        &mut self,
+        settings: &[Option<Setting>],
+        main: bool,
+        fields: &ViewFields<'_>,
+    ) -> Option<Given<(View, Vec<Option<DecidedValue>>)>> {
         let name = self.reader.name(fields.name, "a view");
         if let Some(about) = fields.about {
             self.reader.words(about, "a description");
@@ -233,8 +203,31 @@ impl Context<'_> {
         let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf).map(Given::alone)));
         let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
         let jitter = self.jitter(fields);
-        let (set, allows) = (set?, all(allows)?);
-        Some(ViewEntry { name: name?, extent: extent?, camera: camera?, allows, set, jitter: jitter? })
+        let (name, extent, camera, allows) = (name?, extent?, camera?, all(allows)?);
+        let (set, jitter) = (set?, jitter?);
+        Some(Given::asked(move |evaluator| {
+            let frame = evaluator.scope.surroundings;
+            let extent = extent.evaluate(evaluator);
+            let allows = allows.evaluate(evaluator);
+            let mut values = evaluator.scope.values.to_vec();
+            for Choice { setting, value, .. } in &set {
+                if let Some(slot) = values.get_mut(*setting) {
+                    *slot = Some(value.clone().into());
+                }
+            }
+            // Evaluated even where something else is wrong, so that all mistakes are told.
+            let seen = Surroundings { extent: extent.unwrap_or(frame.extent), ..*frame };
+            let scope = ScopeValues { values: &values, surroundings: &seen, ..evaluator.scope };
+            let jitter = jitter.evaluate(&mut Evaluator::new(evaluator.reader, scope, evaluator.lenient));
+            let [msaa, hdr, scale] = allows?;
+            let allows = Allowances {
+                msaa: msaa.unwrap_or(frame.allows.msaa),
+                hdr: hdr.unwrap_or(frame.allows.hdr),
+                scale: scale.unwrap_or(frame.allows.scale),
+            };
+            let (name, camera) = (name.clone(), camera.clone());
+            Some((View { name, extent: extent?, camera, allows, jitter: jitter?, eye: None }, values))
+        }))
     }
 
     /// How what a view's camera sees is shifted.
