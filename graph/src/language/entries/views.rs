@@ -70,9 +70,12 @@ static SIZES: Words = Words {
 /// The views that a pipeline's file says, the main one first; none if it names none.
 pub(crate) struct ViewEntries {
     names: Names,
-    /// Views, with the values that settings have within them; `None` where one couldn't be read.
-    list: Vec<Option<Given<(View, Vec<Option<DecidedValue>>)>>>,
+    /// `None` where one couldn't be read.
+    list: Vec<Option<Given<SetView>>>,
 }
+
+/// A view, and the values that settings have within it.
+type SetView = (View, Vec<Option<DecidedValue>>);
 
 /// What expressions see that stand in a view.
 pub(crate) struct ViewInputs<'a> {
@@ -177,12 +180,7 @@ fn own_size() -> Given<[u32; 2]> {
 }
 
 impl Context<'_> {
-    fn view(
-        &mut self,
-        settings: &[Option<Setting>],
-        main: bool,
-        fields: &ViewFields<'_>,
-    ) -> Option<Given<(View, Vec<Option<DecidedValue>>)>> {
+    fn view(&mut self, settings: &[Option<Setting>], main: bool, fields: &ViewFields<'_>) -> Option<Given<SetView>> {
         let name = self.reader.name(fields.name, "a view");
         if let Some(about) = fields.about {
             self.reader.words(about, "a description");
