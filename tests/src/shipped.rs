@@ -2,9 +2,9 @@
 
 use crate::render::in_repository;
 use framewright_graph::base::{self, Root, Sources};
-use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo};
-use framewright_graph::language::{self, Document, PipelineFiles, SettingKind};
+use framewright_graph::language::{self, Document, Facts, PipelineFiles, SettingKind};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;

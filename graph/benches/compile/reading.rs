@@ -3,9 +3,9 @@
 
 use crate::timing::{Timing, beside, microseconds};
 use framewright_graph::base::Sources;
-use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Draw, Frame, Stereo};
-use framewright_graph::language;
+use framewright_graph::language::{self, Facts};
 use framewright_graph::shader::{
     Binding, BindingKind, DrawInterface, FragmentOutput, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };

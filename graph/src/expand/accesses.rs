@@ -1,7 +1,7 @@
 //! The reads and writes of a pass, part by part, as far as its images and buffers are known.
 
 use super::parts::{self, Cells};
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::Span;
 use crate::frame::{Access, Effect, Image, Pass, Resource};
 use crate::vulkan::{Aspects, Subresources};
@@ -24,33 +24,33 @@ pub(super) struct Write {
 }
 
 /// All of an image or buffer; `None` if nothing is known about it.
-pub(super) fn whole(things: &Things, resource: Resource) -> Option<Cells> {
-    part(things, resource, &Subresources::WHOLE)
+pub(super) fn whole(resources: &Resources<'_>, resource: Resource) -> Option<Cells> {
+    part(resources, resource, &Subresources::WHOLE)
 }
 
-fn image(things: &Things, resource: Resource) -> Option<&Image> {
+fn image<'r>(resources: &'r Resources<'_>, resource: Resource) -> Option<&'r Image> {
     match resource {
-        Resource::Image(index) => Some(&things.image(index)?.image),
+        Resource::Image(index) => Some(&resources.image(index)?.image),
         Resource::Buffer(_) => None,
     }
 }
 
 /// A part of an image, or a buffer.
-fn part(things: &Things, resource: Resource, range: &Subresources) -> Option<Cells> {
+fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> Option<Cells> {
     match resource {
-        Resource::Image(_) => Some(parts::cells(image(things, resource)?, range)),
+        Resource::Image(_) => Some(parts::cells(image(resources, resource)?, range)),
         Resource::Buffer(_) => Some(Cells { mips: 0..1, layers: 0..1, planes: Aspects::COLOR }),
     }
 }
 
 /// What `pass` reads. What it only adds to stands among its writes.
-pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
+pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
     let mut reads = Vec::new();
     for access in pass.accesses().filter(|access| !access.attaches()) {
         let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
-        access.for_each_effect(pass, image(things, resource), |effect| {
+        access.for_each_effect(pass, image(resources, resource), |effect| {
             if effect.reads
-                && let Some(cells) = part(things, resource, &effect.range)
+                && let Some(cells) = part(resources, resource, &effect.range)
             {
                 reads.push(Read { resource, cells, frames_ago, span });
             }
@@ -60,11 +60,11 @@ pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
 }
 
 /// What `pass` writes, and all that it draws into.
-pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
+pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
     let mut writes = Vec::new();
     for access in pass.accesses() {
         let (resource, span) = (access.resource(), access.span());
-        access.for_each_effect(pass, image(things, resource), |Effect { range, reads, writes: changes }| {
+        access.for_each_effect(pass, image(resources, resource), |Effect { range, reads, writes: changes }| {
             let clear = match access {
                 Access::Color(_) => Some("(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))"),
                 Access::Depth(_) if range.aspects == Aspects::STENCIL => Some("(image: \"…\", stencil: (clear: 0))"),
@@ -72,7 +72,7 @@ pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
                 _ => None,
             };
             if (clear.is_some() || changes)
-                && let Some(cells) = part(things, resource, &range)
+                && let Some(cells) = part(resources, resource, &range)
             {
                 writes.push(Write { resource, cells, span, continues: clear.filter(|_| reads) });
             }

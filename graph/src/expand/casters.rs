@@ -1,6 +1,6 @@
 //! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
 
-use super::chosen::used_here;
+use super::instances::used_here;
 use super::state::State;
 use crate::base::Diagnostic;
 use crate::frame::{Cascade, DepthTarget, Draw, ViewIndex, Work};

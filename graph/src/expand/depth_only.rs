@@ -1,10 +1,9 @@
 //! Whether what draws multisampled depth can draw it alone, where one value a texel of that depth may be wanted: then it is
 //! drawn again with one sample, by what the macro `DEPTH_ONLY` leaves of its shader.
 
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::{Checked, PARAMS};
 use super::state::State;
-use super::things::Things;
 use super::variant;
 use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
 use crate::language;
@@ -13,13 +12,13 @@ use crate::vulkan::Stages;
 use std::collections::HashSet;
 
 /// Notes why passes can't draw depth alone, for those that may have to. `states` are those of the pipeline's passes.
-pub(super) fn note(chosen: &Chosen<'_>, things: &Things, states: &mut [State], shaders: &mut Checked<'_>) {
+pub(super) fn note(resources: &Resources<'_>, states: &mut [State], shaders: &mut Checked<'_>) {
     let multisampled = |image: ImageIndex| {
-        let image = things.image(image).map(|image| &image.image);
+        let image = resources.image(image).map(|image| &image.image);
         image.filter(|image| image.samples > 1 && image.format.is_depth())
     };
     let mut wanted = HashSet::new();
-    for (image, index) in things.images.iter().zip(0..).map(|(image, index)| (image, ImageIndex(index))) {
+    for (image, index) in resources.images.iter().zip(0..).map(|(image, index)| (image, ImageIndex(index))) {
         let asks = image.as_ref().and_then(|image| image.image.resolve.as_ref());
         if asks.is_some_and(|resolve| resolve.way == ResolveWay::DepthOnly) && multisampled(index).is_some() {
             wanted.insert(index);
@@ -30,22 +29,21 @@ pub(super) fn note(chosen: &Chosen<'_>, things: &Things, states: &mut [State], s
         let sampled = pass.sampled.iter().filter(|sampled| sampled.face != Face::Samples && sampled.frames_ago == 0);
         wanted.extend(sampled.map(|sampled| sampled.image).filter(|image| multisampled(*image).is_some()));
     }
-    for (state, described) in states.iter_mut().zip(&chosen.pipeline.passes) {
+    for (state, described) in states.iter_mut().zip(&resources.pipeline.passes) {
         let State::On(pass) = state else { continue };
         let writes = pass
             .depth
             .as_ref()
             .is_some_and(|depth| (depth.write || depth.clear.is_some()) && wanted.contains(&depth.image));
         if writes {
-            pass.no_depth_only = hindrance(chosen, things, described, pass, shaders).map(Into::into);
+            pass.no_depth_only = hindrance(resources, described, pass, shaders).map(Into::into);
         }
     }
 }
 
 /// Why the shader of a pass can't draw its depth alone, behind the name of the pass.
 fn hindrance(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     described: &language::Pass,
     pass: &Pass,
     shaders: &mut Checked<'_>,
@@ -54,7 +52,7 @@ fn hindrance(
     if *draw == Draw::Custom {
         return None;
     }
-    let whole = shaders.drawn(shader, *draw, &variant::of(chosen, things, described)).ok()?;
+    let whole = shaders.drawn(shader, *draw, &variant::of(resources, described)).ok()?;
     let alone = shaders.drawn(shader, *draw, &Variant { depth_only: true, ..Variant::default() });
     let wrong = match alone {
         Ok(alone) => difference(&whole, &alone)?,

@@ -1,10 +1,10 @@
 //! A pipeline becomes a frame, stage by stage.
 
-use super::chosen::{Chosen, used_here};
 use super::inputs::{Inputs, check_extent, surroundings};
+use super::instances::used_here;
 use super::outputs::outputs;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use super::{casters, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views};
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};
@@ -56,9 +56,8 @@ fn expand_so(
     let stereo = inputs.stereo;
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
-    let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
     let mut said = once::Said::default();
-    let mut things = Things::resolve(&chosen, &mut errors);
+    let mut resources = Resources::resolve(&pipeline, inputs.output_extent, &mut errors);
     said.each_once(&mut errors, 0);
 
     let mut checked = shader::Checked::new(shaders, &sources);
@@ -66,7 +65,7 @@ fn expand_so(
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
         let before = errors.len();
-        targets::fit(&chosen, &things, pass, &mut errors);
+        targets::fit(&resources, pass, &mut errors);
         let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
         switched_off.extend(left_out.map(|language::LeftOut { binding, off, .. }| SwitchedOff {
             name: pass.name.text.clone(),
@@ -79,11 +78,11 @@ fn expand_so(
                 let name = pass.name.text.clone();
                 switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
                 // What a pass that is off would do wrong does no harm.
-                let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
-                let stand_ins = passes::stand_ins(&things, pass, because, &mut errors);
+                let would = passes::draft(&resources, pass, None, &mut Vec::new());
+                let stand_ins = passes::stand_ins(&resources, pass, because, &mut errors);
                 State::Off { would, stand_ins, because: because.clone() }
             }
-            None => State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
+            None => State::On(passes::lower(&resources, pass, &mut checked, &mut errors)),
         });
         said.once(&mut errors, before);
         if errors.len() >= MOST_KEPT {
@@ -91,25 +90,19 @@ fn expand_so(
         }
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
-    depth_only::note(&chosen, &things, &mut states, &mut checked);
+    depth_only::note(&resources, &mut states, &mut checked);
     casters::agree(&pipeline, &states, &mut errors);
-    let outputs = outputs(&chosen, &things, inputs, &mut errors);
+    let outputs = outputs(&resources, inputs, &mut errors);
     let before = errors.len();
-    order::check(&chosen, &things, &states, &outputs, &mut errors);
+    order::check(&resources, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
     if errors.is_empty() {
-        history::shorten(&mut things, &states);
+        history::shorten(&mut resources, &states);
     }
-    let kept = precision::choose(
-        &chosen,
-        surroundings(inputs).facts.depth_range,
-        &mut things,
-        &states,
-        &outputs,
-        &mut checked,
-    );
+    let kept =
+        precision::choose(surroundings(inputs).facts.depth_range, &mut resources, &states, &outputs, &mut checked);
 
-    let Things { images, buffers } = things;
+    let Resources { images, buffers, .. } = resources;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
     match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
         (Some(images), Some(buffers)) if errors.is_empty() => {
@@ -117,7 +110,7 @@ fn expand_so(
             let passes = states.into_iter().flat_map(State::into_passes).collect();
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&chosen), kept].concat();
+            let remarks = [shared, views::remarks(&pipeline), kept].concat();
             Ok(Frame {
                 sources,
                 settings,

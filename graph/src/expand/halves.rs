@@ -1,7 +1,6 @@
 //! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
 
-use super::chosen::Chosen;
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::Diagnostic;
 use crate::frame::EyeForm;
 use crate::language;
@@ -9,19 +8,18 @@ use crate::shader::{ShaderInterface, Unturned};
 
 /// Reports a shader that takes where its fragments lie for their place in one eye's picture.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
     let targets = pass.color.iter().map(|target| target.part.image).chain(pass.depth.iter().map(|it| it.part.image));
     let halves = |image: &language::ImageRef| {
-        things.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
+        resources.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
     };
     let Some(target) = targets.into_iter().find(halves) else { return };
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&Unturned::FragCoord)) else { return };
-    let name = &chosen.image(target.index).name.text;
+    let name = &resources.declared(target.index).name.text;
     let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
     let wrong = Diagnostic::new(shader.span, message);
     let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));

@@ -2,15 +2,15 @@
 //! frame.
 
 use super::accesses;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use crate::frame::{Lifetime, Resource};
 
 /// Shortens the history of images and buffers to what is read of it.
-pub(super) fn shorten(things: &mut Things, states: &[State]) {
-    let mut images = vec![0_u32; things.images.len()];
-    let mut buffers = vec![0_u32; things.buffers.len()];
-    for read in states.iter().flat_map(State::runs).flat_map(|pass| accesses::reads(things, pass)) {
+pub(super) fn shorten(resources: &mut Resources<'_>, states: &[State]) {
+    let mut images = vec![0_u32; resources.images.len()];
+    let mut buffers = vec![0_u32; resources.buffers.len()];
+    for read in states.iter().flat_map(State::runs).flat_map(|pass| accesses::reads(resources, pass)) {
         let back = match read.resource {
             Resource::Image(index) => images.get_mut(index.0 as usize),
             Resource::Buffer(index) => buffers.get_mut(index.0 as usize),
@@ -19,8 +19,8 @@ pub(super) fn shorten(things: &mut Things, states: &[State]) {
             *back = read.frames_ago.max(*back);
         }
     }
-    let images = things.images.iter_mut().map(|it| it.as_mut().map(|it| &mut it.image.lifetime)).zip(images);
-    let buffers = things.buffers.iter_mut().map(|it| it.as_mut().map(|it| &mut it.lifetime)).zip(buffers);
+    let images = resources.images.iter_mut().map(|it| it.as_mut().map(|it| &mut it.image.lifetime)).zip(images);
+    let buffers = resources.buffers.iter_mut().map(|it| it.as_mut().map(|it| &mut it.lifetime)).zip(buffers);
     for (lifetime, back) in images.chain(buffers) {
         match (lifetime, back) {
             (Some(lifetime @ Lifetime::History { .. }), 0) => *lifetime = Lifetime::Transient,

@@ -1,24 +1,23 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
-use super::chosen::Chosen;
 use super::follow::follow_all;
 use super::shapes;
 use crate::base::Diagnostic;
 use crate::frame::{self, Image};
-use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};
+use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Pipeline, Resolves, Samples, Size};
 use crate::vulkan::Format;
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
-pub(super) struct Resolved {
+pub(super) struct FrameImage {
     pub(super) image: Image,
     /// "msaa = 4" if a setting decides how many samples it has.
     pub(super) samples_because: Option<Arc<str>>,
 }
 
-/// Every image of the pipeline; `None` where a mistake was reported.
-pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
-    let images = &chosen.pipeline.images;
+/// Every image of the pipeline in a frame of this size; `None` where a mistake was reported.
+pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Vec<Option<FrameImage>> {
+    let images = &pipeline.images;
     let formats = follow_all(
         images,
         |image| match image.format.value {
@@ -34,7 +33,8 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             _ => None,
         },
         |image, followed| {
-            let area = language::area(image, chosen.extent(image.view), followed);
+            let view = pipeline.views.get(image.view.0 as usize);
+            let area = language::area(image, view.map_or(extent, |view| view.extent), followed);
             area.map_err(|wrong| errors.push(wrong)).ok().flatten()
         },
     );
@@ -66,7 +66,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             Mips::Like(_) => followed,
         },
     );
-    let policy = chosen.pipeline.depth.as_ref();
+    let policy = pipeline.depth.as_ref();
     let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), area), samples), layers), mips)| {
         let (language::Area { extent: [width, height], allocated }, (samples, samples_because)) = (area?, samples?);
@@ -74,7 +74,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
         let image = Image { span: described.name.span, samples, allocated, eyes: described.eyes, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
-        Some(Resolved { image, samples_because })
+        Some(FrameImage { image, samples_because })
     })
     .collect()
 }
@@ -123,11 +123,11 @@ fn asked(
 fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {
     match image.samples.value {
         Samples::Like(_) => followed,
-        Samples::Count(count) => Some((count, image.samples_because.clone())),
+        Samples::Count(count) => Some((count, image.samples.because.clone())),
     }
 }
 
-impl Resolved {
+impl FrameImage {
     /// How many samples, and why: "4 samples (msaa = 4)".
     pub(super) fn samples_words(&self) -> String {
         let samples = self.image.samples;

@@ -1,7 +1,7 @@
 //! What passes read at their fragments' own position: devices with local reads let shaders read it as input attachments.
 
+use super::resources::Resources;
 use super::shader::Checked;
-use super::things::Things;
 use crate::base::Diagnostic;
 use crate::frame::{Face, Pass};
 use crate::language;
@@ -10,7 +10,7 @@ use crate::shader::{BindingKind, PASS_SET, ShaderInterface, Variant};
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
 /// shader as it is compiled without, as `variant`; what is wrong with that was reported.
 pub(super) fn check(
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     (interface, variant): (&ShaderInterface, &Variant),
@@ -23,7 +23,7 @@ pub(super) fn check(
         let sampled = lowered.sampled.iter().find(|sampled| sampled.binding == *name);
         // Depth and single samples are read from memory, whatever the device.
         sampled.is_some_and(|sampled| {
-            let image = things.image(sampled.image);
+            let image = resources.image(sampled.image);
             let color = image.is_some_and(|image| !image.image.format.is_depth());
             sampled.own_pixel && sampled.face == Face::Resolved && color && declared(name)
         })

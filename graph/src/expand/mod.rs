@@ -7,7 +7,6 @@
 
 mod accesses;
 mod casters;
-mod chosen;
 mod depth_only;
 mod eyes;
 mod fills;
@@ -17,6 +16,7 @@ mod halves;
 mod history;
 mod images;
 mod inputs;
+mod instances;
 mod local;
 mod once;
 mod order;
@@ -25,6 +25,7 @@ mod params;
 mod parts;
 mod passes;
 mod precision;
+mod resources;
 mod rotation;
 mod sampled;
 mod settings;
@@ -35,7 +36,6 @@ mod states;
 mod storage;
 mod supplied;
 mod targets;
-mod things;
 mod transfers;
 mod variant;
 mod views;
@@ -44,6 +44,5 @@ mod work;
 mod writers;
 mod written;
 
-pub use crate::language::Facts;
 pub use flatten::expand;
 pub use inputs::{Inputs, check_inputs};

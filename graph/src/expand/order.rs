@@ -1,10 +1,9 @@
 //! The order of passes: nothing is read before it is written, and the first writer covers or clears.
 
 use super::accesses::{self, Read, Write};
-use super::chosen::Chosen;
 use super::parts::Cells;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
 use super::written::{Cell, Written};
@@ -18,8 +17,7 @@ use std::iter::{once, successors};
 const MANY_MISTAKES: usize = 100;
 
 struct Check<'a> {
-    chosen: &'a Chosen<'a>,
-    things: &'a Things,
+    resources: &'a Resources<'a>,
     states: &'a [State],
     writers: Writers,
     /// What holds something by now. All that was reported as holding nothing does: once is enough.
@@ -28,23 +26,17 @@ struct Check<'a> {
 }
 
 /// Walks through the passes in their order.
-pub(super) fn check(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    states: &[State],
-    outputs: &[Output],
-    errors: &mut Vec<Diagnostic>,
-) {
-    let writers = Writers::find(chosen, things, states);
+pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Output], errors: &mut Vec<Diagnostic>) {
+    let writers = Writers::find(resources, states);
     let written = writers.on.iter().map(|_| Written::default()).collect();
-    let mut check = Check { chosen, things, states, writers, written, errors };
+    let mut check = Check { resources, states, writers, written, errors };
     for (position, state) in states.iter().enumerate() {
-        let name = &chosen.pipeline.passes[position].name.text;
+        let name = &resources.pipeline.passes[position].name.text;
         let before = check.errors.len();
         match state {
             State::On(pass) => check.runs(position, pass, &format!("pass `{name}`"), None),
             State::Off { stand_ins, .. } => {
-                for (pass, described) in stand_ins.iter().zip(&chosen.pipeline.passes[position].otherwise) {
+                for (pass, described) in stand_ins.iter().zip(&resources.pipeline.passes[position].otherwise) {
                     let named = match described {
                         StandIn::Forward(forward) => Some(forward.from.span),
                         StandIn::Clear { .. } => None,
@@ -53,23 +45,23 @@ pub(super) fn check(
                 }
             }
         }
-        super::chosen::used_here(
-            chosen.pipeline,
-            chosen.pipeline.passes[position].instance,
+        super::instances::used_here(
+            resources.pipeline,
+            resources.pipeline.passes[position].instance,
             &mut check.errors[before..],
         );
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().iter().flat_map(|pass| accesses::reads(things, pass)) {
+        for read in state.runs().iter().flat_map(|pass| accesses::reads(resources, pass)) {
             if read.frames_ago > 0 {
-                let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
+                let reader = format!("pass `{}`", resources.pipeline.passes[position].name.text);
                 check.needs(states.len(), &read, &reader);
             }
         }
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Some(cells) = accesses::whole(things, output.resource) {
+        if let Some(cells) = accesses::whole(resources, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
             check.needs(states.len(), &read, reader);
         }
@@ -79,11 +71,11 @@ pub(super) fn check(
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
     fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
-        for read in accesses::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
+        for read in accesses::reads(self.resources, pass).into_iter().filter(|read| read.frames_ago == 0) {
             let span = named.unwrap_or(read.span);
             self.needs(position, &Read { span, ..read }, reader);
         }
-        for write in accesses::writes(self.things, pass) {
+        for write in accesses::writes(self.resources, pass) {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
@@ -92,7 +84,7 @@ impl Check<'_> {
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {
-        if let Some(whole) = accesses::whole(self.things, of) {
+        if let Some(whole) = accesses::whole(self.resources, of) {
             let at = self.writers.index(of);
             self.written[at].add(cells, &whole);
         }
@@ -100,7 +92,7 @@ impl Check<'_> {
 
     /// The first of `cells` that holds nothing when the frame has come this far.
     fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
-        let holds = self.things.lifetime(of)?.has_contents(of);
+        let holds = self.resources.lifetime(of)?.has_contents(of);
         if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
     }
 
@@ -110,10 +102,10 @@ impl Check<'_> {
         let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
         let what = self.words(of, &read.cells, cell);
         self.add(of, &read.cells);
-        let declared = self.chosen.name(of);
+        let declared = self.resources.name(of);
         let (name, span) = (&declared.text, read.span);
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
-            let off = &self.chosen.pipeline.passes[writer.position].name.text;
+            let off = &self.resources.pipeline.passes[writer.position].name.text;
             let message = format!("{reader} needs {what}, but pass `{off}`, which fills it, is off ({because})");
             let wrong = Diagnostic::new(span, message)
                 .remark("needed here")
@@ -139,7 +131,7 @@ impl Check<'_> {
             wrong.help("each frame writes what has history anew")
         } else if let Some(writer) = self.writer_of(of, cell) {
             self.too_early(position, read, &what, writer)
-        } else if let Some(Lifetime::Imported { .. }) = self.things.lifetime(of) {
+        } else if let Some(Lifetime::Imported { .. }) = self.resources.lifetime(of) {
             let message = format!("{reader} reads {what}, which is handed in without contents, and no pass writes it");
             let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "imported here");
             wrong.help("`before: Undefined` says that there is nothing to read: say in which state it really is")
@@ -153,7 +145,7 @@ impl Check<'_> {
 
     /// Where a pass is named, and each use that it came by: the same places for all that one entry repeats.
     fn named_at(&self, position: usize) -> Vec<Span> {
-        let pipeline = self.chosen.pipeline;
+        let pipeline = self.resources.pipeline;
         let pass = &pipeline.passes[position];
         let whole = |within: Option<u32>| within.and_then(|at| pipeline.instances.get(at as usize));
         let uses = successors(whole(pass.instance), |instance| whole(instance.within));
@@ -170,10 +162,10 @@ impl Check<'_> {
         }
         let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
         let few = self.errors.len() < MANY_MISTAKES;
-        if few && let Some(circle) = waits::circle(self.things, self.states, &self.writers, first) {
-            return waits::report(self.chosen, &circle);
+        if few && let Some(circle) = waits::circle(self.resources, self.states, &self.writers, first) {
+            return waits::report(self.resources, &circle);
         }
-        let below = &self.chosen.pipeline.passes[writer.position].name.text;
+        let below = &self.resources.pipeline.passes[writer.position].name.text;
         // Of what is repeated none can be moved by itself.
         if self.named_at(writer.position) == self.named_at(position) {
             let help = "a repetition can read only what repetitions with lower numbers wrote";
@@ -181,13 +173,13 @@ impl Check<'_> {
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
         // Further up it would itself read what nothing has written.
-        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.things, pass));
+        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.resources, pass));
         if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
-        let wrong = self.removed(wrong, &self.chosen.name(of).text);
-        if let Some(Lifetime::History { .. }) = self.things.lifetime(of) {
-            let name = &self.chosen.name(of).text;
+        let wrong = self.removed(wrong, &self.resources.name(of).text);
+        if let Some(Lifetime::History { .. }) = self.resources.lifetime(of) {
+            let name = &self.resources.name(of).text;
             let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
             return wrong.help(format!(
                 "what the frame before left is `({kind}: \"{name}\", previous: 1)`; else move pass `{below}` up"
@@ -198,7 +190,7 @@ impl Check<'_> {
 
     /// Shows where passes were removed that may have written what is missing.
     fn removed(&self, wrong: Diagnostic, name: &str) -> Diagnostic {
-        let removed = &self.chosen.pipeline.removed;
+        let removed = &self.resources.pipeline.removed;
         let named = removed.iter().filter(|pass| pass.texts.iter().any(|text| **text == *name));
         named.fold(wrong, |wrong, pass| {
             wrong.label(pass.span, format!("pass `{}`, which uses `{name}`, is removed here", pass.name))
@@ -209,7 +201,7 @@ impl Check<'_> {
     fn continues(&mut self, position: usize, pass: &Pass, write: &Write, clear: &str) {
         let Some(cell) = self.missing(write.resource, &write.cells, 0) else { return };
         let what = self.words(write.resource, &write.cells, cell);
-        let name = &self.chosen.name(write.resource).text;
+        let name = &self.resources.name(write.resource).text;
         let layers = write.cells.layers.clone();
         // Shaders choose no layer, so what is drawn lands in the first.
         let several = layers.len() > 1;
@@ -222,7 +214,7 @@ impl Check<'_> {
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
-        let clear = match accesses::whole(self.things, write.resource) {
+        let clear = match accesses::whole(self.resources, write.resource) {
             Some(whole) => {
                 let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
                 let layer = match layers.len() {
@@ -238,7 +230,7 @@ impl Check<'_> {
         let diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
         let mut diagnostic = self.removed(diagnostic, name);
         if let Some((writer, because)) = self.off_before(write.resource, position) {
-            let off = &self.chosen.pipeline.passes[writer.position].name.text;
+            let off = &self.resources.pipeline.passes[writer.position].name.text;
             diagnostic =
                 diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
         }
@@ -247,8 +239,8 @@ impl Check<'_> {
 
     /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
     fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
-        let name = &self.chosen.name(of).text;
-        let Some(whole) = accesses::whole(self.things, of) else { return format!("`{name}`") };
+        let name = &self.resources.name(of).text;
+        let Some(whole) = accesses::whole(self.resources, of) else { return format!("`{name}`") };
         if *cells == whole && self.written[self.writers.index(of)].is_blank() {
             return format!("`{name}`");
         }
@@ -271,7 +263,7 @@ impl Check<'_> {
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.iter().flat_map(|pass| accesses::writes(self.things, pass));
+            let writes = pass.iter().flat_map(|pass| accesses::writes(self.resources, pass));
             writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };

@@ -1,8 +1,7 @@
 //! What leaves the frame: the pipeline's outputs, and images that are dumped.
 
-use super::chosen::Chosen;
 use super::inputs::Inputs;
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::{Diagnostic, Span, suggestion};
 use crate::frame::{Eye, ImageIndex, Output, Resource};
 use crate::language::{self, Pipeline};
@@ -10,21 +9,16 @@ use crate::ron::Spanned;
 use crate::vulkan::{Encoding, Rotation};
 
 /// The pipeline's outputs, then dumped images that aren't among them.
-pub(super) fn outputs(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    inputs: &Inputs<'_>,
-    errors: &mut Vec<Diagnostic>,
-) -> Vec<Output> {
+pub(super) fn outputs(resources: &Resources<'_>, inputs: &Inputs<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Output> {
     let dump = inputs.dump;
-    let pipeline = chosen.pipeline;
+    let pipeline = resources.pipeline;
     let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
     for output in &pipeline.outputs {
         let language::ResourceRef { resource, span } = output.resource;
-        let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
-        let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
+        let after = output.after.and_then(|after| resources.left(resource, after, errors));
+        let encoding = output.encoding.filter(|encoding| encoded(resources, resource, *encoding, errors));
         let encoding = encoding.map(|encoding| encoding.value);
-        let rotation = if shown(chosen, resource, encoding) { inputs.rotation } else { Rotation::Identity };
+        let rotation = if shown(resources, resource, encoding) { inputs.rotation } else { Rotation::Identity };
         outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });
     }
     if inputs.rotation.turns() && !outputs.iter().any(|output| output.rotation.turns()) {
@@ -32,7 +26,7 @@ pub(super) fn outputs(
         let message = format!("nothing can be rotated by {degrees}°: no output is made to be shown on a screen");
         let span = pipeline.outputs.first().map_or(Span::NONE, |output| output.resource.span);
         let images = pipeline.outputs.iter().filter_map(|output| match output.resource.resource {
-            Resource::Image(image) => Some(&chosen.image(image).name.text),
+            Resource::Image(image) => Some(&resources.declared(image).name.text),
             Resource::Buffer(_) => None,
         });
         let wrong = Diagnostic::new(span, message);
@@ -46,24 +40,18 @@ pub(super) fn outputs(
 }
 
 /// Whether an output is made to be shown on a screen.
-fn shown(chosen: &Chosen<'_>, resource: Resource, encoding: Option<Encoding>) -> bool {
+fn shown(resources: &Resources<'_>, resource: Resource, encoding: Option<Encoding>) -> bool {
     let Resource::Image(image) = resource else { return false };
-    chosen.image(image).format.value == language::Format::Output || encoding == Some(Encoding::Hdr10)
+    resources.declared(image).format.value == language::Format::Output || encoding == Some(Encoding::Hdr10)
 }
 
 /// Whether an output's format can hold its encoding.
-fn encoded(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    of: Resource,
-    encoding: Spanned<Encoding>,
-    errors: &mut Vec<Diagnostic>,
-) -> bool {
+fn encoded(resources: &Resources<'_>, of: Resource, encoding: Spanned<Encoding>, errors: &mut Vec<Diagnostic>) -> bool {
     let Resource::Image(index) = of else { return false };
-    let Some(format) = things.image(index).map(|image| image.image.format) else { return false };
+    let Some(format) = resources.image(index).map(|image| image.image.format) else { return false };
     let fits = encoding.value.fits(format);
     if !fits {
-        let (image, word) = (chosen.image(index), encoding.value.name());
+        let (image, word) = (resources.declared(index), encoding.value.name());
         let message = format!("`{}` can't leave the frame as `{word}`: it is {format}", image.name.text);
         let wrong = Diagnostic::new(encoding.span, message).label(image.format.span, "its format");
         errors.push(wrong.help(encoding.value.help(&image.name.text)));

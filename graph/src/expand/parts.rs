@@ -1,7 +1,6 @@
 //! Parts of images: the mip levels, layers and planes that a pass names, against those that there are.
 
-use super::chosen::Chosen;
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Image;
 use crate::language::{ImagePart, Selection};
@@ -40,14 +39,9 @@ pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String 
 }
 
 /// The part that a pass names; all of the image if it names no more than the image, or after a mistake was reported.
-pub(super) fn range(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    part: &ImagePart,
-    errors: &mut Vec<Diagnostic>,
-) -> Subresources {
-    let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return Subresources::WHOLE };
-    let declared = chosen.image(part.image.index);
+pub(super) fn range(resources: &Resources<'_>, part: &ImagePart, errors: &mut Vec<Diagnostic>) -> Subresources {
+    let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return Subresources::WHOLE };
+    let declared = resources.declared(part.image.index);
     let mips = selected(image, part.mips, image.mips, "mip level", declared.mips.span, errors);
     let layers = selected(image, part.layers, image.layers, "layer", declared.layers.span, errors);
     let aspects = match part.plane {

@@ -1,8 +1,7 @@
 //! Passes of the frame: what each does with which parts, and what its shader is given.
 
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::{self, Checked};
-use super::things::Things;
 use super::{
     fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
 };
@@ -15,38 +14,37 @@ use crate::vulkan::{FillValue, Stages, Subresources};
 /// The pass as it runs, checked against its shader. Of a shader that can't be had nothing is known: mistakes were
 /// reported then, and what it would write counts as written.
 pub(super) fn lower(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
-    let variant = variant::of(chosen, things, pass);
+    let variant = variant::of(resources, pass);
     let interface = shaders.interface(pass, &variant, errors);
-    let mut lowered = draft(chosen, things, pass, interface.as_ref(), errors);
+    let mut lowered = draft(resources, pass, interface.as_ref(), errors);
     if let Work::Draw { shader, .. } | Work::Dispatch { shader, .. } = &mut lowered.work
         && let Some(found) = shaders.find(pass, &mut Vec::new())
     {
         *shader = found;
     }
-    work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
+    work::check(resources, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
         supplied::check(shaders, pass, interface, errors);
         let before = errors.len();
-        let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);
+        let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
             variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
-            local::check(things, pass, &lowered, (interface, &variant), shaders, errors);
+            local::check(resources, pass, &lowered, (interface, &variant), shaders, errors);
         }
-        misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
+        misspelt.extend(storage::check(resources, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);
-        let whole = (!pass.left_out.is_empty()).then(|| variant::with_all(chosen, things, pass)).flatten();
+        let whole = (!pass.left_out.is_empty()).then(|| variant::with_all(resources, pass)).flatten();
         let whole = whole.and_then(|whole| shaders.interface(pass, &whole, errors));
         sampled::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
-        targets::fed(things, pass, interface, errors);
-        halves::check(chosen, things, pass, interface, errors);
+        targets::fed(resources, pass, interface, errors);
+        halves::check(resources, pass, interface, errors);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);
     }
@@ -55,29 +53,28 @@ pub(super) fn lower(
 
 /// The pass without what its shader's parameters are. Stages, and what is done with storage, are the shader's.
 pub(super) fn draft(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
     let raster = !pass.color.is_empty() || pass.depth.is_some();
-    let mut lowered = Pass::new(&pass.name.text, work::lower(chosen, things, pass, interface));
+    let mut lowered = Pass::new(&pass.name.text, work::lower(resources, pass, interface));
     lowered.span = pass.name.span;
     lowered.view = pass.view;
     lowered.side_effect = pass.side_effect;
     lowered.alpha_to_coverage = pass.alpha_to_coverage.is_some();
     for sample in &pass.sample {
-        let range = parts::range(chosen, things, &sample.part, errors);
-        lowered.sampled.extend(sampled::lower(things, sample, range, interface, raster));
+        let range = parts::range(resources, &sample.part, errors);
+        lowered.sampled.extend(sampled::lower(resources, sample, range, interface, raster));
     }
     for part in &pass.storage {
-        storage::lower(chosen, things, part, interface, raster, &mut lowered, errors);
+        storage::lower(resources, part, interface, raster, &mut lowered, errors);
     }
     for target in &pass.color {
         lowered.color.push(ColorTarget {
             image: target.part.image.index,
-            range: parts::range(chosen, things, &target.part, errors),
+            range: parts::range(resources, &target.part, errors),
             span: target.part.image.span,
             clear: target.clear,
             blend: target.blend.value,
@@ -85,7 +82,7 @@ pub(super) fn draft(
     }
     lowered.depth = pass.depth.as_ref().map(|target| DepthTarget {
         image: target.part.image.index,
-        range: parts::range(chosen, things, &target.part, errors),
+        range: parts::range(resources, &target.part, errors),
         span: target.part.image.span,
         clear: target.clear,
         test: target.test,
@@ -93,7 +90,7 @@ pub(super) fn draft(
         stencil: target.stencil.map(|stencil| stencil.value),
     });
     buffers(pass, interface, raster, &mut lowered);
-    transferred(chosen, things, pass, &mut lowered, errors);
+    transferred(resources, pass, &mut lowered, errors);
     lowered
 }
 
@@ -122,13 +119,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
     }
 }
 
-fn transferred(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    pass: &language::Pass,
-    lowered: &mut Pass,
-    errors: &mut Vec<Diagnostic>,
-) {
+fn transferred(resources: &Resources<'_>, pass: &language::Pass, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
     let (reads, writes) = match &pass.work {
         Described::Copy { from, to } | Described::Blit { from, to, .. } => {
             (std::slice::from_ref(from), std::slice::from_ref(to))
@@ -141,7 +132,7 @@ fn transferred(
     for (part, write) in parts {
         let language::ResourceRef { resource, span } = part.resource();
         let range = match part {
-            language::Part::Image(part) => parts::range(chosen, things, part, errors),
+            language::Part::Image(part) => parts::range(resources, part, errors),
             language::Part::Buffer(_) => Subresources::WHOLE,
         };
         let frames_ago = part.previous().map_or(0, |previous| previous.value);
@@ -152,7 +143,7 @@ fn transferred(
 /// What runs in place of a pass that is off, if its targets must be filled all the same. The first has the name of the
 /// pass, others a number beside it.
 pub(super) fn stand_ins(
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     because: &str,
     errors: &mut Vec<Diagnostic>,
@@ -164,8 +155,8 @@ pub(super) fn stand_ins(
             }
             StandIn::Clear { to, value } => {
                 let part = language::Part::Image(language::ImagePart::whole(to));
-                transfers::fill(things, &part, value, errors);
-                let format = things.image(to.index).map(|image| image.image.format);
+                transfers::fill(resources, &part, value, errors);
+                let format = resources.image(to.index).map(|image| image.image.format);
                 let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
                 let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true };

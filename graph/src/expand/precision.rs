@@ -4,10 +4,9 @@
 //! from buffers or by custom passes has the usual format, which others may rely on. Images that follow each other, and
 //! those that are copied texel for texel, have one format. Colour whose alpha counts keeps it.
 
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::Checked;
 use super::state::State;
-use super::things::Things;
 use super::variant;
 use crate::base::Span;
 use crate::frame::{Access, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
@@ -18,8 +17,8 @@ use petgraph::unionfind::UnionFind;
 
 /// What a pipeline's words make of an image of the format `usual`, if another one. `range`: how far the scene reaches that is
 /// drawn into it as depth, in near distances.
-fn wanted(chosen: &Chosen<'_>, described: &Described, usual: Format, range: f64) -> Wanted {
-    let pipeline = chosen.pipeline;
+fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range: f64) -> Wanted {
+    let pipeline = resources.pipeline;
     let policy = match described {
         Described::Color { .. } => &pipeline.color,
         Described::Depth | Described::DepthStencil => &pipeline.depth_format,
@@ -72,14 +71,13 @@ fn reach(format: Format) -> f64 {
 /// images whose colour must stay as it is, why, and of depth that takes more bits than it was asked to. `depth_range` is that of
 /// the scene's [`Facts`](crate::language::Facts).
 pub(super) fn choose(
-    chosen: &Chosen<'_>,
     depth_range: Option<f64>,
-    things: &mut Things,
+    resources: &mut Resources<'_>,
     states: &[State],
     outputs: &[Output],
     shaders: &mut Checked<'_>,
 ) -> Vec<Remark> {
-    let pipeline = chosen.pipeline;
+    let pipeline = resources.pipeline;
     if pipeline.color.is_none() && pipeline.depth_format.is_none() {
         return Vec::new();
     }
@@ -90,19 +88,19 @@ pub(super) fn choose(
         }
     }
     let passes = running(states);
-    for [one, other] in passes.iter().filter_map(|pass| copied(things, pass)) {
+    for [one, other] in passes.iter().filter_map(|pass| copied(resources, pass)) {
         alike.union(one.0, other.0);
     }
-    let uses = Uses::find(chosen, things, states, outputs, shaders);
+    let uses = Uses::find(resources, states, outputs, shaders);
     let mut remarks = Vec::new();
     for group in groups(&mut alike, pipeline.images.len()) {
-        let format = |at: &u32| things.image(ImageIndex(*at)).map(|image| image.image.format);
+        let format = |at: &u32| resources.image(ImageIndex(*at)).map(|image| image.image.format);
         // Maps of shadows hold distances of a projection whose steps are everywhere the same.
         let range =
             depth_range.filter(|_| group.iter().any(|at| is_seen_depth(&passes, ImageIndex(*at)))).unwrap_or(1.0);
         let of_group = group.iter().filter_map(|at| {
             let described = &pipeline.images[*at as usize];
-            match wanted(chosen, &described.format.value, format(at)?, range) {
+            match wanted(resources, &described.format.value, format(at)?, range) {
                 Wanted::Usual => None,
                 Wanted::Asked(format, choice) => Some((described, format, choice, None)),
                 Wanted::Finer { format, too_coarse, choice } => Some((described, format, choice, Some(too_coarse))),
@@ -131,7 +129,7 @@ pub(super) fn choose(
             continue;
         }
         for at in &group {
-            if let Some(image) = things.images[*at as usize].as_mut().map(|image| &mut image.image) {
+            if let Some(image) = resources.images[*at as usize].as_mut().map(|image| &mut image.image) {
                 (image.format, image.chosen) = (format, Some(choice.clone()));
             }
         }
@@ -166,9 +164,9 @@ fn running(states: &[State]) -> Vec<&Pass> {
 }
 
 /// Two images of one format that a pass copies one into the other.
-fn copied(things: &Things, pass: &Pass) -> Option<[ImageIndex; 2]> {
+fn copied(resources: &Resources<'_>, pass: &Pass) -> Option<[ImageIndex; 2]> {
     let pair = pass.moved_images()?;
-    let [one, other] = pair.map(|image| things.image(image).map(|image| image.image.format));
+    let [one, other] = pair.map(|image| resources.image(image).map(|image| image.image.format));
     (one.is_some() && one == other).then_some(pair)
 }
 
@@ -193,16 +191,10 @@ impl Uses {
         self.fixed[at].clone().or_else(|| self.alpha[at].clone().filter(|_| no_alpha))
     }
 
-    fn find(
-        chosen: &Chosen<'_>,
-        things: &Things,
-        states: &[State],
-        outputs: &[Output],
-        shaders: &mut Checked<'_>,
-    ) -> Uses {
-        let images = &chosen.pipeline.images;
+    fn find(resources: &Resources<'_>, states: &[State], outputs: &[Output], shaders: &mut Checked<'_>) -> Uses {
+        let images = &resources.pipeline.images;
         let mut uses = Uses { fixed: vec![None; images.len()], alpha: vec![None; images.len()] };
-        for (image, fixed) in things.images.iter().zip(&mut uses.fixed) {
+        for (image, fixed) in resources.images.iter().zip(&mut uses.fixed) {
             let Some(image) = image.as_ref().map(|image| &image.image) else { continue };
             let why = match image.lifetime {
                 Lifetime::Imported { .. } => "it is handed in",
@@ -218,7 +210,7 @@ impl Uses {
             }
         }
         let passes = running(states);
-        let format = |image: ImageIndex| things.image(image).map(|known| known.image.format);
+        let format = |image: ImageIndex| resources.image(image).map(|known| known.image.format);
         for pass in &passes {
             for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
                 if let Some(image) = access.image_index() {
@@ -228,7 +220,7 @@ impl Uses {
                 }
             }
         }
-        uses.alpha(chosen, things, states, shaders);
+        uses.alpha(resources, states, shaders);
         uses
     }
 
@@ -237,16 +229,16 @@ impl Uses {
     }
 
     /// Finds the images whose alpha counts: somebody makes use of it, or it is handed on to where it counts.
-    fn alpha(&mut self, chosen: &Chosen<'_>, things: &Things, states: &[State], shaders: &mut Checked<'_>) {
+    fn alpha(&mut self, resources: &Resources<'_>, states: &[State], shaders: &mut Checked<'_>) {
         let has_alpha =
-            |image: &ImageIndex| things.image(*image).is_some_and(|image| image.image.format.components() == 4);
+            |image: &ImageIndex| resources.image(*image).is_some_and(|image| image.image.format.components() == 4);
         // What others are told the format of may be looked at with its alpha.
         for at in 0..self.fixed.len() {
             self.alpha[at] = self.fixed[at].clone().filter(|_| has_alpha(&ImageIndex(at as u32)));
         }
         // From where to where it is handed on, by which pass, and where that is said.
         let mut handed_on: Vec<(ImageIndex, ImageIndex, &Pass, Span)> = Vec::new();
-        for (state, described) in states.iter().zip(&chosen.pipeline.passes) {
+        for (state, described) in states.iter().zip(&resources.pipeline.passes) {
             let pass = match state {
                 State::On(pass) => pass,
                 State::Off { stand_ins, .. } => {
@@ -258,7 +250,7 @@ impl Uses {
                 }
             };
             handed_on.extend(pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
-            let Some(alpha) = alpha_of(chosen, things, described, pass, shaders) else { continue };
+            let Some(alpha) = alpha_of(resources, described, pass, shaders) else { continue };
             for sampled in &pass.sampled {
                 let Some((_, used)) = alpha.iter().find(|(name, _)| **name == *sampled.binding) else { continue };
                 let weighs = |blend: Blend| matches!(blend, Blend::Alpha | Blend::Premultiplied);
@@ -276,7 +268,7 @@ impl Uses {
             for (from, to, pass, span) in handed_on.iter().rev() {
                 let (from, to) = (from.0 as usize, to.0 as usize);
                 if self.alpha[to].is_some() && self.alpha[from].is_none() {
-                    let target = &chosen.pipeline.images[to].name.text;
+                    let target = &resources.pipeline.images[to].name.text;
                     let why = format!("`{}` hands its alpha on to `{target}`, where it counts", pass.name);
                     self.alpha[from] = Some(Hindrance { why, span: *span });
                     found = true;
@@ -288,8 +280,7 @@ impl Uses {
 
 /// What a pass's shader does with alpha; `None` if it has none, or it can't be had, which is reported elsewhere.
 fn alpha_of(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     described: &language::Pass,
     pass: &Pass,
     shaders: &mut Checked<'_>,
@@ -297,5 +288,5 @@ fn alpha_of(
     if pass.sampled.is_empty() {
         return None;
     }
-    shaders.interface(described, &variant::of(chosen, things, described), &mut Vec::new()).map(|found| found.alpha)
+    shaders.interface(described, &variant::of(resources, described), &mut Vec::new()).map(|found| found.alpha)
 }

@@ -1,10 +1,9 @@
 //! Images that a shader samples: the parts that the pass gives, against what the shader declares.
 
-use super::chosen::Chosen;
-use super::images::Resolved;
+use super::images::FrameImage;
 use super::parts::{self, Cells};
+use super::resources::Resources;
 use super::shader::{self, component_words, shape_words};
-use super::things::Things;
 use super::{storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
@@ -46,13 +45,13 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 
 /// A sampled image of the frame. `None` if the image or the shader's name isn't known; mistakes are reported elsewhere.
 pub(super) fn lower(
-    things: &Things,
+    resources: &Resources<'_>,
     sample: &language::Sample,
     mut range: Subresources,
     interface: Option<&ShaderInterface>,
     raster: bool,
 ) -> Option<Sampled> {
-    let image = &things.image(sample.part.image.index)?.image;
+    let image = &resources.image(sample.part.image.index)?.image;
     let name = &sample.binding.text;
     let declared = match interface {
         Some(interface) => Some(declared(interface, name)?),
@@ -105,8 +104,7 @@ fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filte
 
 /// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
@@ -130,16 +128,16 @@ pub(super) fn check<'i>(
             errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });
             continue;
         };
-        let Some(image) = things.image(sample.part.image.index) else { continue };
+        let Some(image) = resources.image(sample.part.image.index) else { continue };
         let Some(sampled) = lowered.sampled.iter().find(|sampled| sampled.binding == *name) else { continue };
         let mut out_of_range = Vec::new();
-        parts::range(chosen, things, &sample.part, &mut out_of_range);
+        parts::range(resources, &sample.part, &mut out_of_range);
         if !out_of_range.is_empty() {
             // It is reported with the pass.
             continue;
         }
         let cells = parts::cells(&image.image, &sampled.range);
-        let check = Check { chosen, pass, sample, shader, image, cells, declared };
+        let check = Check { resources, pass, sample, shader, image, cells, declared };
         let before = errors.len();
         check.dimension(errors);
         if errors.len() == before {
@@ -147,11 +145,11 @@ pub(super) fn check<'i>(
             check.samples(errors);
             check.filters(errors);
             check.address(errors);
-            check.own_pixel(things, lowered, sampled.own_pixel, errors);
+            check.own_pixel(resources, lowered, sampled.own_pixel, errors);
             check.part(interface, errors);
         }
     }
-    too_many_parts(things, pass, errors);
+    too_many_parts(resources, pass, errors);
     misspelt
 }
 
@@ -168,11 +166,11 @@ pub(super) fn check_left_out(pass: &language::Pass, whole: Option<&ShaderInterfa
 }
 
 struct Check<'a> {
-    chosen: &'a Chosen<'a>,
+    resources: &'a Resources<'a>,
     pass: &'a language::Pass,
     sample: &'a language::Sample,
     shader: &'a str,
-    image: &'a Resolved,
+    image: &'a FrameImage,
     /// The part that is given.
     cells: Cells,
     declared: Declared,
@@ -184,7 +182,7 @@ impl Check<'_> {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let layers = self.cells.layers.len();
         let span = parts::place(&self.sample.part);
-        let shape = self.chosen.image(self.sample.part.image.index).shape.span;
+        let shape = self.resources.declared(self.sample.part.image.index).shape.span;
         if dimension(self.shader, name, self.declared.shape, image, span, shape, errors) {
             return;
         }
@@ -212,7 +210,7 @@ impl Check<'_> {
                 "shader `{shader}` reads {wanted} from `{name}`, but `{}` holds {held} ({})",
                 image.name, image.format
             );
-            let declared = self.chosen.image(self.sample.part.image.index).format.span;
+            let declared = self.resources.declared(self.sample.part.image.index).format.span;
             errors.push(Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format"));
         }
     }
@@ -255,7 +253,7 @@ impl Check<'_> {
             let fewer = format!(
                 "declare it `sampler2D`, or `TEXTURE_{name}`, which fits any number of samples; or give the image more"
             );
-            let declared = self.chosen.image(self.sample.part.image.index).samples.span;
+            let declared = self.resources.declared(self.sample.part.image.index).samples.span;
             errors.push(Diagnostic::new(span, message).label(declared, "its samples").help(fewer));
         }
     }
@@ -265,7 +263,7 @@ impl Check<'_> {
         let image = &self.image.image;
         if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.cells.planes == Aspects::STENCIL) {
             let message = format!("`{}` is no depth: it is {}", image.name, image.format);
-            let declared = self.chosen.image(self.sample.part.image.index).format.span;
+            let declared = self.resources.declared(self.sample.part.image.index).format.span;
             let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format");
             errors.push(wrong.help(format!("write `\"{}\"` in place of `DepthOnly(…)`", image.name)));
         }
@@ -306,7 +304,7 @@ impl Check<'_> {
         if halves && image.allocated.is_none() {
             return self.half(interface, errors);
         }
-        let declared = self.chosen.image(self.sample.part.image.index).size.span;
+        let declared = self.resources.declared(self.sample.part.image.index).size.span;
         if !interface.asks_part.iter().any(|asked| **asked == **name) {
             let message = format!(
                 "shader `{}` samples `{name}` and doesn't ask which part of `{}` is in use",
@@ -333,7 +331,7 @@ impl Check<'_> {
             "shader `{}` samples `{name}` and doesn't ask which half of `{}` is its eye's",
             self.shader, image.name
         );
-        let declared = self.chosen.image(self.sample.part.image.index).name.span;
+        let declared = self.resources.declared(self.sample.part.image.index).name.span;
         let wrong = Diagnostic::new(self.sample.part.image.span, message);
         let wrong = wrong.label(declared, "both eyes' pictures lie side by side in it");
         errors.push(wrong.help(format!(
@@ -342,7 +340,7 @@ impl Check<'_> {
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.
-    fn own_pixel(&self, things: &Things, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+    fn own_pixel(&self, resources: &Resources<'_>, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         if self.declared.input && !own_pixel {
             let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
@@ -358,7 +356,7 @@ impl Check<'_> {
             errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is for passes that draw"));
             return;
         };
-        let Some(target) = things.image(target).map(|target| &target.image) else { return };
+        let Some(target) = resources.image(target).map(|target| &target.image) else { return };
         let (own, drawn) = (image.extent_at(self.cells.mips.start), target.target_shape(range).extent);
         if (&own[..2], image.allocated) != (&drawn[..2], target.allocated)
             || self.cells.mips.len() > 1
@@ -378,8 +376,8 @@ impl Check<'_> {
 }
 
 /// A shader can be told of some parts only.
-fn too_many_parts(things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    if let Some(surplus) = variant::in_part(things, pass).nth(MOST_PARTS) {
+fn too_many_parts(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    if let Some(surplus) = variant::in_part(resources, pass).nth(MOST_PARTS) {
         let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
         errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
     }

@@ -1,8 +1,7 @@
 //! Images and buffers that a shader reads and writes by itself, against what it declares.
 
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::shader::{self, PARAMS, component_words, shape_words};
-use super::things::Things;
 use super::{parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
@@ -53,8 +52,7 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
 
 /// Adds a storage image or buffer to the frame's pass.
 pub(super) fn lower(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     storage: &language::Storage,
     interface: Option<&ShaderInterface>,
     raster: bool,
@@ -70,7 +68,7 @@ pub(super) fn lower(
             lowered.buffers.push(used);
         }
         Part::Image(part) => {
-            let range = parts::range(chosen, things, part, errors);
+            let range = parts::range(resources, part, errors);
             let (image, span) = (part.image.index, part.image.span);
             lowered.storage.push(Storage { binding, image, range, span, read, write, stages });
         }
@@ -86,8 +84,7 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 
 /// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
@@ -112,9 +109,9 @@ pub(super) fn check<'i>(
         let kind = of_pass(interface, &name.text).map(|binding| &binding.kind);
         match (&storage.part, kind) {
             (Part::Image(part), Some(BindingKind::StorageImage { shape, format, .. })) => {
-                let Some(image) = things.image(part.image.index).map(|image| &image.image) else { continue };
+                let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { continue };
                 let Some(given) = lowered.storage.iter().find(|given| given.binding == name.text) else { continue };
-                let check = ImageCheck { chosen, shader, name: &name.text, image, part };
+                let check = ImageCheck { resources, shader, name: &name.text, image, part };
                 check.fits(given.range, *shape, *format, errors);
             }
             (Part::Buffer(_), Some(BindingKind::StorageBlock { .. })) => {}
@@ -137,7 +134,7 @@ pub(super) fn check<'i>(
             Some(BindingKind::UniformBlock(block)) if *name.text != *PARAMS => {
                 let what = format!("the members of the block `{}`", name.text);
                 let (buffer, span) = (&uniform.part.buffer, uniform.part.buffer.span);
-                work::holds(things, buffer, u64::from(block.bytes), &what, span, errors);
+                work::holds(resources, buffer, u64::from(block.bytes), &what, span, errors);
             }
             Some(BindingKind::UniformBlock(_)) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
@@ -185,7 +182,7 @@ fn access_fits(
 }
 
 struct ImageCheck<'a> {
-    chosen: &'a Chosen<'a>,
+    resources: &'a Resources<'a>,
     shader: &'a str,
     name: &'a str,
     image: &'a Image,
@@ -195,7 +192,7 @@ struct ImageCheck<'a> {
 impl ImageCheck<'_> {
     fn fits(&self, range: Subresources, shape: ImageShape, format: Option<Format>, errors: &mut Vec<Diagnostic>) {
         let (shader, name, image) = (self.shader, self.name, self.image);
-        let declared = self.chosen.image(self.part.image.index);
+        let declared = self.resources.declared(self.part.image.index);
         let span = parts::place(self.part);
         let cells = parts::cells(image, &range);
         if sampled::dimension(shader, name, shape, image, span, declared.shape.span, errors) {
@@ -205,7 +202,7 @@ impl ImageCheck<'_> {
             let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
             errors.push(Diagnostic::new(span, message));
         }
-        if transfers::one_mip(self.chosen, image, self.part, &cells, "the shader accesses", errors).is_none() {
+        if transfers::one_mip(self.resources, image, self.part, &cells, "the shader accesses", errors).is_none() {
             return;
         }
         let here =

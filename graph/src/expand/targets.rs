@@ -1,9 +1,8 @@
 //! What passes draw into: formats that fit, targets that agree, and shaders that feed them.
 
-use super::chosen::Chosen;
-use super::images::Resolved;
+use super::images::FrameImage;
+use super::resources::Resources;
 use super::shader::component_words;
-use super::things::Things;
 use super::{parts, transfers};
 use crate::base::Diagnostic;
 use crate::frame::{Blend, TargetShape};
@@ -12,9 +11,9 @@ use crate::shader::ShaderInterface;
 use crate::vulkan::{Aspects, Component, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
-pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    let resolved = |image: ImageRef| things.image(image.index);
-    let declared = |image: ImageRef| chosen.image(image.index).format.span;
+pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    let resolved = |image: ImageRef| resources.image(image.index);
+    let declared = |image: ImageRef| resources.declared(image.index).format.span;
     for target in &pass.color {
         let Some(image) = resolved(target.part.image) else { continue };
         let format = image.image.format;
@@ -45,7 +44,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, e
         errors.push(wrong.help(format!("say `format: DepthStencil` of `{}`", image.image.name)));
     }
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
-    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
+    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(resources, part, errors)).collect();
     agree(pass, &parts, errors);
     for stand_in in &pass.otherwise {
         let language::StandIn::Forward(forward) = stand_in else { continue };
@@ -63,7 +62,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, e
 }
 
 /// What an image holds, in words.
-fn kind(image: &Resolved) -> &'static str {
+fn kind(image: &FrameImage) -> &'static str {
     match image.image.format {
         format if format.is_depth() => "depth",
         format if format.is_integer() => "integers",
@@ -74,37 +73,32 @@ fn kind(image: &Resolved) -> &'static str {
 /// A part of an image that is drawn into.
 struct Part<'a> {
     part: &'a ImagePart,
-    image: &'a Resolved,
+    image: &'a FrameImage,
     shape: TargetShape,
 }
 
 /// The one mip level, and the layers, that are drawn into. `None` if that can't be; mistakes were reported then.
-fn drawn<'a>(
-    chosen: &Chosen<'_>,
-    things: &'a Things,
-    part: &'a ImagePart,
-    errors: &mut Vec<Diagnostic>,
-) -> Option<Part<'a>> {
-    let resolved = things.image(part.image.index)?;
+fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec<Diagnostic>) -> Option<Part<'a>> {
+    let resolved = resources.image(part.image.index)?;
     let (image, name) = (&resolved.image, &resolved.image.name);
     if image.shape == Shape::D3 {
         let message = format!("`{name}` is three-dimensional and can't be drawn into");
-        let declared = chosen.image(part.image.index).shape.span;
+        let declared = resources.declared(part.image.index).shape.span;
         let wrong = Diagnostic::new(part.image.span, message).label(declared, "its shape");
         errors.push(wrong.help("let a dispatch store into it"));
         return None;
     }
     // Parts out of range are reported with the pass.
     let mut known = Vec::new();
-    let range = parts::range(chosen, things, part, &mut known);
+    let range = parts::range(resources, part, &mut known);
     if !known.is_empty() {
         return None;
     }
-    transfers::one_mip(chosen, image, part, &parts::cells(image, &range), "is drawn into", errors)?;
+    transfers::one_mip(resources, image, part, &parts::cells(image, &range), "is drawn into", errors)?;
     let shape = image.target_shape(range);
     let layers = shape.layers;
     if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {
-        let declared = chosen.image(part.image.index).layers.span;
+        let declared = resources.declared(part.image.index).layers.span;
         let message = format!("`{name}` has {layers} layers: say which one is drawn into");
         let help = format!(
             "write `(image: \"{name}\", layer: 0)`: a draw reaches one layer; `layers: Rest` clears them all as well"
@@ -161,7 +155,12 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
 }
 
 /// Every colour target is fed by an output of the same type.
-pub(super) fn fed(things: &Things, pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fed(
+    resources: &Resources<'_>,
+    pass: &language::Pass,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     if let Some(span) = pass.alpha_to_coverage {
         let first = interface.outputs.iter().find(|output| output.location == 0);
@@ -178,7 +177,7 @@ pub(super) fn fed(things: &Things, pass: &language::Pass, interface: &ShaderInte
         }
     }
     for (location, target) in (0..).zip(&pass.color) {
-        let Some(image) = things.image(target.part.image.index) else { continue };
+        let Some(image) = resources.image(target.part.image.index) else { continue };
         let (name, format) = (&image.image.name, image.image.format);
         let Some(output) = interface.outputs.iter().find(|output| output.location == location) else {
             let message = format!("shader `{shader}` has no output at location {location} for `{name}`");

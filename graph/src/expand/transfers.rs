@@ -1,9 +1,8 @@
 //! Copies, blits and fills: what goes from where to where must fit.
 
-use super::chosen::Chosen;
 use super::fills;
 use super::parts::{self, Cells};
-use super::things::Things;
+use super::resources::Resources;
 use crate::base::Diagnostic;
 use crate::frame::{Image, Pass, TransferUse};
 use crate::language::{self, Fill, ImagePart, Part};
@@ -37,23 +36,22 @@ impl Side<'_> {
 
 /// The side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
 fn side<'a>(
-    chosen: &Chosen<'_>,
-    things: &'a Things,
+    resources: &'a Resources<'_>,
     part: &'a Part,
     transfer: &TransferUse,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Side<'a>> {
     let Part::Image(part) = part else { return None };
-    let image = &things.image(part.image.index)?.image;
+    let image = &resources.image(part.image.index)?.image;
     let cells = parts::cells(image, &transfer.range);
-    one_mip(chosen, image, part, &cells, "is copied", errors)?;
+    one_mip(resources, image, part, &cells, "is copied", errors)?;
     let extent = image.extent_at(cells.mips.start);
     Some(Side { image, part, cells, extent })
 }
 
 /// Reports a part of several mip levels where one is needed.
 pub(super) fn one_mip(
-    chosen: &Chosen<'_>,
+    resources: &Resources<'_>,
     image: &Image,
     part: &ImagePart,
     cells: &Cells,
@@ -65,7 +63,7 @@ pub(super) fn one_mip(
     }
     let (name, count) = (&image.name, image.mips);
     let message = format!("`{name}` has {count} mip levels: say which one {what}");
-    let declared = chosen.image(part.image.index).mips.span;
+    let declared = resources.declared(part.image.index).mips.span;
     errors.push(
         Diagnostic::new(parts::place(part), message)
             .label(declared, "declared here")
@@ -75,17 +73,12 @@ pub(super) fn one_mip(
 }
 
 /// Reports a copy that can't be.
-pub(super) fn copy(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    [from, to]: [&Part; 2],
-    lowered: &Pass,
-    errors: &mut Vec<Diagnostic>,
-) {
+pub(super) fn copy(resources: &Resources<'_>, [from, to]: [&Part; 2], lowered: &Pass, errors: &mut Vec<Diagnostic>) {
     let [source, target] = &lowered.transfers[..] else { return };
     match (from, to) {
         (Part::Buffer(one), Part::Buffer(other)) => {
-            let (Some(source), Some(target)) = (things.buffer(one.buffer.index), things.buffer(other.buffer.index))
+            let (Some(source), Some(target)) =
+                (resources.buffer(one.buffer.index), resources.buffer(other.buffer.index))
             else {
                 return;
             };
@@ -102,27 +95,27 @@ pub(super) fn copy(
             }
         }
         (Part::Image(_), Part::Image(_)) => {
-            let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+            let (one, other) = (side(resources, from, source, errors), side(resources, to, target, errors));
             if let (Some(one), Some(other)) = (one, other) {
                 images_fit([&one, &other], [source, target], errors);
-                same_texels(chosen, &one, &other, errors);
+                same_texels(resources, &one, &other, errors);
             }
         }
         (Part::Image(_), Part::Buffer(buffer)) => {
-            if let Some(image) = side(chosen, things, from, source, errors) {
-                rows_fit(things, &image, &buffer.buffer, true, errors);
+            if let Some(image) = side(resources, from, source, errors) {
+                rows_fit(resources, &image, &buffer.buffer, true, errors);
             }
         }
         (Part::Buffer(buffer), Part::Image(_)) => {
-            if let Some(image) = side(chosen, things, to, target, errors) {
-                rows_fit(things, &image, &buffer.buffer, false, errors);
+            if let Some(image) = side(resources, to, target, errors) {
+                rows_fit(resources, &image, &buffer.buffer, false, errors);
             }
         }
     }
 }
 
 /// Texels have as many bytes, samples and planes, and lie in as large images.
-fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
+fn same_texels(resources: &Resources<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
     let (one, other) = (from.image, to.image);
     let alike = one.format.copies_to(other.format) && from.cells.planes == to.cells.planes;
     let formats = |span| (span, format!("{}", one.format));
@@ -138,7 +131,7 @@ fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut
     }
     if one.samples != other.samples {
         let message = format!("`{}` can't be copied to `{}`: their sample counts differ", one.name, other.name);
-        let declared = chosen.image(from.part.image.index).samples.span;
+        let declared = resources.declared(from.part.image.index).samples.span;
         errors.push(
             Diagnostic::new(to.part.image.span, message)
                 .remark(format!("{}× a texel", other.samples))
@@ -167,7 +160,7 @@ fn images_fit([from, to]: [&Side<'_>; 2], [source, target]: [&TransferUse; 2], e
 
 /// The texels of one plane fill the buffer, or lie in it.
 fn rows_fit(
-    things: &Things,
+    resources: &Resources<'_>,
     image: &Side<'_>,
     buffer: &language::BufferRef,
     filled: bool,
@@ -183,7 +176,7 @@ fn rows_fit(
         let help = format!("write `(image: \"{name}\", plane: Depth)`");
         errors.push(Diagnostic::new(image.part.image.span, message).help(help));
     }
-    let Some(there) = things.buffer(buffer.index) else { return };
+    let Some(there) = resources.buffer(buffer.index) else { return };
     let [width, height, depth] = image.extent.map(u64::from);
     // At most 2^14 to the third, 2^11 layers and 2^4 bytes: no more than 2^57.
     let format = image.image.format;
@@ -203,15 +196,14 @@ fn rows_fit(
 
 /// Reports a blit that can't be.
 pub(super) fn blit(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     [from, to]: [&Part; 2],
     filter: Option<Spanned<Filter>>,
     lowered: &Pass,
     errors: &mut Vec<Diagnostic>,
 ) {
     let [source, target] = &lowered.transfers[..] else { return };
-    let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+    let (one, other) = (side(resources, from, source, errors), side(resources, to, target, errors));
     let (Some(one), Some(other)) = (one, other) else { return };
     images_fit([&one, &other], [source, target], errors);
     for side in [&one, &other] {
@@ -247,14 +239,14 @@ pub(super) fn blit(
 }
 
 /// Reports a fill whose value doesn't fit.
-pub(super) fn fill(things: &Things, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fill(resources: &Resources<'_>, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
     let (format, name) = match to {
         Part::Image(part) => {
-            let Some(image) = things.image(part.image.index) else { return };
+            let Some(image) = resources.image(part.image.index) else { return };
             (Some(image.image.format), &image.image.name)
         }
         Part::Buffer(part) => {
-            let Some(buffer) = things.buffer(part.buffer.index) else { return };
+            let Some(buffer) = resources.buffer(part.buffer.index) else { return };
             (None, &buffer.name)
         }
     };

@@ -1,9 +1,8 @@
 //! How a pass's shader is compiled: its declarations of what it samples may follow what the pass gives.
 
-use super::chosen::Chosen;
 use super::parts::{self, Cells};
+use super::resources::Resources;
 use super::shader::Checked;
-use super::things::Things;
 use crate::base::Diagnostic;
 use crate::frame::{Image, Pass};
 use crate::language::{self, Face};
@@ -11,17 +10,17 @@ use crate::shader::Variant;
 use crate::vulkan::{Aspects, Component, ImageShape};
 
 /// The variant of its shader that a pass needs. What isn't known is left out: mistakes are reported elsewhere.
-pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) -> Variant {
+pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
     let texture = |sample: &language::Sample| {
-        let image = &things.image(sample.part.image.index)?.image;
-        let range = parts::range(chosen, things, &sample.part, &mut Vec::new());
+        let image = &resources.image(sample.part.image.index)?.image;
+        let range = parts::range(resources, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
-    let parts = in_part(things, pass).map(|sample| sample.binding.text.clone()).collect();
+    let parts = in_part(resources, pass).map(|sample| sample.binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
     let components = pass.sample.iter().filter_map(|sample| {
-        let image = &things.image(sample.part.image.index)?.image;
+        let image = &resources.image(sample.part.image.index)?.image;
         Some((sample.binding.text.clone(), image.format.components()))
     });
     let components = components.collect();
@@ -30,32 +29,36 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) ->
         sampled,
         components,
         parts,
-        alpha_to_coverage: covers_samples(things, pass),
+        alpha_to_coverage: covers_samples(resources, pass),
         ..Variant::default()
     }
 }
 
 /// What a pass samples of which only a part is in use.
-pub(super) fn in_part<'p>(things: &'p Things, pass: &'p language::Pass) -> impl Iterator<Item = &'p language::Sample> {
+pub(super) fn in_part<'p>(
+    resources: &'p Resources,
+    pass: &'p language::Pass,
+) -> impl Iterator<Item = &'p language::Sample> {
     let allocated =
-        |sample: &&language::Sample| things.image(sample.part.image.index).and_then(|image| image.image.allocated);
+        |sample: &&language::Sample| resources.image(sample.part.image.index).and_then(|image| image.image.allocated);
     pass.sample.iter().filter(move |sample| allocated(sample).is_some())
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.
-fn covers_samples(things: &Things, pass: &language::Pass) -> bool {
-    let several =
-        |color: &language::Color| things.image(color.part.image.index).is_some_and(|target| target.image.samples > 1);
+fn covers_samples(resources: &Resources<'_>, pass: &language::Pass) -> bool {
+    let several = |color: &language::Color| {
+        resources.image(color.part.image.index).is_some_and(|target| target.image.samples > 1)
+    };
     pass.alpha_to_coverage.is_some() && pass.color.iter().any(several)
 }
 
 /// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
 /// that could tell.
-pub(super) fn with_all(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) -> Option<Variant> {
+pub(super) fn with_all(resources: &Resources<'_>, pass: &language::Pass) -> Option<Variant> {
     let left_out = pass.left_out.iter().map(|left_out| left_out.sample.clone());
     let left_out: Vec<language::Sample> = left_out.collect::<Option<_>>()?;
     let whole = language::Pass { sample: [&pass.sample[..], &left_out].concat(), ..pass.clone() };
-    Some(of(chosen, things, &whole))
+    Some(of(resources, &whole))
 }
 
 /// As what a shader that leaves it to the pass declares a part of an image.

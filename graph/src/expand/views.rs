@@ -1,23 +1,22 @@
 //! Passes that draw a view into images that are for another.
 
-use super::chosen::Chosen;
 use crate::frame::{Remark, ViewIndex};
-use crate::language::{Draw, Pass, Work};
+use crate::language::{Draw, Pass, Pipeline, Work};
 use std::sync::Arc;
 
 /// Passes that draw the scene for one view into an image for another view, of another size: what the camera sees is stretched
 /// over it. Nothing forbids it, and a full-screen pass that only copies means it.
-pub(super) fn remarks(chosen: &Chosen<'_>) -> Vec<Remark> {
-    chosen.pipeline.passes.iter().filter(|pass| pass.off.is_none()).filter_map(|pass| remark(chosen, pass)).collect()
+pub(super) fn remarks(pipeline: &Pipeline) -> Vec<Remark> {
+    pipeline.passes.iter().filter(|pass| pass.off.is_none()).filter_map(|pass| remark(pipeline, pass)).collect()
 }
 
-fn remark(chosen: &Chosen<'_>, pass: &Pass) -> Option<Remark> {
+fn remark(pipeline: &Pipeline, pass: &Pass) -> Option<Remark> {
     let Work::Draw { draw: Draw::Objects(_) | Draw::Sky, .. } = &pass.work else { return None };
-    let (own, own_extent) = view(chosen, pass.view)?;
+    let (own, own_extent) = view(pipeline, pass.view)?;
     let targets = pass.color.iter().map(|color| color.part).chain(pass.depth.as_ref().map(|depth| depth.part));
     targets.into_iter().find_map(|part| {
-        let image = chosen.image(part.image.index);
-        let (other, _) = view(chosen, image.view).filter(|(_, extent)| *extent != own_extent)?;
+        let image = &pipeline.images[part.image.index.0 as usize];
+        let (other, _) = view(pipeline, image.view).filter(|(_, extent)| *extent != own_extent)?;
         let text = format!(
             "draws view `{own}` into `{}`, which is for view `{other}` of another size: what the camera sees is stretched \
              over it; say `view: \"{own}\"` of the image too, or of neither",
@@ -28,6 +27,6 @@ fn remark(chosen: &Chosen<'_>, pass: &Pass) -> Option<Remark> {
 }
 
 /// Name and size of a view.
-fn view(chosen: &Chosen<'_>, index: ViewIndex) -> Option<(Arc<str>, [u32; 2])> {
-    chosen.pipeline.views.get(index.0 as usize).map(|view| (view.name.text.clone(), view.extent))
+fn view(pipeline: &Pipeline, index: ViewIndex) -> Option<(Arc<str>, [u32; 2])> {
+    pipeline.views.get(index.0 as usize).map(|view| (view.name.text.clone(), view.extent))
 }

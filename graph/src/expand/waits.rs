@@ -1,9 +1,8 @@
 //! Passes that wait for each other: moving one up doesn't help where the other needs it.
 
 use super::accesses;
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use super::writers::Writers;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
@@ -25,14 +24,14 @@ pub(super) struct Need {
 
 /// The circle that `first`, a read of what a pass further below writes, is part of; `None` if that pass doesn't depend
 /// on the reader.
-pub(super) fn circle(things: &Things, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
+pub(super) fn circle(resources: &Resources<'_>, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
     let mut found: HashMap<usize, Need> = HashMap::new();
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
         let runs = states.get(at).map_or(&[][..], State::runs);
-        let read = runs.iter().flat_map(|pass| accesses::reads(things, pass)).filter(|read| read.frames_ago == 0);
+        let read = runs.iter().flat_map(|pass| accesses::reads(resources, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
-        let continued = runs.iter().flat_map(|pass| accesses::writes(things, pass));
+        let continued = runs.iter().flat_map(|pass| accesses::writes(resources, pass));
         let continued = continued.filter(|write| write.continues.is_some());
         for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {
@@ -65,8 +64,8 @@ fn path(first: Need, last: Need, found: &HashMap<usize, Need>) -> Vec<Need> {
 }
 
 /// The circle in words, with its places.
-pub(super) fn report(chosen: &Chosen<'_>, circle: &[Need]) -> Diagnostic {
-    let name = |at: usize| &*chosen.pipeline.passes[at].name.text;
+pub(super) fn report(resources: &Resources<'_>, circle: &[Need]) -> Diagnostic {
+    let name = |at: usize| &*resources.pipeline.passes[at].name.text;
     let most = circle.len().min(MOST_SHOWN);
     let mut path: Vec<String> = circle[..most].iter().map(|need| format!("`{}`", name(need.pass))).collect();
     if most < circle.len() {
@@ -75,7 +74,7 @@ pub(super) fn report(chosen: &Chosen<'_>, circle: &[Need]) -> Diagnostic {
     path.extend(circle.first().map(|need| format!("`{}`", name(need.pass))));
     let remark = |need: &Need| {
         let below = if need.writer > need.pass { " further below" } else { "" };
-        let resource = &chosen.name(need.resource).text;
+        let resource = &resources.name(need.resource).text;
         format!("`{}` reads `{resource}`, which `{}` writes{below}", name(need.pass), name(need.writer))
     };
     let message = format!("passes wait for each other in a circle: {}", path.join(" → "));
@@ -86,7 +85,7 @@ pub(super) fn report(chosen: &Chosen<'_>, circle: &[Need]) -> Diagnostic {
         diagnostic = diagnostic.label(span, text);
     }
     let Some(Need { resource, .. }) = circle.first() else { return diagnostic };
-    let start = &chosen.name(*resource).text;
+    let start = &resources.name(*resource).text;
     let kind = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
     diagnostic.help(format!(
         "let one of them read what the frame before left: say `lifetime: History` of `{start}`, and `({kind}: \"{start}\", previous: 1)` here"

@@ -1,7 +1,6 @@
 //! What passes do: draws, dispatches and their groups, copies, blits, fills; and whether they can.
 
-use super::chosen::Chosen;
-use super::things::Things;
+use super::resources::Resources;
 use super::{fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work};
@@ -23,12 +22,7 @@ pub(super) fn draw(draw: &language::Draw) -> Draw {
 }
 
 /// What the pass does. After a mistake it does something like it.
-pub(super) fn lower(
-    chosen: &Chosen<'_>,
-    things: &Things,
-    pass: &language::Pass,
-    interface: Option<&ShaderInterface>,
-) -> Work {
+pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface: Option<&ShaderInterface>) -> Work {
     let drawn = |draw, shader: &Name| Work::Draw {
         draw,
         shader: shader.text.clone(),
@@ -39,12 +33,12 @@ pub(super) fn lower(
     match &pass.work {
         language::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
         language::Work::Dispatch { shader, groups } => {
-            Work::Dispatch { shader: shader.text.clone(), groups: self::groups(chosen, things, &groups.value) }
+            Work::Dispatch { shader: shader.text.clone(), groups: self::groups(resources, &groups.value) }
         }
         language::Work::Copy { .. } => Work::Copy,
         language::Work::Blit { from, filter, .. } => {
             let format = match from {
-                language::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                language::Part::Image(part) => resources.image(part.image.index).map(|image| image.image.format),
                 language::Part::Buffer(_) => None,
             };
             let filtered = format.is_none_or(|format| !format.is_depth() && !format.is_integer());
@@ -53,7 +47,7 @@ pub(super) fn lower(
         }
         language::Work::Fill { to, value } => {
             let format = match to {
-                language::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                language::Part::Image(part) => resources.image(part.image.index).map(|image| image.image.format),
                 language::Part::Buffer(_) => None,
             };
             Work::Fill { value: fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4])) }
@@ -65,49 +59,48 @@ pub(super) fn lower(
     }
 }
 
-fn groups(chosen: &Chosen<'_>, things: &Things, groups: &Described) -> Groups {
+fn groups(resources: &Resources<'_>, groups: &Described) -> Groups {
     match groups {
         Described::Count(count) => Groups::Count(*count),
         Described::Invocations(count) => Groups::Invocations(*count),
-        Described::Texels(part) => Groups::Invocations(texels(chosen, things, part)),
+        Described::Texels(part) => Groups::Invocations(texels(resources, part)),
         Described::Indirect { offset, .. } => Groups::Indirect { offset: *offset },
     }
 }
 
 /// Width, height, and depth or layers of a part of an image.
-fn texels(chosen: &Chosen<'_>, things: &Things, part: &language::ImagePart) -> [u32; 3] {
-    let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
-    let cells = parts::cells(image, &parts::range(chosen, things, part, &mut Vec::new()));
+fn texels(resources: &Resources<'_>, part: &language::ImagePart) -> [u32; 3] {
+    let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
+    let cells = parts::cells(image, &parts::range(resources, part, &mut Vec::new()));
     let [width, height, depth] = image.extent_at(cells.mips.start);
     [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
 }
 
 /// Reports what the pass can't do.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) {
     match &pass.work {
-        language::Work::Draw { draw, .. } => counts_fit(things, pass, draw, lowered, errors),
+        language::Work::Draw { draw, .. } => counts_fit(resources, pass, draw, lowered, errors),
         language::Work::Dispatch { groups, .. } => {
-            dispatch_fits(chosen, things, pass, groups, lowered, interface, errors);
+            dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
-        language::Work::Copy { from, to } => transfers::copy(chosen, things, [from, to], lowered, errors),
+        language::Work::Copy { from, to } => transfers::copy(resources, [from, to], lowered, errors),
         language::Work::Blit { from, to, filter } => {
-            transfers::blit(chosen, things, [from, to], *filter, lowered, errors);
+            transfers::blit(resources, [from, to], *filter, lowered, errors);
         }
-        language::Work::Fill { to, value } => transfers::fill(things, to, *value, errors),
+        language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
         language::Work::Custom { .. } => {}
     }
 }
 
 /// Indices and counts lie within their buffers.
 fn counts_fit(
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     draw: &language::Draw,
     lowered: &Pass,
@@ -117,24 +110,24 @@ fn counts_fit(
     if let language::Draw::Indirect(part) = draw {
         // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
         let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
-        holds(things, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
+        holds(resources, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
     }
     if let (Some(part), Work::Draw { draw: Draw::Vertices { count, .. }, .. }) = (&pass.index, &lowered.work) {
         let what = format!("{count} indices of 4 bytes");
-        holds(things, &part.buffer, u64::from(*count) * 4, &what, part.buffer.span, errors);
+        holds(resources, &part.buffer, u64::from(*count) * 4, &what, part.buffer.span, errors);
     }
 }
 
 /// Reports a buffer that is too small for what is read there.
 pub(super) fn holds(
-    things: &Things,
+    resources: &Resources<'_>,
     buffer: &language::BufferRef,
     bytes: u64,
     what: &str,
     span: Span,
     errors: &mut Vec<Diagnostic>,
 ) {
-    let Some(there) = things.buffer(buffer.index) else { return };
+    let Some(there) = resources.buffer(buffer.index) else { return };
     if there.bytes < bytes {
         let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
         errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
@@ -142,8 +135,7 @@ pub(super) fn holds(
 }
 
 fn dispatch_fits(
-    chosen: &Chosen<'_>,
-    things: &Things,
+    resources: &Resources<'_>,
     pass: &language::Pass,
     groups: &Spanned<Described>,
     lowered: &Pass,
@@ -158,10 +150,10 @@ fn dispatch_fits(
             }
             // VkDispatchIndirectCommand.
             let what = format!("the counts of a dispatch at byte {offset}, up to their end,");
-            holds(things, &buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
+            holds(resources, &buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
         }
         Described::Texels(part) => {
-            parts::range(chosen, things, part, errors);
+            parts::range(resources, part, errors);
             if let Some(previous) = part.previous {
                 errors
                     .push(Diagnostic::new(previous.span, "an image has one size in all frames: leave `previous` out"));

@@ -1,9 +1,8 @@
 //! Which passes write each image and buffer.
 
 use super::accesses;
-use super::chosen::Chosen;
+use super::resources::Resources;
 use super::state::State;
-use super::things::Things;
 use crate::base::Span;
 use crate::frame::Resource;
 
@@ -24,14 +23,14 @@ pub(super) struct Writers {
 }
 
 impl Writers {
-    pub(super) fn find(chosen: &Chosen<'_>, things: &Things, states: &[State]) -> Writers {
-        let images = chosen.pipeline.images.len();
-        let count = images + chosen.pipeline.buffers.len();
+    pub(super) fn find(resources: &Resources<'_>, states: &[State]) -> Writers {
+        let images = resources.pipeline.images.len();
+        let count = images + resources.pipeline.buffers.len();
         let mut writers = Writers { images, on: vec![Vec::new(); count], off: vec![Vec::new(); count] };
         for (position, state) in states.iter().enumerate() {
-            let otherwise = &chosen.pipeline.passes[position].otherwise;
+            let otherwise = &resources.pipeline.passes[position].otherwise;
             let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
-            for write in state.runs().iter().flat_map(|pass| accesses::writes(things, pass)) {
+            for write in state.runs().iter().flat_map(|pass| accesses::writes(resources, pass)) {
                 let at = writers.index(write.resource);
                 writers.on[at].push(Writer { position, span: write.span });
             }

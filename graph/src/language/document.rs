@@ -1,4 +1,4 @@
-//! A document: the files of a pipeline, read. It is evaluated for each choice of settings, scene, view and device.
+//! A document: the entries of a pipeline's files. It is lowered for each choice of settings, scene, view and device.
 
 use super::mistakes::{in_order, never_none};
 use super::settings_file;
@@ -12,15 +12,19 @@ use crate::language::compose::includes::{self, Wanted};
 use crate::language::compose::loader::{self, Loader};
 use crate::language::compose::origins::Origins;
 use crate::language::compose::tables::{self, PIPELINE, Sections};
-use crate::language::entries::body::{Body, Lists};
+use crate::language::entries::body::{Lists, Tables};
 use crate::language::entries::fragments::Fragments;
+use crate::language::entries::pipeline::Entries;
 use crate::language::entries::textures::Pictures;
+use crate::language::entries::values::optional;
+use crate::language::entries::views::ViewEntries;
 use crate::language::entries::{presets, settings};
-use crate::language::evaluate::{Declared, Purpose, evaluate};
+use crate::language::evaluate::{Purpose, evaluate};
 use crate::language::inputs::{Facts, Surroundings};
 use crate::language::model::{InForce, Pipeline, Preset, Setting, SettingsFile, in_force, unknown_preset};
-use crate::language::scope::{DecidedValue, Parameter};
+use crate::language::scope::{Context, Parameter, Scope};
 use crate::ron::{Names, Reader, Tree};
+use std::sync::Arc;
 
 /// A pipeline file that was read. Made by [`super::read`], once; [`crate::expand::expand`] puts it together as
 /// often as there are choices of settings, scenes, sizes and devices.
@@ -31,21 +35,14 @@ pub struct Document {
     /// What a user may choose at once, in file order.
     pub presets: Vec<Preset>,
     in_force: Vec<InForce>,
-    files: Read,
-    origins: Origins,
-}
-
-/// What was read of the files of a pipeline.
-#[derive(Debug, Clone)]
-struct Read {
-    /// The pipeline.
+    entries: Arc<Entries>,
+    /// Whether an expression may ask for a property of the device.
+    asks_device: bool,
+    /// The pipeline, as it was put together of its files.
     tree: Tree,
-    /// Files of fragments.
-    included: Vec<Tree>,
-    /// The pictures that textures name.
-    pictures: Pictures,
     /// What files did to the pipeline that they extend.
     account: Account,
+    origins: Origins,
 }
 
 impl Document {
@@ -57,36 +54,37 @@ impl Document {
         relative: &FilePath,
         Composed { tree, mut wanted, account }: Composed,
     ) -> Result<Document, Vec<Diagnostic>> {
-        let mut choices = None;
-        let mut included = Vec::new();
+        let mut entries = None;
         if let Some(sections) = Sections::read(&mut reader, tree.root(), "the pipeline", &PIPELINE) {
             let (names, settings) = settings::list(&mut reader, sections.get(&tables::SETTINGS));
             let presets = presets::presets(&mut reader, sections.get(&tables::PRESETS), &settings);
             let paths = loader::paths(&mut reader, sections.get(&tables::INCLUDE), "`include`");
             wanted.push(Wanted { from: relative.clone(), paths });
-            included = includes::read(&mut reader, loader, wanted);
+            let included = includes::read(&mut reader, loader, wanted);
             loader.look(&mut reader, sections.get(&tables::TEXTURES));
             loader.look_in_fragments(&mut reader, tree.root());
-            choices = Some((names, settings, presets));
+            let removed_view = account.changes.iter().find(|change| change.removes(Kind::View));
+            let read =
+                read_entries(&mut reader, (names, &settings), &sections, &included, removed_view, &loader.pictures);
+            let asks_device = [&tree].into_iter().chain(&included).any(|tree| tree.mentions("device."));
+            entries = Some((read, settings, presets, asks_device));
         }
         let origins = std::mem::take(&mut loader.origins);
-        let files = Read { tree, included, pictures: std::mem::take(&mut loader.pictures), account };
-        if let Some((names, settings, presets)) = choices {
-            let values =
-                settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
+        if let Some((entries, settings, presets, asks_device)) = entries {
+            let values = settings.iter().map(|setting| Some(setting.as_ref()?.kind.default().into())).collect();
             let allows = Allowances::default();
             let surroundings =
                 Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], eyes: 1, allows, device: None };
-            files.evaluate(&mut reader, (names, &settings), values, &surroundings, Purpose::Check);
+            evaluate(&mut reader, &entries, values, &surroundings, Purpose::Check);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
             if let (Some(settings), Some(presets)) = (settings, presets.into_iter().collect())
                 && reader.errors.is_empty()
             {
-                let in_force = in_force(&settings, None, &[]);
-                return Ok(Document { settings, presets, in_force, files, origins });
+                let (in_force, entries) = (in_force(&settings, None, &[]), Arc::new(entries));
+                return Ok(Document { settings, presets, in_force, entries, asks_device, tree, account, origins });
             }
         }
-        files.account.tell(&files.tree, &mut reader.errors);
+        account.tell(&tree, &mut reader.errors);
         origins.tell(&mut reader.errors);
         Err(never_none(reader.errors))
     }
@@ -133,7 +131,7 @@ impl Document {
     /// Whether an expression may ask for a property of the device.
     #[must_use]
     pub fn asks_device(&self) -> bool {
-        [&self.files.tree].into_iter().chain(&self.files.included).any(|tree| tree.mentions("device."))
+        self.asks_device
     }
 
     /// Puts in the values of settings, in their order, and what the pipeline is made for.
@@ -142,15 +140,10 @@ impl Document {
     /// Everything that is wrong with the file, and expressions that have no value or none that is allowed.
     pub fn lower(&self, values: &[Value], surroundings: &Surroundings<'_>) -> Result<Pipeline, Vec<Diagnostic>> {
         let mut reader = Reader::default();
-        let mut names = Names::new("setting");
-        for setting in &self.settings {
-            names.give(&mut reader, Some(setting.name.clone()));
-        }
-        let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
-        let values = values.iter().cloned().map(Some).collect();
-        match self.files.evaluate(&mut reader, (names, &settings), values, surroundings, Purpose::Pipeline) {
+        let values = values.iter().map(|value| Some(value.clone().into())).collect();
+        match evaluate(&mut reader, &self.entries, values, surroundings, Purpose::Pipeline) {
             Some(pipeline) if reader.errors.is_empty() => {
-                let removed = self.files.account.removed_passes().collect();
+                let removed = self.account.removed_passes().collect();
                 Ok(Pipeline { removed, ..pipeline })
             }
             _ => {
@@ -163,49 +156,43 @@ impl Document {
     /// What files did to the pipeline that they extend, in the order in which they did it.
     #[must_use]
     pub fn changes(&self) -> &[Change] {
-        &self.files.account.changes
+        &self.account.changes
     }
 
     /// Adds the other place to mistakes in what was changed, and to those in files that others brought in.
     pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
-        self.files.account.tell(&self.files.tree, errors);
+        self.account.tell(&self.tree, errors);
         self.origins.tell(errors);
     }
 }
 
-impl Read {
-    /// Evaluates the pipeline for values of its settings. `None` if errors were reported.
-    fn evaluate(
-        &self,
-        reader: &mut Reader,
-        (names, settings): (Names, &[Option<Setting>]),
-        values: Vec<Option<Value>>,
-        surroundings: &Surroundings<'_>,
-        purpose: Purpose,
-    ) -> Option<Pipeline> {
-        let sections = Sections::read(reader, self.tree.root(), "the pipeline", &PIPELINE)?;
-        let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
-        let included = self.included.iter().filter_map(|tree| tree.root().field("fragments"));
-        let fragments = Fragments::read(reader, sections.get(&tables::FRAGMENTS).into_iter().chain(included));
-        let lists = Lists {
-            textures: sections.get(&tables::TEXTURES),
-            images: sections.get(&tables::IMAGES),
-            buffers: sections.get(&tables::BUFFERS),
-            passes: sections.get(&tables::PASSES),
-        };
-        let declared = Declared {
-            body: &Body::read(reader, names, parameters, true, lists),
-            fragments: &fragments,
-            pictures: &self.pictures,
-            settings,
-            views: sections.get(&tables::VIEWS),
-            removed_view: self.account.changes.iter().find(|change| change.removes(Kind::View)),
-            depth: sections.get(&tables::DEPTH),
-            color: sections.get(&tables::COLOR),
-            depth_format: sections.get(&tables::DEPTH_FORMAT),
-            outputs: sections.get(&tables::OUTPUTS)?,
-        };
-        let values = values.into_iter().map(|value| value.map(DecidedValue::from)).collect();
-        evaluate(reader, &declared, values, surroundings, purpose)
-    }
+/// Reads all entries of a pipeline and of the fragments that it may use.
+fn read_entries(
+    reader: &mut Reader,
+    (names, settings): (Names, &[Option<Setting>]),
+    sections: &Sections<'_>,
+    included: &[Tree],
+    removed_view: Option<&Change>,
+    pictures: &Pictures,
+) -> Entries {
+    let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
+    let included = included.iter().filter_map(|tree| tree.root().field("fragments"));
+    let fragments = Fragments::read(reader, sections.get(&tables::FRAGMENTS).into_iter().chain(included));
+    let lists = Lists {
+        textures: sections.get(&tables::TEXTURES),
+        images: sections.get(&tables::IMAGES),
+        buffers: sections.get(&tables::BUFFERS),
+        passes: sections.get(&tables::PASSES),
+    };
+    let tables = Tables::read(reader, names, parameters, true, lists);
+    let scope = Scope { symbols: &tables.symbols, index: None };
+    let mut context = Context { reader, scope };
+    let views = ViewEntries::read(&mut context, settings, sections.get(&tables::VIEWS), removed_view);
+    let depth = optional(sections.get(&tables::DEPTH), |leaf| context.depth_policy(leaf));
+    let color = optional(sections.get(&tables::COLOR), |leaf| context.color_policy(leaf));
+    let depth_format = optional(sections.get(&tables::DEPTH_FORMAT), |leaf| context.depth_format_policy(leaf));
+    let outputs = sections.get(&tables::OUTPUTS).and_then(|leaf| context.outputs(leaf));
+    let body = tables.body(reader, Some(&views), &fragments, pictures);
+    let fragments = fragments.bodies(reader, pictures);
+    Entries { body, fragments, views, depth, color, depth_format, outputs }
 }

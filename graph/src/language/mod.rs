@@ -1,18 +1,18 @@
 //! What a file can say: one type per concept, names with source spans, diagnostics.
 //!
 //! ```text
-//! bytes ─► text ─► tree (compose: files, extends, extensions) ─► Document
-//! Document, values, Surroundings ─► entries, field by field (entries, scope) ─► evaluate ─► Pipeline (model)
+//! bytes ─► text ─► tree (compose: files, extends, extensions) ─► typed entries (entries, scope) ─► Document
+//! Document, values, Surroundings ─► evaluate ─► Pipeline (model)
 //! ```
-//! Trees are made once; a document is evaluated for each choice of settings, scene, view and device. Everything that is
-//! wrong is reported at once, and what is wrong whatever the values already when a file is read. What depends on shaders
+//! Trees and entries are made once; values are put in for each choice of settings, scene, view and device. Everything that
+//! is wrong is reported at once, and what is wrong whatever the values already when a file is read. What depends on shaders
 //! and on the order of passes comes in [`crate::expand`].
 //!
 //! The rooms, each of which uses only those above it:
 //! - `model`: a pipeline as data, and what a user may choose.
 //! - `inputs`: what a pipeline is evaluated for: facts of the scene, the view and the device.
-//! - `scope`: the names of one level of a file, and the values of what stands in quotes.
-//! - `entries`: one file per kind of entry: its field table, its reading and its evaluation.
+//! - `scope`: the names of one level of a file; values that are known or asked for, and where they are found.
+//! - `entries`: one file per kind of entry: its field table and its reading.
 //! - `compose`: the files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.
 //! - `evaluate`: all entries, repetitions and fragments become the flat lists of the model.
 //!
@@ -41,9 +41,9 @@ pub use inputs::{Fact, FactType, FactValue, Facts, Surroundings, names_of};
 pub(crate) use mistakes::in_order;
 pub(crate) use model::{Area, LARGEST_SIZE, area};
 pub use model::{
-    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Depth, Draw, Face, Fill, Format, Forward, Groups,
-    Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off, Output, Param,
-    Part, Pass, Pipeline, Precision, Precisions, Preset, RemovedPass, Resolves, ResourceRef, Sample, Samples,
+    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Decided, Depth, Draw, Face, Fill, Format, Forward,
+    Groups, Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off, Output,
+    Param, Part, Pass, Pipeline, Precision, Precisions, Preset, RemovedPass, Resolves, ResourceRef, Sample, Samples,
     Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State, StateWord, Storage, StorageAccess, Uniform,
     View, Work, last_step, nth_step,
 };

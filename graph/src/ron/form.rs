@@ -19,7 +19,7 @@ pub enum Form {
     /// A whole number from the one to the other, or an expression.
     Whole(i64, i64),
     /// One of these whole numbers.
-    Listed(&'static [i64]),
+    Listed(&'static [u32]),
     /// A number, or an expression.
     Number,
     /// An expression in quotes that says what the words name: "a condition".
@@ -209,7 +209,7 @@ impl Form {
     fn briefly(&self) -> Option<String> {
         Some(match self {
             Form::Whole(..) => "a number, an expression in quotes".to_owned(),
-            Form::Listed(numbers) => numbers.iter().map(i64::to_string).collect::<Vec<_>>().join(", "),
+            Form::Listed(numbers) => numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(", "),
             Form::Reference(what) => format!("the name of {what}"),
             Form::Expression(_) => "an expression in quotes".to_owned(),
             Form::Choice(what, words) => format!("{what}, such as `{}`", words().first().copied().unwrap_or_default()),

@@ -58,9 +58,14 @@ impl Names {
         self.given[self.at(name)?].as_ref()
     }
 
+    /// The name of the thing numbered `at`, if it could be read.
+    pub(crate) fn get(&self, at: usize) -> Option<&Name> {
+        self.given.get(at)?.as_ref()
+    }
+
     /// Where the name of the thing numbered `at` stands.
     pub(crate) fn span(&self, at: usize) -> Span {
-        self.given.get(at).and_then(Option::as_ref).map_or(Span::NONE, |name| name.span)
+        self.get(at).map_or(Span::NONE, |name| name.span)
     }
 
     /// Names that could be read, in file order.

@@ -213,7 +213,7 @@ fields! {
         /// Files with further fragments.
         pub(crate) include: Option<Leaf<'src>> => INCLUDES,
         /// The fragments.
-        #[expect(dead_code, reason = "read for each choice of settings")]
+        #[expect(dead_code, reason = "read with those of the pipeline")]
         fragments: Leaf<'src> => fragments::FRAGMENTS,
     }
 }

@@ -1,12 +1,12 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
 use super::condition;
-use super::parts::{self, Selected};
+use super::parts::{self, Either, Selected};
 use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::model::{Face, LeftOut, Param, Part, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::Context;
+use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
+use crate::language::scope::{Context, Given, Kept, Parts, given};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;
@@ -119,41 +119,54 @@ fields! {
 }
 
 /// Filters, by name.
-pub(crate) const FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
+pub(crate) static FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
 
-const ADDRESSES: [(&str, AddressMode); 3] =
+static ADDRESSES: [(&str, AddressMode); 3] =
     [("Clamp", AddressMode::ClampToEdge), ("Repeat", AddressMode::Repeat), ("Mirror", AddressMode::MirroredRepeat)];
 
 const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// Images by the shader's names, and those that conditions leave out.
-    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<(Vec<Sample>, Vec<LeftOut>)> {
-        let mut left_out = Vec::new();
+    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<Given<(Vec<Sample>, Vec<LeftOut>)>> {
         let all = self.entries(leaf, "`sample`", "a sampled image", |context, binding, value| {
             let fields = match value.shape() {
                 Shape::Parentheses => context.reader.read(value, "a sampled image")?,
                 _ => SampleFields::plain(value),
             };
-            let off = optional(fields.when, |leaf| context.when(leaf)).map(Option::flatten);
-            let is_off = matches!(off, Some(Some(_)));
-            let before = context.reader.errors.len();
-            let sample = context.leniently(is_off, |context| context.sampled_image(binding.clone(), fields));
-            match off? {
-                None => sample.map(Some),
-                // What has no value because it is left out is no mistake.
-                Some(off) if context.reader.errors.len() == before => {
-                    left_out.push(LeftOut { binding: binding?, sample, off });
-                    Some(None)
+            let off = optional(fields.when, |leaf| context.when(leaf));
+            let sample = context.sampled_image(binding.clone(), fields);
+            let (binding, off, sample) = (binding?, off?, sample?);
+            let Some(off) = off else { return Some(sample.map(Ok)) };
+            Some(Given::asked(move |evaluator| {
+                let off = off.evaluate(evaluator);
+                let is_off = matches!(off, Some(Some(_)));
+                let before = evaluator.reader.errors.len();
+                let sample = evaluator.leniently(is_off, |evaluator| sample.evaluate(evaluator));
+                match off? {
+                    None => sample.map(Ok),
+                    // What has no value because it is left out is no mistake.
+                    Some(off) if evaluator.reader.errors.len() == before => {
+                        Some(Err(LeftOut { binding: binding.clone(), sample, off }))
+                    }
+                    Some(_) => None,
                 }
-                Some(_) => None,
-            }
+            }))
         })?;
-        Some((all.into_iter().flatten().collect(), left_out))
+        Some(given(all, |all| {
+            let (mut samples, mut left_out) = (Vec::with_capacity(all.len()), Vec::new());
+            for sample in all {
+                match sample {
+                    Ok(sample) => samples.push(sample),
+                    Err(off) => left_out.push(off),
+                }
+            }
+            (samples, left_out)
+        }))
     }
 
-    fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Sample> {
+    fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Given<Sample>> {
         let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
         let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
         let selected = Selected { mip, mips, layer, layers, plane, previous };
@@ -161,28 +174,37 @@ impl Context<'_, '_> {
         let filter = self.sampler_word(filter, "a filter", &FILTERS);
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
         let address = self.sampler_word(address, "an address mode", &ADDRESSES);
-        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
+        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(Given::spanned));
         let (part, face) = image?;
-        let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
-        Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
+        let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, own_pixel?));
+        Some(given(parts, move |(part, filter, mip_filter, address, own_pixel)| Sample {
+            binding: binding.clone(),
+            part,
+            face,
+            filter,
+            mip_filter,
+            address,
+            own_pixel,
+        }))
     }
 
     /// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
-    fn sampler_word<T: Copy>(
+    fn sampler_word<T: Copy + Kept>(
         &mut self,
         leaf: Option<Leaf<'_>>,
-        what: &str,
-        choices: &[(&'static str, T)],
-    ) -> Option<Option<Spanned<T>>> {
-        optional(leaf, |leaf| self.word(leaf, what, choices).map(|value| leaf.spanned(value)))
+        what: &'static str,
+        choices: &'static [(&'static str, T)],
+    ) -> Option<Option<Given<Spanned<T>>>> {
+        optional(leaf, |leaf| self.word(leaf, what, choices).map(Given::spanned))
     }
 
     /// Images and buffers that the shader reads and writes, by its names.
-    pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<Storage>> {
+    pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Storage>>> {
         self.entries(leaf, "`storage`", "a storage image or buffer", |context, binding, value| {
             let Shape::Parentheses = value.shape() else {
                 let part = context.part(value);
-                return Some(Storage { binding: binding?, part: part?, access: None });
+                let binding = binding?;
+                return Some(part?.map(move |part| Storage { binding: binding.clone(), part, access: None }));
             };
             let fields: StorageFields<'_> = context.reader.read(value, "a storage image or buffer")?;
             let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
@@ -190,36 +212,42 @@ impl Context<'_, '_> {
             let part = context.part_of_either(value, image, buffer, selected);
             let access = values::optional_choice(context.reader, access, "an access", &ACCESSES);
             let (part, access) = (part?, access?);
-            if let (Some(previous), Some(access)) = (part.previous(), access)
+            let of_image = matches!(part, Either::Image(_));
+            if let (Some(previous), Some(access)) = (previous, access)
                 && access.value != StorageAccess::Read
             {
                 let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
-                context.reader.report(written.label(previous.span, "an earlier frame"));
+                context.reader.report(written.label(previous.span(), "an earlier frame"));
                 return None;
             }
-            if let (Part::Image(image), Some(previous)) = (part, part.previous()) {
+            if let (Some(previous), Some(image)) = (previous, image.filter(|_| of_image)) {
                 let sampled =
-                    Diagnostic::new(previous.span, "images of earlier frames can be sampled, not read as storage");
-                context.reader.report(sampled.label(image.image.span, "this image").help("name it in `sample`"));
+                    Diagnostic::new(previous.span(), "images of earlier frames can be sampled, not read as storage");
+                context.reader.report(sampled.label(image.span(), "this image").help("name it in `sample`"));
                 return None;
             }
-            Some(Storage { binding: binding?, part, access })
+            let binding = binding?;
+            Some(part.part().map(move |part| Storage { binding: binding.clone(), part, access }))
         })
     }
 
     /// Buffers that the shader reads as uniform blocks, by its names.
-    pub(crate) fn uniforms(&mut self, leaf: Leaf<'_>) -> Option<Vec<Uniform>> {
+    pub(crate) fn uniforms(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Uniform>>> {
         self.entries(leaf, "`uniform`", "a uniform block", |context, binding, value| {
-            let part = context.buffer_part(value);
-            Some(Uniform { binding: binding?, part: part? })
+            let (part, binding) = (context.buffer_part(value), binding?);
+            Some(part?.map(move |part| Uniform { binding: binding.clone(), part }))
         })
     }
 
     /// Values by the names of the shader's parameters.
-    pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<Param>> {
+    pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Param>>> {
         self.entries(leaf, "`params`", "a parameter", |context, name, leaf| {
-            let (value, written) = context.param(leaf)?;
-            Some(Param { name: name?, value: leaf.spanned(value), written })
+            let (value, name) = (context.param(leaf)?, name?);
+            Some(value.map(move |value| Param {
+                name: name.clone(),
+                written: value.because.clone(),
+                value: value.spanned(),
+            }))
         })
     }
 

@@ -1,58 +1,71 @@
 //! The body of a pipeline or of a fragment: its textures, images, buffers and passes, field by field.
 
 use super::buffers::BufferFields;
+use super::fragments::Fragments;
 use super::images::ImageFields;
 use super::list::{entries, entry};
 use super::pass_fields::PassFields;
 use super::repeat::Repeat;
-use super::textures::TextureFields;
-use super::uses::UseFields;
+use super::textures::{Pictures, TextureFields};
+use super::told::Told;
+use super::uses::{UseEntry, UseFields};
+use super::views::ViewEntries;
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::scope::{Parameter, Symbols};
+use crate::frame::ViewIndex;
+use crate::language::model::{Buffer, Image, Pass};
+use crate::language::scope::{Context, Given, Parameter, Scope, Symbols};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// The entries of `textures`, `images`, `buffers` and `passes`; `None` where one couldn't be read.
-pub(crate) struct Body<'t> {
-    pub(crate) symbols: Symbols,
-    pub(crate) images: Vec<Option<Entry<'t, AnyImage<'t>>>>,
-    pub(crate) buffers: Vec<Option<Entry<'t, BufferFields<'t>>>>,
-    pub(crate) items: Vec<Option<Entry<'t, Item<'t>>>>,
+/// The entries of `textures`, `images`, `buffers` and `passes`; `None` where fields couldn't be told apart.
+pub(crate) struct Body {
+    pub(crate) symbols: Arc<Symbols>,
+    /// Textures first.
+    pub(crate) images: Vec<Option<Entry<Given<Image>>>>,
+    pub(crate) buffers: Vec<Option<Entry<Given<Buffer>>>>,
+    pub(crate) items: Vec<Option<Entry<Item>>>,
 }
 
 /// An entry, and how often it stands there.
-pub(crate) struct Entry<'t, T> {
-    pub(crate) repeat: Repeat<'t>,
-    pub(crate) fields: T,
-}
-
-/// An entry of `textures` or `images`.
-pub(crate) enum AnyImage<'t> {
-    /// An image that passes make.
-    Made(ImageFields<'t>),
-    /// An image whose texels come from a file.
-    Texture(TextureFields<'t>),
+pub(crate) struct Entry<T> {
+    pub(crate) repeat: Repeat,
+    /// The view that it names, if it names one.
+    view: Told<Option<ViewIndex>>,
+    pub(crate) value: Told<T>,
 }
 
 /// An entry of `passes`.
-pub(crate) enum Item<'t> {
+pub(crate) enum Item {
     /// A pass.
-    Pass(Box<PassFields<'t>>),
+    Pass(Box<Given<Pass>>),
     /// A fragment is used.
-    Use(Box<UseFields<'t>>),
+    Use(Box<UseEntry>),
     /// A place that extensions may name.
     Anchor,
 }
 
-impl<'t> AnyImage<'t> {
-    /// The view that it names.
-    pub(crate) const fn view(&self) -> Option<Leaf<'t>> {
-        match self {
-            AnyImage::Made(fields) => fields.view,
-            AnyImage::Texture(_) => None,
-        }
+/// The field tables of a level's entries, told apart; `None` where that couldn't be done.
+pub(crate) struct Tables<'t> {
+    pub(crate) symbols: Arc<Symbols>,
+    textures: Vec<Option<TextureFields<'t>>>,
+    images: Vec<Option<ImageFields<'t>>>,
+    buffers: Vec<Option<BufferFields<'t>>>,
+    items: Vec<Option<ItemFields<'t>>>,
+}
+
+/// Fields of an entry of `passes`.
+enum ItemFields<'t> {
+    Pass(Box<PassFields<'t>>),
+    Use(Box<UseFields<'t>>),
+    Anchor,
+}
+
+impl<T> Entry<T> {
+    /// The view that it names, else the one that its whole level is for. `None` if it names none that there is.
+    pub(crate) fn view(&self, reader: &mut Reader, level: ViewIndex) -> Option<ViewIndex> {
+        self.view.get(reader).map(|view| view.unwrap_or(level))
     }
 }
 
@@ -88,7 +101,7 @@ pub(crate) struct Lists<'t> {
     pub(crate) passes: Option<Leaf<'t>>,
 }
 
-impl<'t> Body<'t> {
+impl<'t> Tables<'t> {
     /// Tells the entries apart. `names` are those of settings or parameters.
     pub(crate) fn read(
         reader: &mut Reader,
@@ -96,79 +109,117 @@ impl<'t> Body<'t> {
         parameters: Vec<Option<Parameter>>,
         settings: bool,
         lists: Lists<'t>,
-    ) -> Body<'t> {
-        let mut images = Names::new("image");
+    ) -> Tables<'t> {
+        let mut image_names = Names::new("image");
         let textures: Vec<Option<TextureFields<'t>>> =
-            entries(reader, lists.textures, "`textures`", "texture", &mut images);
-        let image_entries: Vec<Option<ImageFields<'t>>> =
-            entries(reader, lists.images, "`images`", "image", &mut images);
-        let mut buffers = Names::new("buffer");
-        let buffer_entries: Vec<Option<BufferFields<'t>>> =
-            entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffers);
-        // Textures come first: images may ask for their sizes.
-        let texture = |fields| Entry { repeat: Repeat::Once, fields: AnyImage::Texture(fields) };
-        let textures = textures.into_iter().map(|fields| fields.map(texture));
-        let made = repeated(reader, image_entries, |fields| fields.repeat);
-        let made = made
-            .into_iter()
-            .map(|entry| entry.map(|Entry { repeat, fields }| Entry { repeat, fields: AnyImage::Made(fields) }));
-        let image_entries: Vec<_> = textures.chain(made).collect();
-        let buffer_entries = repeated(reader, buffer_entries, |fields| fields.repeat);
+            entries(reader, lists.textures, "`textures`", "texture", &mut image_names);
+        let images: Vec<Option<ImageFields<'t>>> = entries(reader, lists.images, "`images`", "image", &mut image_names);
+        let mut buffer_names = Names::new("buffer");
+        let buffers: Vec<Option<BufferFields<'t>>> =
+            entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffer_names);
+        let is_list = |repeat: Option<Option<Leaf<'_>>>| repeat.flatten().is_some();
+        let image_lists = images.iter().map(|fields| is_list(fields.as_ref().map(|fields| fields.repeat)));
+        let buffer_lists = buffers.iter().map(|fields| is_list(fields.as_ref().map(|fields| fields.repeat)));
         let symbols = Symbols {
             names,
             parameters,
             settings,
-            images,
-            image_lists: lists_of(&image_entries),
-            buffers,
-            buffer_lists: lists_of(&buffer_entries),
+            images: image_names,
+            image_lists: textures.iter().map(|_| false).chain(image_lists).collect(),
+            buffers: buffer_names,
+            buffer_lists: buffer_lists.collect(),
         };
         symbols.differ(reader);
-        let items = items(reader, lists.passes);
-        let repeats = image_entries.iter().flatten().map(|entry| &entry.repeat);
-        let repeats = repeats.chain(buffer_entries.iter().flatten().map(|entry| &entry.repeat));
-        for repeat in repeats.chain(items.iter().flatten().map(|entry| &entry.repeat)) {
-            if let Repeat::Times { index, .. } = repeat {
-                symbols.differs(reader, index);
-            }
-        }
-        Body { symbols, images: image_entries, buffers: buffer_entries, items }
+        Tables { symbols: Arc::new(symbols), textures, images, buffers, items: items(reader, lists.passes) }
+    }
+
+    /// Reads the entries. `views` are those that they may name, of a fragment none.
+    pub(crate) fn body(
+        &self,
+        reader: &mut Reader,
+        views: Option<&ViewEntries>,
+        fragments: &Fragments<Tables<'_>>,
+        pictures: &Pictures,
+    ) -> Body {
+        let mut level = LevelReader { reader, symbols: &self.symbols, views };
+        // Textures come first: images may ask for their sizes.
+        let textures = self.textures.iter().map(|fields| {
+            let fields = fields.as_ref()?;
+            Some(level.entry(None, None, |context| context.texture(pictures, fields)))
+        });
+        let mut images: Vec<_> = textures.collect();
+        images.extend(self.images.iter().map(|fields| {
+            let fields = fields.as_ref()?;
+            Some(level.entry(fields.repeat, fields.view, |context| context.image_entry(fields)))
+        }));
+        let buffers = self.buffers.iter().map(|fields| {
+            let fields = fields.as_ref()?;
+            Some(level.entry(fields.repeat, fields.view, |context| context.buffer_entry(fields)))
+        });
+        let buffers = buffers.collect();
+        let items = self.items.iter().map(|item| {
+            Some(match item.as_ref()? {
+                ItemFields::Pass(fields) => {
+                    level.entry(fields.repeat, fields.view, |context| Some(Item::Pass(Box::new(context.pass(fields)))))
+                }
+                ItemFields::Use(fields) => level.entry(fields.repeat, fields.view, |context| {
+                    Some(Item::Use(Box::new(context.use_entry(fields, fragments)?)))
+                }),
+                ItemFields::Anchor => level.entry(None, None, |_| Some(Item::Anchor)),
+            })
+        });
+        let items = items.collect();
+        Body { symbols: Arc::clone(&self.symbols), images, buffers, items }
     }
 }
 
-fn repeated<'t, T>(
-    reader: &mut Reader,
-    entries: Vec<Option<T>>,
-    repeat: impl Fn(&T) -> Option<Leaf<'t>>,
-) -> Vec<Option<Entry<'t, T>>> {
-    let entry = |fields: T| Entry { repeat: Repeat::read(reader, repeat(&fields)), fields };
-    let mut entry = entry;
-    entries.into_iter().map(|fields| fields.map(&mut entry)).collect()
+/// What reads the entries of a level.
+struct LevelReader<'c> {
+    reader: &'c mut Reader,
+    symbols: &'c Symbols,
+    /// Views that entries may name; `None` in a fragment.
+    views: Option<&'c ViewEntries>,
 }
 
-fn lists_of<T>(entries: &[Option<Entry<'_, T>>]) -> Vec<bool> {
-    entries.iter().map(|entry| entry.as_ref().is_some_and(|entry| entry.repeat.is_list())).collect()
+impl LevelReader<'_> {
+    fn entry<T>(
+        &mut self,
+        repeat: Option<Leaf<'_>>,
+        view: Option<Leaf<'_>>,
+        read: impl FnOnce(&mut Context<'_>) -> Option<T>,
+    ) -> Entry<T> {
+        let LevelReader { reader, symbols, views } = self;
+        let view = Told::read(reader, |reader| match (view, views) {
+            (None, _) => Some(None),
+            (Some(leaf), Some(views)) => views.find(reader, leaf).map(Some),
+            (Some(leaf), None) => {
+                let help = "leave it out; the use of the fragment may have a `view`";
+                reader.wrong(leaf, "all that a fragment makes is for the view of its use", help);
+                None
+            }
+        });
+        let repeat = Repeat::read(&mut Context { reader, scope: Scope { symbols, index: None } }, repeat);
+        let scope = Scope { symbols, index: repeat.index() };
+        let value = Told::read(reader, |reader| read(&mut Context { reader, scope }));
+        Entry { repeat, view, value }
+    }
 }
 
 /// Passes, uses of fragments, and anchors. Passes and uses have their names in common.
-fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<Entry<'t, Item<'t>>>> {
+fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<ItemFields<'t>>> {
     let Some(leaves) = list.and_then(|list| reader.list(list, "`passes`")) else { return Vec::new() };
     let mut names = Names::new("pass");
     let mut anchors = HashMap::new();
-    let mut items = Vec::with_capacity(leaves.len());
-    for leaf in leaves {
-        let item = if leaf.field("anchor").is_some() {
-            anchor(reader, leaf, &mut anchors).map(|()| (None, Item::Anchor))
+    let item = |leaf: Leaf<'t>| {
+        if leaf.field("anchor").is_some() {
+            anchor(reader, leaf, &mut anchors).map(|()| ItemFields::Anchor)
         } else if leaf.field("use").is_some() {
-            let fields: Option<UseFields<'t>> = entry(reader, leaf, "use", "use", &mut names);
-            fields.map(|fields| (fields.repeat, Item::Use(Box::new(fields))))
+            entry(reader, leaf, "use", "use", &mut names).map(|fields| ItemFields::Use(Box::new(fields)))
         } else {
-            let fields: Option<PassFields<'t>> = entry(reader, leaf, "pass", "pass", &mut names);
-            fields.map(|fields| (fields.repeat, Item::Pass(Box::new(fields))))
-        };
-        items.push(item.map(|(repeat, fields)| Entry { repeat: Repeat::read(reader, repeat), fields }));
-    }
-    items
+            entry(reader, leaf, "pass", "pass", &mut names).map(|fields| ItemFields::Pass(Box::new(fields)))
+        }
+    };
+    leaves.into_iter().map(item).collect()
 }
 
 fn anchor<'t>(reader: &mut Reader, leaf: Leaf<'t>, anchors: &mut HashMap<Arc<str>, Name>) -> Option<()> {

@@ -1,12 +1,11 @@
 //! `buffers`: how many bytes, and how long their contents live.
 
 use super::repeat::REPEAT;
-use super::values::Decided;
 use super::{lifetimes, parts, views};
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::model::{Buffer, Bytes, Lifetime, SettingKind};
-use crate::language::scope::{Context, Quoted};
+use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
+use crate::language::scope::{Context, Given, Parameter, ParameterKind, given};
 use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
 
 /// Most bytes that a buffer may have: 1 TiB.
@@ -58,70 +57,73 @@ static BYTES: Words = Words {
     ],
 };
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A buffer.
-    pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<Buffer> {
+    pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<Given<Buffer>> {
         let name = self.reader.name(fields.name, "a buffer");
         let bytes = self.bytes(fields.bytes);
+        let transient = Spanned { value: Lifetime::Transient, span: fields.name.span() };
         let lifetime =
-            fields.lifetime.map_or(Some(Spanned { value: Lifetime::Transient, span: fields.name.span() }), |leaf| {
-                self.lifetime(leaf, lifetimes::Of::Buffer)
-            });
-        let (bytes, bytes_because) = bytes?;
-        let bytes = fields.bytes.spanned(bytes);
-        Some(Buffer { name: name?, bytes, bytes_because, lifetime: lifetime?, instance: None })
+            fields.lifetime.map_or(Some(Given::Known(transient)), |leaf| self.lifetime(leaf, lifetimes::Of::Buffer));
+        let (name, bytes) = (name?, bytes?.at(fields.bytes));
+        Some(given((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
+            name: name.clone(),
+            bytes,
+            lifetime,
+            instance: None,
+        }))
     }
 
-    fn bytes(&mut self, leaf: Leaf<'_>) -> Option<Decided<Bytes>> {
-        let what = "size of a buffer in bytes";
+    fn bytes(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Bytes>>> {
+        let (what, span) = ("size of a buffer in bytes", leaf.span());
         match leaf.shape() {
             Shape::Text | Shape::Number => {
-                let (bytes, because): Decided<u64> = self.whole_because(leaf, what, 4..=LARGEST_BUFFER)?;
-                if matches!(leaf.shape(), Shape::Number) && !bytes.is_multiple_of(4) {
+                let bytes = self.whole_because(leaf, what, 4..=LARGEST_BUFFER)?;
+                if let Given::Known(Decided { value: bytes, .. }) = &bytes
+                    && !u64::is_multiple_of(*bytes, 4)
+                {
                     let help = format!("the next is {}", bytes.next_multiple_of(4));
                     self.reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);
                     return None;
                 }
-                Some((Bytes::Count(bytes), because))
+                Some(bytes.of(Bytes::Count))
             }
             _ => {
                 let (word, rest) = self.reader.one_of(leaf, &BYTES)?;
                 if word == "Like" {
                     let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"buffer\")")?;
-                    return self.buffer(other).map(|other| (Bytes::Like(other), None));
+                    return Some(self.buffer(other)?.map(move |other| Decided::said(span, Bytes::Like(other))));
                 }
                 let [each, of]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
                 let each = self.whole(each, "number of bytes", 1..=LARGEST_BUFFER);
                 if word == "PerTexel" {
                     let image = self.image(of);
-                    return Some((Bytes::PerTexel(each?, image?), None));
+                    return Some(given((each?, image?), move |(each, image)| {
+                        Decided::said(span, Bytes::PerTexel(each, image))
+                    }));
                 }
-                let (count, because) = self.bytes_times(of)?;
-                Some((Bytes::Times(each?, count), because))
+                let count = self.bytes_times(of)?;
+                Some(given((each?, count), |(each, count)| count.map(|count| Bytes::Times(each, count))))
             }
         }
     }
 
     /// How many things a buffer is for.
-    fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<Decided<u64>> {
-        if let Shape::Text = leaf.shape()
-            && self.scope.symbols.settings
-            && let Quoted::Parameter(parameter, _) =
-                self.quoted(leaf, SettingKind::is_whole, "a whole number", Some("a whole number"))?
-            && let Some(least) = parameter.least().filter(|least| *least < 1.0)
+    fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<u64>>> {
+        if let Some(Parameter { kind: ParameterKind::Value(kind), .. }) = self.setting(leaf)
+            && let Some(least) = kind.least().filter(|least| *least < 1.0 && kind.is_whole())
         {
             let message = format!("this setting allows {least}, so that the buffer would be empty");
             self.reader.wrong(leaf, message, "let the setting begin at 1");
             return None;
         }
-        let (count, because): Decided<i64> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
-        match u64::try_from(count) {
-            Ok(count @ 1..) => Some((count, because)),
+        let count: Given<Decided<i64>> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
+        count.checked(self.reader, move |count, _| match u64::try_from(count.value) {
+            Ok(value @ 1..) => Ok(count.map(|_| value)),
             _ => {
-                let empty = Diagnostic::new(leaf.span(), format!("{count} of something leave the buffer empty"));
-                self.fault(leaf, empty.remark(because.as_deref().unwrap_or_default()));
-                None
+                let message = format!("{} of something leave the buffer empty", count.value);
+                Err(Diagnostic::new(count.span, message).remark(count.remark()))
             }
-        }
+        })
     }
 }

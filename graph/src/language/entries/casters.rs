@@ -4,8 +4,8 @@ use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres};
-use crate::language::scope::Context;
-use crate::ron::{Described, Leaf, Table, names};
+use crate::language::scope::{Context, Given, given};
+use crate::ron::{Described, Leaf, Spanned, Table, names};
 
 /// Draw lists, by name.
 pub(crate) const LISTS: [(&str, DrawList); 3] =
@@ -36,41 +36,40 @@ pub(crate) fn fields() -> Table {
 /// Those that light doesn't go through.
 const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// What casts the sun's shadow.
-    pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Cascade> {
+    pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Given<Cascade>> {
         let fields: CastersFields<'_> = self.reader.inside(leaf, rest, FORM)?;
         let most = i64::from(Cascade::MOST);
         let list = values::choice(self.reader, fields.list, "a list of casters", &CASTERS);
-        let index = self.whole(fields.cascade, "cascade", 0..=most - 1);
-        let of = self.whole(fields.of, "number of cascades", 1..=most);
-        let reach = optional(fields.reach, |leaf| self.reach(leaf)).map(Option::flatten);
-        let (list, index, of, reach) = (list?, index?, of?, reach?);
-        if index >= of {
-            let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
-            self.fault(
-                fields.cascade,
-                beyond.label(fields.of.span(), "so many").help(format!("write a number from 0 to {}", of - 1)),
-            );
-            return None;
-        }
-        Some(Cascade { list, index, of, reach })
+        let index = self.whole_at(fields.cascade, "cascade", 0..=most - 1);
+        let of = self.whole_at(fields.of, "number of cascades", 1..=most);
+        let reach = optional(fields.reach, |leaf| self.reach(leaf));
+        let (list, index) = (list?, index?);
+        let said = index.is_known();
+        let numbers = given((index, of?, reach?), |numbers| numbers);
+        numbers.checked_as(self.reader, said, move |(index, of, reach): (Spanned<u8>, Spanned<u8>, _), _| {
+            if index.value >= of.value {
+                let beyond = format!("there is no cascade {} of {}", index.value, of.value);
+                let help = format!("write a number from 0 to {}", of.value - 1);
+                return Err(Diagnostic::new(index.span, beyond).label(of.span, "so many").help(help));
+            }
+            Ok(Cascade { list, index: index.value, of: of.value, reach: reach.flatten() })
+        })
     }
 
     /// How far shadows reach; `None`: through the whole scene.
-    fn reach(&mut self, leaf: Leaf<'_>) -> Option<Option<Metres>> {
-        let (metres, because) = self.number_because(leaf, "how far shadows reach")?;
-        if metres == 0.0 {
-            return Some(None);
-        }
-        #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
-        let known = Metres::try_from(metres as f32);
-        if known.is_err() {
-            let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
-            let wrong =
-                wrong.help("write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold");
-            self.fault(leaf, wrong.remark(because.as_deref().unwrap_or_default()));
-        }
-        known.ok().map(Some)
+    fn reach(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Metres>>> {
+        self.number_because(leaf, "how far shadows reach")?.checked(self.reader, move |metres, _| {
+            if metres.value == 0.0 {
+                return Ok(None);
+            }
+            #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
+            Metres::try_from(metres.value as f32).map(Some).map_err(|_| {
+                let wrong = Diagnostic::new(metres.span, "shadows can't reach that far");
+                let help = "write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold";
+                wrong.help(help).remark(metres.remark())
+            })
+        })
     }
 }

@@ -1,27 +1,51 @@
 //! `when`: a condition that switches an entry off.
 
-use super::values::optional;
-use crate::language::model::Off;
-use crate::language::scope::Context;
+use crate::expression::{Value, Wanted};
+use crate::language::model::{Decided, Off, SettingKind};
+use crate::language::scope::{Context, Given, Parts, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
+use std::sync::Arc;
 
 /// What `when` takes.
 pub(crate) const CONDITION: Form = Form::Expression("a condition");
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// Why an entry with this condition is off, if it is, and in which view. `None` if the condition is wrong.
-    pub(crate) fn off(&mut self, when: Option<Leaf<'_>>) -> Option<Option<Off>> {
-        let off = optional(when, |leaf| self.when(leaf))?.flatten();
-        Some(off.map(|Off { span, because }| Off { span, because: self.scope.within_view(&because) }))
+    pub(crate) fn off(&mut self, when: Option<Leaf<'_>>) -> Option<Given<Option<Off>>> {
+        let Some(when) = when else { return Some(Given::Known(None)) };
+        let off = self.when(when)?;
+        Some(Given::asked(move |evaluator| {
+            let off = off.evaluate(evaluator)?;
+            let view = evaluator.scope.view;
+            Some(off.map(|Off { span, because }| Off { span, because: within_view(view, &because) }))
+        }))
     }
 
-    /// Whether a pass runs: `Some(None)`, or why it doesn't.
-    pub(crate) fn when(&mut self, leaf: Leaf<'_>) -> Option<Option<Off>> {
+    /// Whether a pass runs: `None`, or why it doesn't.
+    pub(crate) fn when(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Off>>> {
         let Shape::Text = leaf.shape() else {
             self.reader.expected(leaf, "a condition in quotes");
             return None;
         };
-        let outcome = self.condition(leaf)?;
-        Some(outcome.map(|because| Off { span: leaf.span(), because }))
+        let span = leaf.span();
+        let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
+        Some(match self.quoted(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))? {
+            Quoted::Parameter(parameter, at) => {
+                let unknown: Arc<str> = format!("`{}` is false", parameter.name.text).into();
+                Given::asked(move |evaluator| evaluator.parameter(at, span)).map(
+                    move |Decided { value, because, .. }| {
+                        let because = || because.as_ref().unwrap_or(&unknown).to_string();
+                        (value != Value::Bool(true)).then(|| Off { span, because: because() })
+                    },
+                )
+            }
+            Quoted::Expression(condition) => Given::asked(move |evaluator| {
+                let outcome = evaluator.evaluate(&condition)?;
+                let Some(failed) = &outcome.failed else { return Some(None) };
+                let because = outcome.because();
+                let because = if because.is_empty() { format!("`{}` does not hold", failed.text) } else { because };
+                Some(Some(Off { span, because }))
+            }),
+        })
     }
 }

@@ -1,9 +1,9 @@
 //! `dispatch`: how many workgroups a compute pass runs.
 
-use super::values::MANY;
+use super::values::{MANY, at};
 use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, all, given};
 use crate::ron::{Form, Leaf, Takes, Word, Words};
 
 /// What `groups` takes.
@@ -49,9 +49,14 @@ const GROUP: Form = Form::Whole(1, MOST_GROUPS);
 /// The most workgroups in x, y and z that every device allows.
 pub(crate) const MOST_GROUPS: i64 = 65535;
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A compute shader and how often it runs.
-    pub(crate) fn dispatch_work(&mut self, leaf: Leaf<'_>, groups_at: Option<Leaf<'_>>, what: &str) -> Option<Work> {
+    pub(crate) fn dispatch_work(
+        &mut self,
+        leaf: Leaf<'_>,
+        groups_at: Option<Leaf<'_>>,
+        what: &str,
+    ) -> Option<Given<Work>> {
         let shader = self.reader.outside_name(leaf, "a shader");
         let Some(groups_at) = groups_at else {
             self.reader.wrong(
@@ -62,23 +67,26 @@ impl Context<'_, '_> {
             return None;
         };
         let groups = self.groups(groups_at);
-        Some(Work::Dispatch { shader: shader?, groups: groups_at.spanned(groups?) })
+        let shader = shader?;
+        Some(at(groups_at, groups?).map(move |groups| Work::Dispatch { shader: shader.clone(), groups }))
     }
 
-    fn groups(&mut self, leaf: Leaf<'_>) -> Option<Groups> {
+    fn groups(&mut self, leaf: Leaf<'_>) -> Option<Given<Groups>> {
         let (word, rest) = self.reader.one_of(leaf, &GROUPS)?;
         match word {
-            "Count" => self.three_numbers(leaf, rest, "number of workgroups", MOST_GROUPS).map(Groups::Count),
-            "Invocations" => {
-                self.three_numbers(leaf, rest, "number of invocations", i64::from(u32::MAX)).map(Groups::Invocations)
-            }
+            "Count" => self
+                .three_numbers(leaf, rest, "number of workgroups", MOST_GROUPS)
+                .map(|numbers| given(numbers, Groups::Count)),
+            "Invocations" => self
+                .three_numbers(leaf, rest, "number of invocations", i64::from(u32::MAX))
+                .map(|numbers| given(numbers, Groups::Invocations)),
             "Texels" => {
                 let image = match rest {
                     // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
                     Some(rest) if rest.tuple::<1>().is_none() => rest,
                     _ => self.reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Texels(\"image\")")?[0],
                 };
-                self.image_part(image).map(Groups::Texels)
+                Some(self.image_part(image)?.map(Groups::Texels))
             }
             _ => {
                 let (buffer, offset) = match rest.and_then(Leaf::tuple) {
@@ -93,15 +101,22 @@ impl Context<'_, '_> {
                     ),
                 };
                 let buffer = self.buffer_part(buffer);
-                let offset =
-                    offset.map_or(Some(0), |leaf| self.whole(leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER));
-                Some(Groups::Indirect { buffer: buffer?, offset: offset? })
+                let offset = offset.map_or(Some(Given::Known(0)), |leaf| {
+                    self.whole(leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER)
+                });
+                Some(given((buffer?, offset?), |(buffer, offset)| Groups::Indirect { buffer, offset }))
             }
         }
     }
 
     /// One to three whole numbers; those that are left out are 1.
-    fn three_numbers(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>, what: &str, most: i64) -> Option<[u32; 3]> {
+    fn three_numbers(
+        &mut self,
+        leaf: Leaf<'_>,
+        rest: Option<Leaf<'_>>,
+        what: &'static str,
+        most: i64,
+    ) -> Option<[Given<u32>; 3]> {
         let probed = rest.and_then(|rest| {
             let one = rest.tuple().map(|[x]| (x, None, None));
             one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
@@ -113,7 +128,7 @@ impl Context<'_, '_> {
                 (x, Some(y), Some(z))
             }
         };
-        let number = [Some(x), y, z].map(|leaf| leaf.map_or(Some(1), |leaf| self.whole(leaf, what, 1..=most)));
-        Some([number[0]?, number[1]?, number[2]?])
+        let one = || Some(Given::Known(1));
+        all([Some(x), y, z].map(|leaf| leaf.map_or_else(one, |leaf| self.whole(leaf, what, 1..=most))))
     }
 }

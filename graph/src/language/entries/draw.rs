@@ -5,7 +5,7 @@ use super::parts;
 use super::values::{self, MANY};
 use crate::frame::DrawList;
 use crate::language::model::{Draw, Work};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, given};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
 
 /// What `draw` takes.
@@ -58,14 +58,14 @@ pub(crate) struct Beside<'src> {
     pub(crate) index: Option<Leaf<'src>>,
 }
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// `draw: …`, with the shader.
     pub(crate) fn draw_work(
         &mut self,
         leaf: Leaf<'_>,
         Beside { shader, vertex, index }: Beside<'_>,
         what: &str,
-    ) -> Option<Work> {
+    ) -> Option<Given<Work>> {
         let (word, rest) = self.reader.one_of(leaf, &DRAWS)?;
         if !matches!(word, "Vertices" | "Indirect") {
             for (field, foreign) in [("vertex", vertex), ("index", index)] {
@@ -85,18 +85,19 @@ impl Context<'_, '_> {
                     self.reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
                     return None;
                 }
-                return Some(Work::Draw { draw: Draw::FullScreen, shader: self.reader.outside_name(own, "a shader")? });
+                let shader = self.reader.outside_name(own, "a shader")?;
+                return Some(Given::Known(Work::Draw { draw: Draw::FullScreen, shader }));
             }
             "Sky" => {
                 self.reader.bare(word, rest)?;
                 if shader.is_none() {
                     let shader = Name { text: "sky".into(), span: leaf.span() };
-                    return Some(Work::Draw { draw: Draw::Sky, shader });
+                    return Some(Given::Known(Work::Draw { draw: Draw::Sky, shader }));
                 }
-                (Draw::Sky, "draws the sky")
+                (Given::Known(Draw::Sky), "draws the sky")
             }
-            "Objects" => (Draw::Objects(list(self.reader, leaf, rest)?), "draws objects"),
-            "Casters" => (Draw::Casters(self.casters(leaf, rest)?), "draws objects"),
+            "Objects" => (Given::Known(Draw::Objects(list(self.reader, leaf, rest)?)), "draws objects"),
+            "Casters" => (self.casters(leaf, rest)?.map(Draw::Casters), "draws objects"),
             "Vertices" => {
                 let (count, instances) = match rest.and_then(Leaf::tuple) {
                     Some([count, instances]) => (count, Some(instances)),
@@ -108,19 +109,22 @@ impl Context<'_, '_> {
                 };
                 let range = 1..=i64::from(u32::MAX);
                 let count = self.whole(count, "number of vertices", range.clone());
-                let instances = instances.map_or(Some(1), |leaf| self.whole(leaf, "number of instances", range));
-                (Draw::Vertices { count: count?, instances: instances? }, "draws vertices")
+                let once = Some(Given::Known(1));
+                let instances = instances.map_or(once, |leaf| self.whole(leaf, "number of instances", range));
+                let vertices = (count?, instances?);
+                (given(vertices, |(count, instances)| Draw::Vertices { count, instances }), "draws vertices")
             }
             _ => {
                 let [buffer]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
-                (Draw::Indirect(self.buffer_part(buffer)?), "draws vertices")
+                (self.buffer_part(buffer)?.map(Draw::Indirect), "draws vertices")
             }
         };
         let Some(shader) = shader else {
             self.reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
             return None;
         };
-        Some(Work::Draw { draw, shader: self.reader.outside_name(shader, "a shader")? })
+        let shader = self.reader.outside_name(shader, "a shader")?;
+        Some(draw.map(move |draw| Work::Draw { draw, shader: shader.clone() }))
     }
 }
 

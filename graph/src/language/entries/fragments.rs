@@ -1,12 +1,12 @@
 //! `fragments`: images, buffers and passes that each use of a fragment makes anew.
 
-use super::body::{self, Body, Lists};
+use super::body::{self, Body, Lists, Tables};
 use super::list::entries;
 use super::parameters::{self, ParameterFields};
-use super::textures;
+use super::textures::{self, Pictures};
 use crate::fields;
 use crate::language::scope::Parameter;
-use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
+use crate::ron::{Described, Form, Leaf, Names, Plain, Reader};
 
 fields! {
     /// A fragment: images, buffers and passes that belong together.
@@ -36,41 +36,47 @@ fields! {
 /// A list of fragments.
 pub(crate) const FRAGMENTS: Form = Form::List(&Form::Fields(FragmentFields::<'static>::table));
 
-/// A fragment with the fields of its entries.
-pub(crate) struct Fragment<'t> {
-    pub(crate) name: Option<Name>,
-    pub(crate) body: Body<'t>,
-}
-
-/// Fragments by name; `None` where one couldn't be told apart.
-pub(crate) struct Fragments<'t> {
+/// Fragments by name: the field tables of their entries, or the entries. `None` where one couldn't be told apart.
+pub(crate) struct Fragments<T> {
     pub(crate) names: Names,
-    pub(crate) list: Vec<Option<Fragment<'t>>>,
+    pub(crate) list: Vec<Option<T>>,
 }
 
-impl Fragment<'_> {
-    /// Its name; empty if that couldn't be read.
-    pub(crate) fn called(&self) -> &str {
-        self.name.as_ref().map_or("", |name| &*name.text)
+impl<T> Fragments<T> {
+    /// The fragment of this number, if it could be told apart.
+    pub(crate) fn get(&self, at: usize) -> Option<&T> {
+        self.list.get(at)?.as_ref()
+    }
+
+    /// What the fragment of this number is called; empty if its name couldn't be read.
+    pub(crate) fn called(&self, at: usize) -> &str {
+        self.names.get(at).map_or("", |name| &*name.text)
     }
 }
 
-impl<'t> Fragments<'t> {
-    /// Reads lists of fragments, one after the other.
-    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Fragments<'t> {
+impl<'t> Fragments<Tables<'t>> {
+    /// Tells the fields of fragments apart: of lists of them, one after the other.
+    pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Self {
         let mut names = Names::new("fragment");
         let mut list = Vec::new();
         for leaf in lists {
             let fields: Vec<Option<FragmentFields<'t>>> =
                 entries(reader, Some(leaf), "`fragments`", "fragment", &mut names);
-            list.extend(fields.into_iter().map(|fields| fields.map(|fields| fragment(reader, &fields))));
+            list.extend(fields.into_iter().map(|fields| fields.map(|fields| tables(reader, &fields))));
         }
         Fragments { names, list }
     }
+
+    /// Reads the entries of all fragments; they may use each other.
+    pub(crate) fn bodies(self, reader: &mut Reader, pictures: &Pictures) -> Fragments<Body> {
+        let mut body = |tables: &Tables<'t>| tables.body(reader, None, &self, pictures);
+        let list = self.list.iter().map(|tables| tables.as_ref().map(&mut body)).collect();
+        Fragments { names: self.names, list }
+    }
 }
 
-fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t> {
-    let name = reader.name(fields.name, "a fragment");
+fn tables<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Tables<'t> {
+    reader.name(fields.name, "a fragment");
     if let Some(about) = fields.about {
         reader.words(about, "a description");
     }
@@ -81,5 +87,5 @@ fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t
     let parameters: Vec<Option<Parameter>> = given.into_iter().map(read).collect();
     let FragmentFields { textures, images, buffers, passes, .. } = *fields;
     let lists = Lists { textures, images, buffers, passes: Some(passes) };
-    Fragment { name, body: Body::read(reader, names, parameters, false, lists) }
+    Tables::read(reader, names, parameters, false, lists)
 }

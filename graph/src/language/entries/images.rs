@@ -1,25 +1,23 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::repeat::REPEAT;
-use super::values::{Decided, optional};
+use super::values::{optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
-use crate::base::Diagnostic;
-use crate::expression::{Value, Wanted};
-use crate::frame::ViewIndex;
-use crate::language::model::{Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind};
-use crate::language::scope::{Context, Evaluated, Parameter};
+use crate::base::{Diagnostic, Span};
+use crate::expression::Wanted;
+use crate::frame::{SAMPLE_COUNTS, ViewIndex};
+use crate::language::model::{
+    Decided, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
+};
+use crate::language::scope::{Context, Given, Kept, Parameter, given, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
-use std::sync::Arc;
 
 /// Most array layers that a file may ask for: what desktop devices have.
 pub(crate) const MOST_LAYERS: i64 = 2048;
 
 /// Mip levels that an image of the largest size has.
 const MOST_MIPS: i64 = 15;
-
-/// Sample counts that a file may ask for.
-pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 
 fields! {
     /// An image: texels that passes draw into, write and read.
@@ -135,67 +133,48 @@ static SHAPES: Words = Words {
     ],
 };
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// An image.
-    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Image> {
+    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Given<Image>> {
         let name = self.reader.name(fields.name, "an image");
+        let span = name.as_ref().map_or(Span::NONE, |name| name.span);
         let format = self.image_format(fields.format);
         let size = self.size(fields.size);
-        let samples = match fields.samples {
-            Some(leaf) => self.samples(leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
-            None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
-        };
+        let samples = or(fields.samples, span, Samples::Count(1), |leaf| self.samples(leaf, name.as_ref()));
         let resolve = optional(fields.resolve, |leaf| self.resolve(leaf));
-        let mips = self.or(fields.mips, &name, Mips::Count(1), Self::mips);
-        let layers = self.or(fields.layers, &name, Layers::Default, Self::layers);
-        let shape = self.or(fields.shape, &name, ImageShape::D2, Self::shape);
-        let lifetime = match fields.lifetime {
-            Some(leaf) => self.lifetime(leaf, lifetimes::Of::Image),
-            None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
-        };
-        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
-        let ((size, size_because), (samples, samples_because)) = (size?, samples?);
-        let within = |because: Option<Arc<str>>| because.map(|because| self.scope.within_view(&because).into());
-        Some(Image {
-            name: name?,
-            format: fields.format.spanned(format?),
-            size: fields.size.spanned(size),
-            size_because: within(size_because),
+        let mips = or(fields.mips, span, Mips::Count(1), |leaf| self.mips(leaf));
+        let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
+        let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
+        let transient = Given::Known(Spanned { value: Lifetime::Transient, span });
+        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, lifetimes::Of::Image));
+        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(Given::spanned));
+        let (format, size) = (in_field(fields.format, format?), in_field(fields.size, size?));
+        let (name, how_many) = (name?, (samples?, mips?, layers?));
+        let parts = ((format, size, shape?), how_many, resolve?, lifetime?, per_eye?);
+        Some(given(parts, move |((format, size, shape), (samples, mips, layers), resolve, lifetime, per_eye)| Image {
+            name: name.clone(),
+            format,
+            size,
             samples,
-            samples_because: within(samples_because),
-            resolve: resolve?,
-            mips: mips?,
-            layers: layers?,
-            shape: shape?,
-            lifetime: lifetime?,
+            resolve,
+            mips,
+            layers,
+            shape,
+            lifetime,
             eyes: None,
-            per_eye: per_eye?,
+            per_eye,
             view: ViewIndex::default(),
             instance: None,
-        })
+        }))
     }
 
-    /// The value of a field that may be absent; its place is then the image's name.
-    fn or<'src, T>(
-        &mut self,
-        leaf: Option<Leaf<'src>>,
-        name: &Option<Name>,
-        absent: T,
-        read: impl FnOnce(&mut Self, Leaf<'src>) -> Option<T>,
-    ) -> Option<Spanned<T>> {
-        match leaf {
-            Some(leaf) => read(self, leaf).map(|value| leaf.spanned(value)),
-            None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
-        }
-    }
-
-    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Format> {
+    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
         if let Shape::Text = leaf.shape() {
             if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
                 self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
                 return None;
             }
-            return self.format(leaf).map(Format::Named);
+            return Some(self.format(leaf)?.of(Format::Named));
         }
         let (word, rest) = match leaf.shape() {
             Shape::Word(word, rest) if vulkan::Format::from_name(word).is_some() => (word, rest),
@@ -207,91 +186,108 @@ impl Context<'_, '_> {
                     Some(_) => self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
                     None => None,
                 };
-                match hdr {
-                    Some(hdr) => self.truth(hdr).map(|hdr| Format::Color { hdr }),
-                    None => Some(Format::Color { hdr: false }),
-                }
+                let hdr = hdr.map_or_else(|| Some(Given::said(leaf, false)), |hdr| self.truth(hdr));
+                Some(hdr?.of(|hdr| Format::Color { hdr }))
             }
-            "Depth" => self.reader.bare(word, rest).map(|()| Format::Depth),
-            "DepthStencil" => self.reader.bare(word, rest).map(|()| Format::DepthStencil),
-            "Output" => self.reader.bare(word, rest).map(|()| Format::Output),
-            "Like" => self.like(leaf, rest).map(Format::Like),
+            "Like" => self.like(leaf, rest, Format::Like),
             name => {
                 self.reader.bare(word, rest)?;
-                vulkan::Format::from_name(name).map(Format::Named)
+                let format = match name {
+                    "Depth" => Format::Depth,
+                    "DepthStencil" => Format::DepthStencil,
+                    "Output" => Format::Output,
+                    name => Format::Named(vulkan::Format::from_name(name)?),
+                };
+                Some(Given::said(leaf, format))
             }
         }
     }
 
-    fn samples(&mut self, leaf: Leaf<'_>, image: &Option<Name>) -> Option<Decided<Samples>> {
-        let (count, because): Decided<i64> = match leaf.shape() {
+    fn samples(&mut self, leaf: Leaf<'_>, image: Option<&Name>) -> Option<Given<Decided<Samples>>> {
+        let known = |count: i64| u32::try_from(count).ok().filter(|count| SAMPLE_COUNTS.contains(count));
+        let count = match leaf.shape() {
             Shape::Text => {
                 let words = ("a whole number", Some("a whole number"));
-                let Evaluated { value, because, setting } =
-                    self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
-                let odd =
-                    |setting: &Parameter| setting.one_of().iter().copied().find(|count| !SAMPLE_COUNTS.contains(count));
+                let (count, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+                let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| known(*count).is_none());
                 if let Some(odd) = setting.and_then(odd) {
                     let message = format!("this setting allows {odd}, which is no sample count");
                     self.reader.wrong(leaf, message, &SAMPLES.forms());
                     return None;
                 }
-                let Value::Integer(count) = value else { return None };
-                (count, because)
+                typed(count, whole_number)?
             }
             Shape::Number => {
                 let count = self.reader.integer(leaf)?;
-                if !SAMPLE_COUNTS.contains(&count) {
+                if known(count).is_none() {
                     self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                     return None;
                 }
-                (count, None)
+                Given::said(leaf, count)
             }
             _ => {
                 let (_, rest) = self.reader.one_of(leaf, &SAMPLES)?;
-                return self.like(leaf, rest).map(|of| (Samples::Like(of), None));
+                return self.like(leaf, rest, Samples::Like);
             }
         };
-        if !SAMPLE_COUNTS.contains(&count) {
-            let why =
-                because.map(|because: Arc<str>| format!(" ({})", self.scope.within_view(&because))).unwrap_or_default();
-            let name = image.as_ref().map_or("", |name| &*name.text);
-            let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
+        let name = image.map_or_else(|| "".into(), |name| name.text.clone());
+        count.checked(self.reader, move |count, view| {
+            if let Some(known) = known(count.value) {
+                return Ok(count.map(|_| Samples::Count(known)));
+            }
+            let why = count.because.as_ref().map(|because| format!(" ({})", within_view(view, because)));
+            let message = format!("image `{name}` can't have {} samples{}", count.value, why.unwrap_or_default());
             let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-            self.fault(leaf, wrong.help(format!("sample counts are {allowed}")));
-            return None;
-        }
-        u32::try_from(count).ok().map(|count| (Samples::Count(count), because))
+            Err(Diagnostic::new(count.span, message).help(format!("sample counts are {allowed}")))
+        })
     }
 
-    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Mips> {
+    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Mips>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return self.whole(leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
+            return Some(self.whole_because(leaf, "number of mip levels", 1..=MOST_MIPS)?.of(Mips::Count));
         }
         let (word, rest) = self.reader.one_of(leaf, &MIPS)?;
         match word {
-            "Full" => self.reader.bare(word, rest).map(|()| Mips::Full),
-            _ => self.like(leaf, rest).map(Mips::Like),
+            "Full" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Mips::Full)),
+            _ => self.like(leaf, rest, Mips::Like),
         }
     }
 
-    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Layers> {
+    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Layers>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
-            return self.whole(leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
+            return Some(self.whole_because(leaf, "number of layers", 1..=MOST_LAYERS)?.of(Layers::Count));
         }
         let (_, rest) = self.reader.one_of(leaf, &LAYERS)?;
-        self.like(leaf, rest).map(Layers::Like)
+        self.like(leaf, rest, Layers::Like)
     }
 
-    fn shape(&mut self, leaf: Leaf<'_>) -> Option<ImageShape> {
+    fn shape(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ImageShape>>> {
         let (word, rest) = self.reader.one_of(leaf, &SHAPES)?;
         match word {
-            "D2" => self.reader.bare(word, rest).map(|()| ImageShape::D2),
-            "Cube" => self.reader.bare(word, rest).map(|()| ImageShape::Cube),
+            "D2" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::D2)),
+            "Cube" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::Cube)),
             _ => {
                 let [depth]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "D3(64)")?;
-                self.whole(depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
+                Some(self.whole_because(depth, "depth", 1..=i64::from(LARGEST_SIZE))?.of(ImageShape::D3))
             }
         }
     }
+}
+
+/// The value of a field of an image that may be absent; its place is then the image's name.
+fn or<'src, T: Kept>(
+    leaf: Option<Leaf<'src>>,
+    name: Span,
+    absent: T,
+    read: impl FnOnce(Leaf<'src>) -> Option<Given<Decided<T>>>,
+) -> Option<Given<Decided<T>>> {
+    match leaf {
+        Some(leaf) => Some(in_field(leaf, read(leaf)?)),
+        None => Some(Given::Known(Decided::said(name, absent))),
+    }
+}
+
+/// The value of a field of an image, as it is told outside of its entry.
+fn in_field<T: Kept>(leaf: Leaf<'_>, value: Given<Decided<T>>) -> Given<Decided<T>> {
+    value.at(leaf).within_view()
 }

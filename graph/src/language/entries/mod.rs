@@ -1,4 +1,4 @@
-//! One file per kind of entry: its field table, its reading and its evaluation.
+//! One file per kind of entry: its field table and its reading. What depends on values is asked for at each lowering.
 
 pub(crate) mod bindings;
 pub(crate) mod body;
@@ -16,6 +16,7 @@ pub(crate) mod parameters;
 pub(crate) mod parts;
 pub(crate) mod pass_fields;
 pub(crate) mod passes;
+pub(crate) mod pipeline;
 pub(crate) mod precision;
 pub(crate) mod presets;
 pub(crate) mod repeat;
@@ -25,6 +26,7 @@ pub(crate) mod sizes;
 pub(crate) mod stand_ins;
 pub(crate) mod targets;
 pub(crate) mod textures;
+pub(crate) mod told;
 pub(crate) mod transfer;
 pub(crate) mod uses;
 pub(crate) mod values;

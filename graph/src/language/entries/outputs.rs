@@ -6,7 +6,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Output, ResourceRef};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Evaluator, Given};
 use crate::ron::{Described, Form, Leaf, Shape, names};
 use crate::vulkan::Encoding;
 use std::collections::HashMap;
@@ -43,15 +43,51 @@ const ENCODINGS: [(&str, Encoding); 4] = [
 
 const NAME_ONE: &str = "name the image that is shown: `outputs: [\"…\"]`, in an extension `Insert(outputs: [\"…\"])`";
 
-impl Context<'_, '_> {
-    /// The images and buffers that leave the frame, each once.
-    pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Output>> {
+impl Context<'_> {
+    /// The images and buffers that leave the frame.
+    pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Option<Given<Output>>>> {
         let leaves = self.reader.list(list, "`outputs`")?;
         if leaves.is_empty() {
             self.reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
             return None;
         }
-        let outputs: Vec<Option<Output>> = leaves.into_iter().map(|leaf| self.output(leaf)).collect();
+        Some(leaves.into_iter().map(|leaf| self.output(leaf)).collect())
+    }
+
+    fn output(&mut self, leaf: Leaf<'_>) -> Option<Given<Output>> {
+        let Shape::Parentheses = leaf.shape() else {
+            let resource = self.resource(leaf)?;
+            return Some(resource.map(|resource| Output { resource, after: None, encoding: None, eye: None }));
+        };
+        let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
+        let (resource, of) = match (fields.image, fields.buffer) {
+            (Some(image), None) => (self.image(image).map(|image| image.map(ResourceRef::from)), lifetimes::Of::Image),
+            (None, Some(buffer)) => {
+                (self.buffer(buffer).map(|buffer| buffer.map(ResourceRef::from)), lifetimes::Of::Buffer)
+            }
+            _ => {
+                let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
+                self.reader.wrong(leaf, "an output is one image or one buffer", help);
+                return None;
+            }
+        };
+        let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
+        let encoding = match (fields.encoding, of) {
+            (Some(leaf), lifetimes::Of::Buffer) => {
+                self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
+                None
+            }
+            (encoding, _) => values::optional_choice(self.reader, encoding, "an encoding", &ENCODINGS),
+        };
+        let (after, encoding) = (after?, encoding?);
+        Some(resource?.map(move |resource| Output { resource, after, encoding, eye: None }))
+    }
+}
+
+impl Evaluator<'_, '_> {
+    /// The images and buffers that leave the frame, each once.
+    pub(crate) fn outputs(&mut self, outputs: &[Option<Given<Output>>]) -> Option<Vec<Output>> {
+        let outputs: Vec<Option<Output>> = outputs.iter().map(|output| self.put_in(output)).collect();
         let mut first = HashMap::new();
         for output in outputs.iter().flatten() {
             let ResourceRef { resource, span } = output.resource;
@@ -62,32 +98,5 @@ impl Context<'_, '_> {
             }
         }
         outputs.into_iter().collect()
-    }
-
-    fn output(&mut self, leaf: Leaf<'_>) -> Option<Output> {
-        let Shape::Parentheses = leaf.shape() else {
-            return Some(Output { resource: self.resource(leaf)?, after: None, encoding: None, eye: None });
-        };
-        let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
-        let (resource, of) = match (fields.image, fields.buffer) {
-            (Some(image), None) => (self.image(image).map(ResourceRef::from), lifetimes::Of::Image),
-            (None, Some(buffer)) => (self.buffer(buffer).map(ResourceRef::from), lifetimes::Of::Buffer),
-            _ => {
-                let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
-                self.reader.wrong(leaf, "an output is one image or one buffer", help);
-                return None;
-            }
-        };
-        let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
-        let encoding = match (fields.encoding, of) {
-            (Some(leaf), lifetimes::Of::Image) => values::choice(self.reader, leaf, "an encoding", &ENCODINGS)
-                .map(|encoding| Some(leaf.spanned(encoding))),
-            (Some(leaf), lifetimes::Of::Buffer) => {
-                self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
-                None
-            }
-            (None, _) => Some(None),
-        };
-        Some(Output { resource: resource?, after: after?, encoding: encoding?, eye: None })
     }
 }

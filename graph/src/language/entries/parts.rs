@@ -3,8 +3,8 @@
 use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
-use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Part, Selection};
-use crate::language::scope::Context;
+use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
+use crate::language::scope::{Context, Given, Kept, given};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -115,21 +115,32 @@ pub(crate) struct Selected<'src> {
 
 const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Aspects::STENCIL)];
 
-impl Context<'_, '_> {
+/// A part of an image, or of a buffer.
+pub(crate) enum Either {
+    Image(Given<ImagePart>),
+    Buffer(Given<BufferPart>),
+}
+
+impl Either {
+    /// The part, whatever it is of.
+    pub(crate) fn part(self) -> Given<Part> {
+        match self {
+            Either::Image(part) => part.map(Part::Image),
+            Either::Buffer(part) => part.map(Part::Buffer),
+        }
+    }
+}
+
+impl Context<'_> {
     /// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
-    pub(crate) fn part(&mut self, leaf: Leaf<'_>) -> Option<Part> {
+    pub(crate) fn part(&mut self, leaf: Leaf<'_>) -> Option<Given<Part>> {
         match leaf.shape() {
-            Shape::Text => Some(match self.resource(leaf)?.resource {
-                Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span: leaf.span() })),
-                Resource::Buffer(index) => Part::Buffer(BufferPart::whole(BufferRef { index, span: leaf.span() })),
-            }),
-            Shape::Word(..) => self.selected_image(leaf, Selected::default()).map(Part::Image),
-            Shape::Parentheses => {
-                let fields: PartFields<'_> = self.reader.read(leaf, "a part of an image or buffer")?;
-                let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
-                let selected = Selected { mip, mips, layer, layers, plane, previous };
-                self.part_of_either(leaf, image, buffer, selected)
-            }
+            Shape::Text => Some(self.resource(leaf)?.map(|ResourceRef { resource, span }| match resource {
+                Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span })),
+                Resource::Buffer(index) => Part::Buffer(BufferPart::whole(BufferRef { index, span })),
+            })),
+            Shape::Word(..) => Some(self.selected_image(leaf, Selected::default())?.map(Part::Image)),
+            Shape::Parentheses => self.part_by_fields(leaf).map(Either::part),
             _ => {
                 self.reader.expected(
                     leaf,
@@ -140,6 +151,13 @@ impl Context<'_, '_> {
         }
     }
 
+    fn part_by_fields(&mut self, leaf: Leaf<'_>) -> Option<Either> {
+        let fields: PartFields<'_> = self.reader.read(leaf, "a part of an image or buffer")?;
+        let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
+        let selected = Selected { mip, mips, layer, layers, plane, previous };
+        self.part_of_either(leaf, image, buffer, selected)
+    }
+
     /// The part of whichever of `image` and `buffer` is there.
     pub(crate) fn part_of_either(
         &mut self,
@@ -147,15 +165,15 @@ impl Context<'_, '_> {
         image: Option<Leaf<'_>>,
         buffer: Option<Leaf<'_>>,
         selected: Selected<'_>,
-    ) -> Option<Part> {
+    ) -> Option<Either> {
         match (image, buffer) {
-            (Some(image), None) => self.selected_image(image, selected).map(Part::Image),
+            (Some(image), None) => self.selected_image(image, selected).map(Either::Image),
             (None, Some(buffer)) => {
                 let Selected { mip, mips, layer, layers, plane, previous } = selected;
                 for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
                     self.reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
                 }
-                self.named_buffer(buffer, previous).map(Part::Buffer)
+                self.named_buffer(buffer, previous).map(Either::Buffer)
             }
             (Some(_), Some(buffer)) => {
                 self.reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
@@ -173,11 +191,11 @@ impl Context<'_, '_> {
     }
 
     /// `"name"` or `(image: "name", mip: 1, …)`.
-    pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<ImagePart> {
+    pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<Given<ImagePart>> {
         if let Shape::Parentheses = leaf.shape() {
-            return match self.part(leaf)? {
-                Part::Image(part) => Some(part),
-                Part::Buffer(_) => {
+            return match self.part_by_fields(leaf)? {
+                Either::Image(part) => Some(part),
+                Either::Buffer(_) => {
                     self.reader.wrong(leaf, "an image is needed here", "");
                     None
                 }
@@ -187,11 +205,11 @@ impl Context<'_, '_> {
     }
 
     /// `"name"` or `(buffer: "name", previous: 1)`.
-    pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<BufferPart> {
+    pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<Given<BufferPart>> {
         if let Shape::Parentheses = leaf.shape() {
-            return match self.part(leaf)? {
-                Part::Buffer(part) => Some(part),
-                Part::Image(_) => {
+            return match self.part_by_fields(leaf)? {
+                Either::Buffer(part) => Some(part),
+                Either::Image(_) => {
                     self.reader.wrong(leaf, "a buffer is needed here", "");
                     None
                 }
@@ -200,14 +218,14 @@ impl Context<'_, '_> {
         self.named_buffer(leaf, None)
     }
 
-    fn named_buffer(&mut self, buffer: Leaf<'_>, previous: Option<Leaf<'_>>) -> Option<BufferPart> {
+    fn named_buffer(&mut self, buffer: Leaf<'_>, previous: Option<Leaf<'_>>) -> Option<Given<BufferPart>> {
         let buffer = self.buffer(buffer);
         let previous = self.frames_back(previous);
-        Some(BufferPart { buffer: buffer?, previous: previous? })
+        Some(given((buffer?, previous?), |(buffer, previous)| BufferPart { buffer, previous }))
     }
 
     /// The part of the image that `name` names.
-    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<ImagePart> {
+    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<Given<ImagePart>> {
         let image = match name.shape() {
             Shape::Word(..) => self.eyes_image(name),
             _ => self.image(name).map(|image| (image, None)),
@@ -216,12 +234,19 @@ impl Context<'_, '_> {
         let layers = self.selection(selected.layer, selected.layers, "layer", "number of layers");
         let plane = values::optional_choice(self.reader, selected.plane, "a plane", &PLANES);
         let previous = self.frames_back(selected.previous);
-        let (image, eye) = image?;
-        Some(ImagePart { image, mips: mips?, layers: layers?, plane: plane?, previous: previous?, eye })
+        let ((image, eye), plane) = (image?, plane?);
+        Some(given((image, mips?, layers?, previous?), move |(image, mips, layers, previous)| ImagePart {
+            image,
+            mips,
+            layers,
+            plane,
+            previous,
+            eye,
+        }))
     }
 
     /// `Eye(Left, "name")`.
-    fn eyes_image(&mut self, leaf: Leaf<'_>) -> Option<(ImageRef, Option<Spanned<Eye>>)> {
+    fn eyes_image(&mut self, leaf: Leaf<'_>) -> Option<(Given<ImageRef>, Option<Spanned<Eye>>)> {
         let (_, rest) = self.reader.one_of(leaf, &EYES)?;
         let [eye, name]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
         let image = self.image(name);
@@ -229,38 +254,38 @@ impl Context<'_, '_> {
         Some((image?, Some(eye.spanned(chosen))))
     }
 
-    fn frames_back(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Spanned<u32>>> {
-        optional(leaf, |leaf| {
-            let frames = self.whole(leaf, "number of frames to look back", 1..=MOST_FRAMES);
-            frames.map(|frames| leaf.spanned(frames))
-        })
+    fn frames_back(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Given<Spanned<u32>>>> {
+        optional(leaf, |leaf| self.whole_at(leaf, "number of frames to look back", 1..=MOST_FRAMES))
     }
 
     fn selection(
         &mut self,
         first: Option<Leaf<'_>>,
         count: Option<Leaf<'_>>,
-        one: &str,
-        several: &str,
-    ) -> Option<Selection> {
-        let first = optional(first, |leaf| self.whole(leaf, one, 0..=MOST_PARTS).map(|number| leaf.spanned(number)));
-        let count = optional(count, |leaf| {
-            let number = match leaf.shape() {
-                Shape::Word("Rest", None) => Some(Subresources::REMAINING),
-                Shape::Number | Shape::Text => self.whole(leaf, several, 1..=MOST_PARTS),
-                _ => {
-                    self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
-                    None
-                }
-            };
-            number.map(|number| leaf.spanned(number))
+        one: &'static str,
+        several: &'static str,
+    ) -> Option<Given<Selection>> {
+        let first = optional(first, |leaf| self.whole_at(leaf, one, 0..=MOST_PARTS));
+        let count = optional(count, |leaf| match leaf.shape() {
+            Shape::Word("Rest", None) => Some(Given::Known(leaf.spanned(Subresources::REMAINING))),
+            Shape::Number | Shape::Text => self.whole_at(leaf, several, 1..=MOST_PARTS),
+            _ => {
+                self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
+                None
+            }
         });
-        Some(Selection { first: first?, count: count? })
+        Some(given((first?, count?), |(first, count)| Selection { first, count }))
     }
 
-    /// The image of `Like("image")`.
-    pub(crate) fn like(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<ImageRef> {
+    /// What `make` makes of the image of `Like("image")`.
+    pub(crate) fn like<T: Kept>(
+        &mut self,
+        leaf: Leaf<'_>,
+        rest: Option<Leaf<'_>>,
+        make: fn(ImageRef) -> T,
+    ) -> Option<Given<Decided<T>>> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
-        self.image(image)
+        let span = leaf.span();
+        Some(self.image(image)?.map(move |image| Decided::said(span, make(image))))
     }
 }

@@ -3,88 +3,104 @@
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
 use super::values::optional;
-use crate::base::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::language::model::{Color, Depth, Pass};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, Parts};
 use crate::ron::{Name, Reader};
 use std::collections::HashMap;
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A pass. An expression that has no value is no mistake if the pass is off.
-    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> Option<Pass> {
+    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> Given<Pass> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);
-        let is_off = matches!(off, Some(Some(_)));
-        // What never comes to pass needs no values.
-        self.forgave = false;
-        let otherwise = self.leniently(!is_off, |context| optional(fields.otherwise, |leaf| context.stand_ins(leaf)));
-        let otherwise = match otherwise {
-            None if self.forgave => Some(Vec::new()),
-            otherwise => otherwise.map(Option::unwrap_or_default),
-        };
-        self.forgave = false;
-        let before = self.reader.errors.len();
-        let pass = self.leniently(is_off, |context| context.pass_parts(fields, name.as_ref()));
-        let idle = pass.is_none() && is_off && self.forgave && self.reader.errors.len() == before;
-        let (name, off, otherwise) = (name?, off?, otherwise?);
-        if idle {
-            return Some(Pass { off, otherwise, ..Pass::idle(name) });
-        }
-        let pass = Pass { off, otherwise, ..pass? };
-        bindings_differ(self.reader, &pass);
-        if let Some(leaf) = fields.otherwise {
-            stand_ins_make_sense(self.reader, fields.when.is_some(), leaf, Of::Pass, &pass);
-        }
-        Some(pass)
+        let otherwise = self.otherwise(fields.otherwise, fields.when);
+        let parts = self.pass_parts(fields, name.clone());
+        Given::asked(move |evaluator| {
+            let off = evaluator.put_in(&off);
+            let is_off = matches!(off, Some(Some(_)));
+            // What never comes to pass needs no values.
+            evaluator.forgave = false;
+            let stand_ins = evaluator.leniently(!is_off, |evaluator| match otherwise.as_ref()? {
+                Some(otherwise) => otherwise.stand_ins.evaluate(evaluator),
+                None => Some(Vec::new()),
+            });
+            let stand_ins = stand_ins.or_else(|| evaluator.forgave.then(Vec::new));
+            evaluator.forgave = false;
+            let before = evaluator.reader.errors.len();
+            let pass = evaluator.leniently(is_off, |evaluator| parts.evaluate(evaluator));
+            let idle = pass.is_none() && is_off && evaluator.forgave && evaluator.reader.errors.len() == before;
+            let (name, off, stand_ins) = (name.clone()?, off?, stand_ins?);
+            if idle {
+                return Some(Pass { off, otherwise: stand_ins, ..Pass::idle(name) });
+            }
+            let pass = Pass { off, otherwise: stand_ins, ..pass? };
+            bindings_differ(evaluator.reader, &pass);
+            if let Some(Some(otherwise)) = &otherwise {
+                stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
+            }
+            Some(pass)
+        })
     }
 
-    /// What the pass does, with what.
-    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<&Name>) -> Option<Pass> {
-        let what = name.map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
+    /// What the pass does, with what. Each field is evaluated, even where another couldn't be read.
+    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Given<Pass> {
+        let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
         let work = self.work(fields, &what);
-        let sample = optional(fields.sample, |leaf| self.sampled(leaf)).map(Option::unwrap_or_default);
+        let sample = optional(fields.sample, |leaf| self.sampled(leaf));
         let storage = optional(fields.storage, |leaf| self.storage(leaf));
         let uniform = optional(fields.uniform, |leaf| self.uniforms(leaf));
         let vertex = optional(fields.vertex, |leaf| self.buffer_part(leaf));
         let index = optional(fields.index, |leaf| self.buffer_part(leaf));
         let color = optional(fields.color, |leaf| self.color_targets(leaf));
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
-        let alpha_to_coverage =
-            optional(fields.alpha_to_coverage, |leaf| self.truth(leaf).map(|covers| covers.then(|| leaf.span())));
+        let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let params = optional(fields.params, |leaf| self.params(leaf));
-        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf));
-        if let (Some(color), Some(depth)) = (&color, &depth) {
-            targets_make_sense(self.reader, fields, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
-        }
-        let (sample, left_out) = sample?;
-        Some(Pass {
-            work: work?,
-            sample,
-            left_out,
-            storage: storage?.unwrap_or_default(),
-            uniform: uniform?.unwrap_or_default(),
-            vertex: vertex?,
-            index: index?,
-            color: color?.unwrap_or_default(),
-            depth: depth?,
-            alpha_to_coverage: alpha_to_coverage?.flatten(),
-            params: params?.unwrap_or_default(),
-            side_effect: side_effect?.unwrap_or_default(),
-            ..Pass::idle(name?.clone())
+        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(Given::alone));
+        let (draws, span) = (fields.draw.is_some(), fields.name.span());
+        Given::asked(move |evaluator| {
+            let work = evaluator.put_in(&work);
+            let sample = evaluator.put_in(&sample);
+            let storage = evaluator.put_in(&storage);
+            let uniform = evaluator.put_in(&uniform);
+            let vertex = evaluator.put_in(&vertex);
+            let index = evaluator.put_in(&index);
+            let color = evaluator.put_in(&color);
+            let depth = evaluator.put_in(&depth);
+            let alpha_to_coverage = evaluator.put_in(&alpha_to_coverage);
+            let params = evaluator.put_in(&params);
+            let side_effect = evaluator.put_in(&side_effect);
+            if let (Some(color), Some(depth)) = (&color, &depth) {
+                let draws = draws.then_some(span);
+                targets_make_sense(evaluator.reader, draws, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
+            }
+            let (sample, left_out) = sample?.unwrap_or_default();
+            Some(Pass {
+                work: work?,
+                sample,
+                left_out,
+                storage: storage?.unwrap_or_default(),
+                uniform: uniform?.unwrap_or_default(),
+                vertex: vertex?,
+                index: index?,
+                color: color?.unwrap_or_default(),
+                depth: depth?,
+                alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
+                params: params?.unwrap_or_default(),
+                side_effect: side_effect?.unwrap_or_default(),
+                ..Pass::idle(name.clone()?)
+            })
         })
     }
 }
 
 /// A draw has targets, and none of them twice.
-fn targets_make_sense(
-    reader: &mut Reader,
-    fields: &PassFields<'_>,
-    what: &str,
-    color: &[Color],
-    depth: Option<&Depth>,
-) {
-    if fields.draw.is_some() && color.is_empty() && depth.is_none() {
-        let nothing = Diagnostic::new(fields.name.span(), format!("{what} draws into nothing"));
+fn targets_make_sense(reader: &mut Reader, draws: Option<Span>, what: &str, color: &[Color], depth: Option<&Depth>) {
+    if let Some(draws) = draws
+        && color.is_empty()
+        && depth.is_none()
+    {
+        let nothing = Diagnostic::new(draws, format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
     let mut first = HashMap::new();

@@ -1,8 +1,8 @@
 //! How exactly images hold what they are asked to: colour (`color`) and depth (`depth_format`).
 
 use super::values::said;
-use crate::language::model::{Precision, Precisions};
-use crate::language::scope::Context;
+use crate::language::model::{Decided, Precision, Precisions};
+use crate::language::scope::{Context, Given};
 use crate::ron::{Form, Leaf, Word, Words};
 
 /// What `Color` becomes.
@@ -47,20 +47,22 @@ static DEPTHS: Words = Words {
 const MEANINGS: [(&str, Precision); 3] =
     [("Smallest", Precision::Smallest), ("Balanced", Precision::Balanced), ("Exact", Precision::Exact)];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// What a pipeline's `color` says.
-    pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<Precisions> {
+    pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
         self.precision(leaf, "color", &COLORS)
     }
 
     /// What a pipeline's `depth_format` says.
-    pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<Precisions> {
+    pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
         self.precision(leaf, "depth_format", &DEPTHS)
     }
 
-    fn precision(&mut self, leaf: Leaf<'_>, field: &str, words: &'static Words) -> Option<Precisions> {
-        let (word, because) = self.bare_word(leaf, words)?;
-        let (word, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
-        Some(Precisions { precision, span: leaf.span(), said: said(field, word, because) })
+    fn precision(&mut self, leaf: Leaf<'_>, field: &'static str, words: &'static Words) -> Option<Given<Precisions>> {
+        let span = leaf.span();
+        self.bare_word(leaf, words)?.then(move |Decided { value: word, because, .. }| {
+            let (_, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+            Some(Precisions { precision, span, said: said(field, word, because) })
+        })
     }
 }

@@ -1,5 +1,8 @@
 //! `repeat`: how often an entry stands there.
 
+use super::told::Told;
+use crate::base::Span;
+use crate::language::scope::{Context, Given};
 use crate::ron::{Form, Leaf, Name, Plain, Reader};
 
 /// A pipeline has at most this many images, buffers, passes and uses of fragments, made and discarded ones together.
@@ -9,34 +12,46 @@ pub(crate) const MOST_THINGS: u32 = 1_000_000;
 pub(crate) const REPEAT: Form = Form::Tuple(&[Form::Plain(Plain::Name), Form::Whole(0, MOST_THINGS as i64)]);
 
 /// How often something stands there.
-#[derive(Debug, Clone)]
-pub(crate) enum Repeat<'t> {
+pub(crate) enum Repeat {
     /// Once, under its own name.
     Once,
     /// As often as `count` says, the index counting from 0.
     Times {
         /// The name of the index.
         index: Name,
-        /// The number, or an expression.
-        count: Leaf<'t>,
+        /// Where the number stands.
+        span: Span,
+        /// The number.
+        count: Told<Given<u32>>,
     },
     /// That couldn't be read, which was reported.
     Broken,
 }
 
-impl<'t> Repeat<'t> {
+impl Repeat {
     /// `("i", COUNT)`
-    pub(crate) fn read(reader: &mut Reader, leaf: Option<Leaf<'t>>) -> Repeat<'t> {
+    pub(crate) fn read(context: &mut Context<'_>, leaf: Option<Leaf<'_>>) -> Repeat {
         let Some(leaf) = leaf else { return Repeat::Once };
-        let parts: Option<[Leaf<'t>; 2]> = reader.read(leaf, "`(\"i\", count)`");
-        match parts.and_then(|[index, count]| Some((reader.name(index, "an index")?, count))) {
-            Some((index, count)) => Repeat::Times { index, count },
-            None => Repeat::Broken,
-        }
+        let Context { reader, scope } = context;
+        let parts: Option<[Leaf<'_>; 2]> = reader.read(leaf, "`(\"i\", count)`");
+        let Some((index, count)) = parts.and_then(|[index, count]| Some((reader.name(index, "an index")?, count)))
+        else {
+            return Repeat::Broken;
+        };
+        scope.symbols.differs(reader, &index);
+        let (span, most) = (count.span(), i64::from(MOST_THINGS));
+        let read =
+            |reader: &mut Reader| Context { reader, scope: *scope }.whole(count, "number of repetitions", 0..=most);
+        Repeat::Times { index, span, count: Told::read(reader, read) }
     }
 
     /// Whether it makes a list.
     pub(crate) const fn is_list(&self) -> bool {
         !matches!(self, Repeat::Once)
+    }
+
+    /// The name of the index, if there is one.
+    pub(crate) const fn index(&self) -> Option<&Name> {
+        if let Repeat::Times { index, .. } = self { Some(index) } else { None }
     }
 }

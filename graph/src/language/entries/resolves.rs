@@ -2,8 +2,8 @@
 
 use super::values;
 use crate::frame::ResolveWay;
-use crate::language::model::Resolves;
-use crate::language::scope::Context;
+use crate::language::model::{Decided, Resolves};
+use crate::language::scope::{Context, Given};
 use crate::ron::{Form, Leaf, Spanned, Word, Words};
 use crate::vulkan::ResolveMode;
 
@@ -55,24 +55,22 @@ const MEANINGS: [(&str, ResolveWay); 6] = [
     ("Weighted", ResolveWay::Weighted),
 ];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// What an image's `resolve` says.
-    pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<Resolves> {
-        let (word, because) = self.bare_word(leaf, &RESOLVES)?;
-        let (word, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
-        Some(Resolves {
-            resolve: Spanned { value: resolve, span: leaf.span() },
-            said: values::said("resolve", word, because),
+    pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<Given<Resolves>> {
+        let span = leaf.span();
+        self.bare_word(leaf, &RESOLVES)?.then(move |Decided { value: word, because, .. }| {
+            let (_, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+            Some(Resolves { resolve: Spanned { value: resolve, span }, said: values::said("resolve", word, because) })
         })
     }
 
     /// A pipeline's `depth`; `None`: `Exact`, the default.
-    pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<Option<Resolves>> {
-        let (word, because) = self.bare_word(leaf, &POLICIES)?;
-        if word == "Exact" {
-            return Some(None);
-        }
-        let resolve = Spanned { value: ResolveWay::By(ResolveMode::SampleZero), span: leaf.span() };
-        Some(Some(Resolves { resolve, said: values::said("depth", word, because) }))
+    pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Resolves>>> {
+        let resolve = leaf.spanned(ResolveWay::By(ResolveMode::SampleZero));
+        Some(self.bare_word(leaf, &POLICIES)?.map(move |Decided { value: word, because, .. }| {
+            let said = || values::said("depth", word, because);
+            (word != "Exact").then(|| Resolves { resolve, said: said() })
+        }))
     }
 }

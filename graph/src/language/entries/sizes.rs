@@ -1,11 +1,11 @@
 //! Sizes of images: a number of texels, or a share of the size of a view or another image.
 
 use super::parts;
-use super::values::Decided;
+use super::values::optional;
 use crate::base::{Diagnostic, shown_number};
 use crate::fields;
-use crate::language::model::{LARGEST_SIZE, SettingKind, Size};
-use crate::language::scope::{Context, Quoted};
+use crate::language::model::{Decided, LARGEST_SIZE, Size};
+use crate::language::scope::{Context, Given, all, given, within_view};
 use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
 
 fields! {
@@ -49,63 +49,63 @@ static SIZES: Words = Words {
 /// One side of an image.
 pub(crate) const EXTENT: Form = Form::Whole(1, LARGEST_SIZE as i64);
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A size, and what decides its factor.
-    pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<Decided<Size>> {
+    pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Size>>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
         match word {
-            "Output" => self.reader.bare(word, rest).map(|()| (Size::Output, None)),
-            "Like" => self.like(leaf, rest).map(|of| (Size::Like(of), None)),
+            "Output" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Size::Output)),
+            "Like" => self.like(leaf, rest, Size::Like),
             "Fixed" => {
-                let [width, height]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
-                let (width, height) = (self.extent(width), self.extent(height));
-                Some((Size::Fixed([width?, height?]), None))
+                let span = leaf.span();
+                Some(given(self.fixed(leaf, rest)?, move |extent| Decided::said(span, Size::Fixed(extent))))
             }
             "Dynamic" => {
                 let fields = self.reader.inside::<DynamicFields<'_>>(leaf, rest, "Dynamic(by: …, up_to: …)")?;
-                let of = fields.of.map(|of| self.image(of));
+                let of = optional(fields.of, |of| self.image(of));
                 let (by, up_to) = (self.scale(fields.by), self.scale(fields.up_to));
-                let ((by, because), (up_to, _)) = (by?, up_to?);
-                if by > up_to {
-                    let message = format!("the factor {} is more than there is room for", shown_number(by));
-                    let wrong = Diagnostic::new(fields.by.span(), message);
-                    let remark = self.scope.within_view(because.as_deref().unwrap_or_default());
-                    let most = format!("at most {}", shown_number(up_to));
-                    self.fault(fields.by, wrong.remark(remark).label(fields.up_to.span(), most));
-                    return None;
-                }
-                match of {
-                    Some(of) => Some((Size::Dynamic { by, up_to, of: Some(of?) }, because)),
-                    None => Some((Size::Dynamic { by, up_to, of: None }, because)),
-                }
+                let by = by?;
+                let said = by.is_known();
+                let factors = given((by, up_to?, of?), |factors| factors);
+                factors.checked_as(self.reader, said, move |(by, up_to, of), view| {
+                    if by.value > up_to.value {
+                        let message = format!("the factor {} is more than there is room for", shown_number(by.value));
+                        let wrong = Diagnostic::new(by.span, message).remark(within_view(view, by.remark()));
+                        return Err(wrong.label(up_to.span, format!("at most {}", shown_number(up_to.value))));
+                    }
+                    Ok(by.map(|by| Size::Dynamic { by, up_to: up_to.value, of }))
+                })
             }
             _ => {
-                let both = rest.and_then(Leaf::tuple);
-                let (by, of) = match both {
-                    Some([by, of]) => (by, Some(self.image(of))),
+                let (by, of) = match rest.and_then(Leaf::tuple) {
+                    Some([by, of]) => (by, Some(of)),
                     None => {
                         let [by]: [Leaf<'_>; 1] =
                             self.reader.inside(leaf, rest, "Scaled(0.5)` or `Scaled(0.5, \"image\")")?;
                         (by, None)
                     }
                 };
-                let (by, because) = self.scale(by)?;
-                match of {
-                    Some(of) => Some((Size::Scaled { by, of: Some(of?) }, because)),
-                    None => Some((Size::Scaled { by, of: None }, because)),
-                }
+                let of = optional(of, |of| self.image(of));
+                let by = self.scale(by);
+                Some(given((by?, of?), |(by, of)| by.map(|by| Size::Scaled { by, of })))
             }
         }
     }
 
+    /// Width and height of `Fixed(width, height)`.
+    pub(crate) fn fixed(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<[Given<u32>; 2]> {
+        let sides: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
+        all(sides.map(|side| self.extent(side)))
+    }
+
     /// One side of an image, in texels.
-    pub(crate) fn extent(&mut self, leaf: Leaf<'_>) -> Option<u32> {
+    fn extent(&mut self, leaf: Leaf<'_>) -> Option<Given<u32>> {
         if let Shape::Text = leaf.shape() {
             return self.whole(leaf, "size", 1..=i64::from(LARGEST_SIZE));
         }
         let extent = self.reader.integer(leaf)?;
         match u32::try_from(extent) {
-            Ok(extent @ 1..=LARGEST_SIZE) => Some(extent),
+            Ok(extent @ 1..=LARGEST_SIZE) => Some(Given::Known(extent)),
             _ => {
                 self.reader.wrong(leaf, format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"), "");
                 None
@@ -114,25 +114,21 @@ impl Context<'_, '_> {
     }
 
     /// A factor above 0, and what decides it.
-    pub(crate) fn scale(&mut self, leaf: Leaf<'_>) -> Option<Decided<f64>> {
-        if let Shape::Text = leaf.shape()
-            && self.scope.symbols.settings
-            && let Quoted::Parameter(parameter, _) =
-                self.quoted(leaf, SettingKind::is_number, "a number", Some("a number"))?
+    pub(crate) fn scale(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<f64>>> {
+        if let Some(parameter) = self.setting(leaf)
             && let Some(least) = parameter.least().filter(|least| *least <= 0.0)
         {
             let message = format!("a scale is greater than 0, but this setting allows {}", shown_number(least));
             self.reader.wrong(leaf, message, "let the setting begin above 0");
             return None;
         }
-        let (by, because) = self.number_because(leaf, "a scale")?;
-        if by <= 0.0 {
-            let wrong = format!("a scale is greater than 0, found {}", shown_number(by));
-            let because = self.scope.within_view(because.as_deref().unwrap_or_default());
+        self.number_because(leaf, "a scale")?.checked(self.reader, move |by, view| {
+            if by.value > 0.0 {
+                return Ok(by);
+            }
+            let wrong = format!("a scale is greater than 0, found {}", shown_number(by.value));
             let help = "write a number above 0: `1` is the same size, `0.5` half the width and half the height";
-            self.fault(leaf, Diagnostic::new(leaf.span(), wrong).remark(because).help(help));
-            return None;
-        }
-        Some((by, because))
+            Err(Diagnostic::new(by.span, wrong).remark(within_view(view, by.remark())).help(help))
+        })
     }
 }

@@ -1,11 +1,12 @@
 //! `otherwise`: what fills the targets of a pass that is off.
 
-use super::{parts, values};
-use crate::base::Diagnostic;
+use super::parts;
+use super::values::{self, optional};
+use crate::base::{Diagnostic, Span};
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Forward, Pass, StandIn};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, given};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
 use std::collections::HashMap;
 
@@ -53,27 +54,38 @@ fields! {
     }
 }
 
-impl Context<'_, '_> {
+/// What fills images when a pass or use is off, as a file says it.
+pub(crate) struct Otherwise {
+    pub(crate) span: Span,
+    pub(crate) stand_ins: Vec<Given<StandIn>>,
+    /// Whether it can be off.
+    pub(crate) conditional: bool,
+}
+
+impl Context<'_> {
     /// What targets take when the pass is off: one or several.
-    pub(crate) fn stand_ins(&mut self, leaf: Leaf<'_>) -> Option<Vec<StandIn>> {
-        if let Shape::List = leaf.shape() {
-            let entries = self.reader.list(leaf, "`otherwise`")?;
-            let all: Vec<Option<StandIn>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
-            return all.into_iter().collect();
-        }
-        self.stand_in(leaf).map(|one| vec![one])
+    pub(crate) fn otherwise(&mut self, leaf: Option<Leaf<'_>>, when: Option<Leaf<'_>>) -> Option<Option<Otherwise>> {
+        optional(leaf, |leaf| {
+            let entries = match leaf.shape() {
+                Shape::List => self.reader.list(leaf, "`otherwise`")?,
+                _ => vec![leaf],
+            };
+            let all: Vec<Option<Given<StandIn>>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
+            let stand_ins = all.into_iter().collect::<Option<_>>()?;
+            Some(Otherwise { span: leaf.span(), stand_ins, conditional: when.is_some() })
+        })
     }
 
-    fn stand_in(&mut self, leaf: Leaf<'_>) -> Option<StandIn> {
+    fn stand_in(&mut self, leaf: Leaf<'_>) -> Option<Given<StandIn>> {
         let (word, rest) = self.reader.one_of(leaf, &STAND_INS)?;
         if word == "Clear" {
             let fields: ClearFields<'_> = self.reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
             let (to, value) = (self.image(fields.image), self.fill(fields.value));
-            return Some(StandIn::Clear { to: to?, value: fields.value.spanned(value?) });
+            return Some(given((to?, value?), |(to, value)| StandIn::Clear { to, value }));
         }
         let fields: ForwardFields<'_> = self.reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
         let (from, to) = (self.image(fields.from), self.image(fields.to));
-        Some(StandIn::Forward(Forward { from: from?, to: to? }))
+        Some(given((from?, to?), |(from, to)| StandIn::Forward(Forward { from, to })))
     }
 }
 
@@ -102,9 +114,9 @@ impl Of {
 }
 
 /// Stand-ins fill images of the pass's own, each once, from other images.
-pub(crate) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, of: Of, pass: &Pass) {
-    if !conditional {
-        let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
+pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &Otherwise, of: Of, pass: &Pass) {
+    if !otherwise.conditional {
+        let idle = Diagnostic::new(otherwise.span, "`otherwise` never comes to pass: there is no `when`");
         reader.report(idle.help("add `when: …`, or remove `otherwise`"));
     }
     let mut first = HashMap::new();

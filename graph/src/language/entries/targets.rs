@@ -1,12 +1,12 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
 use super::parts::{self, Selected};
-use super::values::{self, choice, optional};
+use super::values::{self, at, choice, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, all, given};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
@@ -111,27 +111,28 @@ const OPERATIONS: [(&str, StencilOp); 6] = [
     ("Invert", StencilOp::Invert),
 ];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// The list of colour targets.
-    pub(crate) fn color_targets(&mut self, leaf: Leaf<'_>) -> Option<Vec<Color>> {
+    pub(crate) fn color_targets(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Color>>> {
         let entries = self.reader.list(leaf, "`color`")?;
-        let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| self.color_target(entry)).collect();
+        let targets: Vec<Option<Given<Color>>> = entries.into_iter().map(|entry| self.color_target(entry)).collect();
         targets.into_iter().collect()
     }
 
-    fn color_target(&mut self, leaf: Leaf<'_>) -> Option<Color> {
+    fn color_target(&mut self, leaf: Leaf<'_>) -> Option<Given<Color>> {
         let replace = leaf.spanned(Blend::Replace);
         match leaf.shape() {
-            Shape::Text | Shape::Word(..) => Some(Color { part: self.image_part(leaf)?, clear: None, blend: replace }),
+            Shape::Text | Shape::Word(..) => {
+                Some(self.image_part(leaf)?.map(move |part| Color { part, clear: None, blend: replace }))
+            }
             Shape::Parentheses => {
                 let fields: ColorTargetFields<'_> = self.reader.read(leaf, "a colour target")?;
                 let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
                 let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
                 let clear = optional(fields.clear, |clear| self.clear_color(clear));
-                let blend = fields.blend.map_or(Some(replace), |blend| {
-                    choice(self.reader, blend, "a blend", &BLENDS).map(|value| blend.spanned(value))
-                });
-                Some(Color { part: part?, clear: clear?, blend: blend? })
+                let blend = values::optional_choice(self.reader, fields.blend, "a blend", &BLENDS);
+                let blend = blend?.unwrap_or(replace);
+                Some(given((part?, clear?), move |(part, clear)| Color { part, clear, blend }))
             }
             _ => {
                 self.reader.expected(
@@ -144,22 +145,32 @@ impl Context<'_, '_> {
     }
 
     /// The depth target.
-    pub(crate) fn depth_target(&mut self, leaf: Leaf<'_>) -> Option<Depth> {
-        let (test, write) = (CompareOp::GreaterOrEqual, true);
+    pub(crate) fn depth_target(&mut self, leaf: Leaf<'_>) -> Option<Given<Depth>> {
+        let test = CompareOp::GreaterOrEqual;
         match leaf.shape() {
-            Shape::Text | Shape::Word(..) => {
-                let part = self.image_part(leaf)?;
-                Some(Depth { part, clear: None, test, write, stencil: None })
-            }
+            Shape::Text | Shape::Word(..) => Some(self.image_part(leaf)?.map(move |part| Depth {
+                part,
+                clear: None,
+                test,
+                write: true,
+                stencil: None,
+            })),
             Shape::Parentheses => {
                 let fields: DepthTargetFields<'_> = self.reader.read(leaf, "a depth target")?;
                 let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
                 let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
                 let clear = optional(fields.clear, |clear| self.clear_depth(clear));
                 let test = fields.test.map_or(Some(test), |test| choice(self.reader, test, "a depth test", &TESTS));
-                let write = fields.write.map_or(Some(write), |write| self.truth(write));
+                let write = fields.write.map_or(Some(Given::Known(true)), |write| self.truth(write).map(Given::alone));
                 let stencil = optional(fields.stencil, |leaf| self.stencil(leaf));
-                Some(Depth { part: part?, clear: clear?, test: test?, write: write?, stencil: stencil? })
+                let test = test?;
+                Some(given((part?, clear?, write?, stencil?), move |(part, clear, write, stencil)| Depth {
+                    part,
+                    clear,
+                    test,
+                    write,
+                    stencil,
+                }))
             }
             _ => {
                 self.reader.expected(
@@ -172,7 +183,7 @@ impl Context<'_, '_> {
     }
 
     /// What happens to the stencil plane.
-    fn stencil(&mut self, leaf: Leaf<'_>) -> Option<Spanned<StencilState>> {
+    fn stencil(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<StencilState>>> {
         let Shape::Parentheses = leaf.shape() else {
             self.reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
             return None;
@@ -182,47 +193,48 @@ impl Context<'_, '_> {
         let clear = optional(fields.clear, |clear| byte(self, clear));
         let test =
             fields.test.map_or(Some(CompareOp::Always), |test| choice(self.reader, test, "a stencil test", &TESTS));
-        let reference = fields.reference.map_or(Some(0), |reference| byte(self, reference));
+        let reference = fields.reference.map_or(Some(Given::Known(0)), |reference| byte(self, reference));
         let pass = fields
             .pass
             .map_or(Some(StencilOp::Keep), |pass| choice(self.reader, pass, "a stencil operation", &OPERATIONS));
-        let state = StencilState { clear: clear?, test: test?, reference: reference?, pass: pass? };
-        Some(leaf.spanned(state))
+        let (test, pass) = (test?, pass?);
+        let state =
+            given((clear?, reference?), move |(clear, reference)| StencilState { clear, test, reference, pass });
+        Some(at(leaf, state))
     }
 
-    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<[f32; 4]> {
+    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<Given<[f32; 4]>> {
         if !matches!(leaf.shape(), Shape::Parentheses) {
             self.reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
             return None;
         }
         let parts: [Leaf<'_>; 4] = self.reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
-        let parts = parts.map(|part| self.color_component(part));
-        Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
+        let parts = all(parts.map(|part| self.color_component(part)))?;
+        Some(given(parts, |parts| parts))
     }
 
-    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<f32> {
-        let (number, because) = self.number_because(leaf, "a channel of a colour")?;
-        #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
-        let component = number as f32;
-        if component.is_finite() {
-            return Some(component);
-        }
-        let wrong = format!("{} is too large for a colour", crate::base::shown_number(number));
-        let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
-        self.fault(leaf, wrong.help("32-bit floating point reaches about 3.4e38"));
-        None
+    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
+        self.number_because(leaf, "a channel of a colour")?.checked(self.reader, move |number, _| {
+            #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
+            let component = number.value as f32;
+            if component.is_finite() {
+                return Ok(component);
+            }
+            let wrong = format!("{} is too large for a colour", crate::base::shown_number(number.value));
+            let wrong = Diagnostic::new(number.span, wrong).remark(number.remark());
+            Err(wrong.help("32-bit floating point reaches about 3.4e38"))
+        })
     }
 
-    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<f32> {
-        let (depth, because) = self.number_because(leaf, "depth")?;
-        if !(0.0..=1.0).contains(&depth) {
-            let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
-            let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth));
-            let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
-            self.fault(leaf, wrong.help(help));
-            return None;
-        }
-        #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
-        Some(depth as f32)
+    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
+        self.number_because(leaf, "depth")?.checked(self.reader, move |depth, _| {
+            if !(0.0..=1.0).contains(&depth.value) {
+                let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
+                let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth.value));
+                return Err(Diagnostic::new(depth.span, wrong).remark(depth.remark()).help(help));
+            }
+            #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
+            Ok(depth.value as f32)
+        })
     }
 }

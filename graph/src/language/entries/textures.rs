@@ -1,10 +1,11 @@
 //! `textures`: images whose texels come from picture files.
 
-use super::{parameters, values};
+use super::parameters;
+use super::values::{self, optional};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
-use crate::language::model::{Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
-use crate::language::scope::Context;
+use crate::language::model::{Decided, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
+use crate::language::scope::{Context, Given};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
 use crate::{fields, vulkan};
 use std::collections::HashMap;
@@ -50,28 +51,34 @@ pub(crate) struct Picture {
     pub(crate) info: TextureInfo,
 }
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A texture, once its fields are told apart.
-    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<Image> {
+    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<Given<Image>> {
         let name = self.reader.name(fields.name, "a texture");
         let path = self.reader.words(fields.file, "the path of a file");
         let color_space = color_space(self.reader, fields.color_space);
         let shape = fields.shape.map_or(Some(vulkan::Shape::D2), |leaf| {
             values::choice(self.reader, leaf, "the shape of a texture", &SHAPES)
         });
-        let format = match fields.format.map(|leaf| (leaf, leaf.shape())) {
-            Some((leaf, crate::ron::Shape::Text)) => self.format(leaf).map(|format| Some(leaf.spanned(format))),
-            Some((leaf, _)) => parameters::format(self.reader, leaf).map(|format| Some(leaf.spanned(format))),
-            None => Some(None),
-        };
+        let format = optional(fields.format, |leaf| match leaf.shape() {
+            crate::ron::Shape::Text => self.format(leaf),
+            _ => parameters::format(self.reader, leaf).map(|format| Given::said(leaf, format)),
+        });
         let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
         let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
-        if let Some(Spanned { value, span }) = format
-            && let Some(why) = format_problem(file, value)
-        {
-            self.reader.report(Diagnostic::new(span, format!("texture `{}` can't be {value}: {why}", name.text)));
-            return None;
-        }
+        let format = match format {
+            Some(format) => {
+                let (file, name) = (Arc::clone(file), name.clone());
+                format.checked_as(self.reader, true, move |format, _| match format_problem(&file, format.value) {
+                    None => Ok(format),
+                    Some(why) => {
+                        let message = format!("texture `{}` can't be {}: {why}", name.text, format.value);
+                        Err(Diagnostic::new(format.span, message))
+                    }
+                })?
+            }
+            None => Given::said(fields.file, info.format),
+        };
         let extent = match info.image_extent(shape) {
             Ok(extent) => extent,
             Err(problem) => {
@@ -81,7 +88,8 @@ impl Context<'_, '_> {
                 return None;
             }
         };
-        Some(image(name, file, format.map_or(info.format, |format| format.value), extent, shape, fields))
+        let image = image(name, file, info.format, extent, shape, fields);
+        Some(format.of(Format::Named).map(move |format| Image { format, ..image.clone() }))
     }
 }
 
@@ -97,15 +105,13 @@ fn image(
     let shape = if shape == vulkan::Shape::D3 { ImageShape::D3(depth) } else { ImageShape::D2 };
     Image {
         name,
-        format: fields.format.unwrap_or(from).spanned(Format::Named(format)),
-        size: from.spanned(Size::Fixed([width, height])),
-        size_because: None,
-        samples: Spanned { value: Samples::Count(1), span },
-        samples_because: None,
+        format: Decided::said(from.span(), Format::Named(format)),
+        size: Decided::said(from.span(), Size::Fixed([width, height])),
+        samples: Decided::said(span, Samples::Count(1)),
         resolve: None,
-        mips: Spanned { value: Mips::Count(1), span },
-        layers: Spanned { value: Layers::Default, span },
-        shape: fields.shape.unwrap_or(from).spanned(shape),
+        mips: Decided::said(span, Mips::Count(1)),
+        layers: Decided::said(span, Layers::Default),
+        shape: Decided::said(fields.shape.unwrap_or(from).span(), shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
         per_eye: Some(Spanned { value: false, span }),
         eyes: None,

@@ -5,7 +5,7 @@ use super::parts;
 use super::values;
 use crate::fields;
 use crate::language::model::{Part, Work};
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, given};
 use crate::ron::{Described, Form, Leaf, Shape};
 
 fields! {
@@ -61,38 +61,37 @@ pub(crate) const FILL: Form = Form::Fields(FillFields::<'static>::table);
 /// What `reads` and `writes` take.
 pub(crate) const TRANSFERRED: Form = Form::Either(&[parts::WHOLE_RESOURCE, Form::List(&parts::ANY)]);
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// `copy: (from: …, to: …)`
-    pub(crate) fn copy_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+    pub(crate) fn copy_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
         let fields: CopyFields<'_> = self.reader.read(leaf, "a copy")?;
         let (from, to) = (self.part(fields.from), self.part(fields.to));
-        Some(Work::Copy { from: from?, to: to? })
+        Some(given((from?, to?), |(from, to)| Work::Copy { from, to }))
     }
 
     /// `blit: (from: …, to: …)`
-    pub(crate) fn blit_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+    pub(crate) fn blit_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
         let fields: BlitFields<'_> = self.reader.read(leaf, "a blit")?;
         let (from, to) = (self.image_part(fields.from), self.image_part(fields.to));
-        let filter = values::optional_choice(self.reader, fields.filter, "a filter", &FILTERS);
-        Some(Work::Blit { from: Part::Image(from?), to: Part::Image(to?), filter: filter? })
+        let filter = values::optional_choice(self.reader, fields.filter, "a filter", &FILTERS)?;
+        Some(given((from?, to?), move |(from, to)| Work::Blit { from: Part::Image(from), to: Part::Image(to), filter }))
     }
 
     /// `fill: (to: …, value: …)`
-    pub(crate) fn fill_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+    pub(crate) fn fill_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
         let fields: FillFields<'_> = self.reader.read(leaf, "a fill")?;
-        let to = self.part(fields.to);
-        let value = self.fill(fields.value).map(|value| fields.value.spanned(value));
-        Some(Work::Fill { to: to?, value: value? })
+        let (to, value) = (self.part(fields.to), self.fill(fields.value));
+        Some(given((to?, value?), |(to, value)| Work::Fill { to, value }))
     }
 
     /// Parts of images and buffers in a list.
-    pub(crate) fn listed_parts(&mut self, leaf: Option<Leaf<'_>>, field: &str) -> Option<Vec<Part>> {
+    pub(crate) fn listed_parts(&mut self, leaf: Option<Leaf<'_>>, field: &str) -> Option<Vec<Given<Part>>> {
         let Some(leaf) = leaf else { return Some(Vec::new()) };
         let entries = match leaf.shape() {
             Shape::List => self.reader.list(leaf, field)?,
             _ => vec![leaf],
         };
-        let parts: Vec<Option<Part>> = entries.into_iter().map(|entry| self.part(entry)).collect();
+        let parts: Vec<Option<Given<Part>>> = entries.into_iter().map(|entry| self.part(entry)).collect();
         parts.into_iter().collect()
     }
 }

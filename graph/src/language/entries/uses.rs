@@ -1,14 +1,16 @@
 //! `use`: a fragment is put in under a name of its own, with arguments for its parameters.
 
+use super::body::Tables;
 use super::condition::CONDITION;
+use super::fragments::Fragments;
 use super::repeat::REPEAT;
-use super::stand_ins::OTHERWISE;
+use super::stand_ins::{OTHERWISE, Otherwise};
 use super::{parameters, views};
-use crate::base::{Diagnostic, enumerated};
-use crate::expression::{Outcome, Type, Value, Wanted};
+use crate::base::{Diagnostic, Span, enumerated};
+use crate::expression::{Expression, Outcome, Type, Value, Wanted};
 use crate::fields;
-use crate::language::model::SettingKind;
-use crate::language::scope::{Context, DecidedValue, Parameter, ParameterKind, Symbols, joined};
+use crate::language::model::{Off, SettingKind};
+use crate::language::scope::{Context, DecidedValue, Given, Parameter, ParameterKind, Symbols, joined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Shape};
 use std::collections::{HashMap, HashSet};
 
@@ -43,16 +45,43 @@ const ARGUMENT: Form = Form::Either(&[
     Form::Expression("an image, a buffer, or an expression"),
 ]);
 
-impl Context<'_, '_> {
+/// A use that a file says.
+pub(crate) struct UseEntry {
+    pub(crate) name: Name,
+    /// The fragment, by number.
+    pub(crate) fragment: usize,
+    pub(crate) off: Given<Option<Off>>,
+    /// What fills images when it is off.
+    pub(crate) otherwise: Option<Otherwise>,
+    /// Values for the fragment's parameters, in their order.
+    pub(crate) arguments: Vec<Option<Argument>>,
+}
+
+/// A value for a parameter, and where it stands, unless it is the parameter's default.
+#[derive(Clone)]
+pub(crate) struct Argument {
+    pub(crate) value: Given<DecidedValue>,
+    pub(crate) span: Option<Span>,
+}
+
+impl Context<'_> {
+    /// A use of one of the fragments.
+    pub(crate) fn use_entry(&mut self, fields: &UseFields<'_>, fragments: &Fragments<Tables<'_>>) -> Option<UseEntry> {
+        let name = self.reader.name(fields.name, "a use");
+        let fragment = self.reader.reference(fields.r#use, "a fragment");
+        let fragment = fragment.and_then(|name| fragments.names.find(self.reader, &name));
+        let off = self.off(fields.when);
+        let otherwise = self.otherwise(fields.otherwise, fields.when);
+        let found = fragment.and_then(|at| Some((fragments.called(at), &*fragments.get(at)?.symbols)));
+        let arguments = found.map(|found| self.arguments(fields, found));
+        let (fragment, arguments) = (fragment?, arguments?);
+        Some(UseEntry { name: name?, fragment, off: off?, otherwise: otherwise?, arguments })
+    }
+
     /// Values for the parameters of the fragment `called` so, in their order; `None` where there is none, which was reported.
-    /// Images and buffers of arguments come with the places where they are named.
-    pub(crate) fn arguments<'t>(
-        &mut self,
-        fields: &UseFields<'t>,
-        (called, symbols): (&str, &Symbols),
-    ) -> Vec<Option<(DecidedValue, Option<Leaf<'t>>)>> {
-        let mut leaves: HashMap<usize, Leaf<'t>> = HashMap::new();
-        let entries: Vec<(Leaf<'t>, Leaf<'t>)> =
+    fn arguments(&mut self, fields: &UseFields<'_>, (called, symbols): (&str, &Symbols)) -> Vec<Option<Argument>> {
+        let mut leaves: HashMap<usize, Leaf<'_>> = HashMap::new();
+        let entries: Vec<(Leaf<'_>, Leaf<'_>)> =
             fields.with.and_then(|with| self.reader.map(with, "`with`")).into_iter().flatten().collect();
         let given: HashSet<&str> = entries.iter().filter_map(|(key, _)| key.plain()).collect();
         for (key, value) in entries {
@@ -80,13 +109,13 @@ impl Context<'_, '_> {
                 continue;
             };
             values.push(match leaves.get(&at) {
-                Some(leaf) => self.argument(*leaf, parameter).map(|given| (given, Some(*leaf))),
+                Some(leaf) => self.argument(*leaf, parameter).map(|value| Argument { value, span: Some(leaf.span()) }),
                 None => {
                     let default = parameter.default();
                     if default.is_none() {
                         missing.push(parameter);
                     }
-                    default.map(|value| (value.into(), None))
+                    default.map(|value| Argument { value: Given::Known(value.into()), span: None })
                 }
             });
         }
@@ -110,25 +139,26 @@ impl Context<'_, '_> {
         values
     }
 
-    fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<DecidedValue> {
-        let given = |outcome: Outcome| DecidedValue { value: outcome.value, decided: outcome.decided };
+    fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<Given<DecidedValue>> {
         match &parameter.kind {
-            ParameterKind::Image => self.image(leaf).map(|image| Value::Image(image.index).into()),
-            ParameterKind::Buffer => self.buffer(leaf).map(|buffer| Value::Buffer(buffer.index).into()),
+            ParameterKind::Image => Some(self.image(leaf)?.map(|image| Value::Image(image.index).into())),
+            ParameterKind::Buffer => Some(self.buffer(leaf)?.map(|buffer| Value::Buffer(buffer.index).into())),
             ParameterKind::Format { .. } => match leaf.shape() {
-                Shape::Text => self.evaluate(leaf, Wanted::FORMAT).map(given),
-                _ => parameters::format(self.reader, leaf).map(|format| Value::Format(format).into()),
+                Shape::Text => self.expression(leaf, Wanted::FORMAT).map(evaluated),
+                _ => {
+                    let format = parameters::format(self.reader, leaf)?;
+                    Some(Given::Known(Value::Format(format).into()))
+                }
             },
             ParameterKind::Value(kind) => {
                 let given = match leaf.shape() {
                     Shape::Text => {
                         self.unquoted(leaf, kind)?;
-                        self.evaluate(leaf, wanted(kind)).map(given)?
+                        evaluated(self.expression(leaf, wanted(kind))?)
                     }
-                    _ => DecidedValue::from(plain(self.reader, leaf, parameter, kind)?),
+                    _ => Given::Known(plain(self.reader, leaf, parameter, kind)?.into()),
                 };
-                self.allowed(leaf, parameter, kind, &given)?;
-                Some(given)
+                self.allowed(leaf, &parameter.name, kind.clone(), given)
             }
         }
     }
@@ -148,20 +178,29 @@ impl Context<'_, '_> {
     fn allowed(
         &mut self,
         leaf: Leaf<'_>,
-        parameter: &Parameter,
-        kind: &SettingKind,
-        given: &DecidedValue,
-    ) -> Option<()> {
-        if kind.allows(&given.value) {
-            return Some(());
-        }
-        let because = joined(&given.decided);
-        let Name { text, span } = &parameter.name;
-        let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
-        let wrong = Diagnostic::new(leaf.span(), message).remark(because.as_deref().unwrap_or_default());
-        self.fault(leaf, wrong.label(*span, "declared here").help(format!("it is {}", kind.allowed())));
-        None
+        Name { text, span }: &Name,
+        kind: SettingKind,
+        given: Given<DecidedValue>,
+    ) -> Option<Given<DecidedValue>> {
+        let (at, text, span) = (leaf.span(), text.clone(), *span);
+        given.checked(self.reader, move |given, _| {
+            if kind.allows(&given.value) {
+                return Ok(given);
+            }
+            let because = joined(&given.decided);
+            let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
+            let wrong = Diagnostic::new(at, message).remark(because.as_deref().unwrap_or_default());
+            Err(wrong.label(span, "declared here").help(format!("it is {}", kind.allowed())))
+        })
     }
+}
+
+/// The value of an expression, and all that decided it.
+fn evaluated(expression: Expression) -> Given<DecidedValue> {
+    Given::asked(move |evaluator| {
+        let Outcome { value, decided, .. } = evaluator.evaluate(&expression)?;
+        Some(DecidedValue { value, decided })
+    })
 }
 
 const fn wanted(kind: &SettingKind) -> Wanted<'static> {

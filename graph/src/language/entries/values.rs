@@ -2,177 +2,194 @@
 //! there by itself or as an expression in quotes.
 
 use crate::base::Diagnostic;
-use crate::expression::{Outcome, Value, Wanted};
+use crate::expression::{Value, Wanted};
 use crate::frame::ParamValue;
-use crate::language::model::{Fill, SettingKind};
-use crate::language::scope::{Context, Evaluated, Quoted, joined};
+use crate::language::model::{Decided, Fill, SettingKind};
+use crate::language::scope::{Context, Given, Kept, Quoted, all, decided, given, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// A value and what decided it.
-pub(crate) type Decided<T> = (T, Option<Arc<str>>);
-
-impl Context<'_, '_> {
+impl Context<'_> {
     /// A whole number of `range`. Of a plain setting all values must lie there. `what` names it: "number of mip levels".
-    pub(crate) fn whole<T: TryFrom<i64>>(
+    pub(crate) fn whole<T: TryFrom<i64> + Kept>(
         &mut self,
         leaf: Leaf<'_>,
-        what: &str,
+        what: &'static str,
         range: RangeInclusive<i64>,
-    ) -> Option<T> {
-        self.whole_because(leaf, what, range).map(|(value, _)| value)
+    ) -> Option<Given<T>> {
+        self.whole_because(leaf, what, range).map(Given::alone)
+    }
+
+    /// The same with its place.
+    pub(crate) fn whole_at<T: TryFrom<i64> + Kept>(
+        &mut self,
+        leaf: Leaf<'_>,
+        what: &'static str,
+        range: RangeInclusive<i64>,
+    ) -> Option<Given<Spanned<T>>> {
+        self.whole_because(leaf, what, range).map(Given::spanned)
     }
 
     /// The same with what decided it.
-    pub(crate) fn whole_because<T: TryFrom<i64>>(
+    pub(crate) fn whole_because<T: TryFrom<i64> + Kept>(
         &mut self,
         leaf: Leaf<'_>,
-        what: &str,
+        what: &'static str,
         range: RangeInclusive<i64>,
-    ) -> Option<Decided<T>> {
+    ) -> Option<Given<Decided<T>>> {
         let Shape::Text = leaf.shape() else {
             if !matches!(leaf.shape(), Shape::Number) {
                 self.reader.expected(leaf, "a whole number, or an expression in quotes");
                 return None;
             }
-            return constant(self.reader, leaf, what, range).map(|number| (number, None));
+            return constant(self.reader, leaf, what, range).map(|number| Given::said(leaf, number));
         };
         let words = ("a whole number", Some("a whole number"));
-        let Evaluated { value, because, setting } = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+        let (number, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
         if let Some(odd) = setting.and_then(|setting| setting.whole_beyond(&range)) {
             let message = format!("this setting allows {odd}, which is no {what}");
             self.reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
             return None;
         }
-        let Value::Integer(number) = value else { return None };
-        let fitting = T::try_from(number).ok().filter(|_| range.contains(&number));
-        if fitting.is_none() {
-            let (least, most) = (range.start(), range.end());
-            let wrong = Diagnostic::new(leaf.span(), format!("{number} is no {what}: {least} to {most} are allowed"));
-            self.fault(leaf, wrong.remark(because.as_deref().unwrap_or_default()));
-        }
-        fitting.map(|number| (number, because))
+        typed(number, whole_number)?.checked(self.reader, move |number, _| {
+            match T::try_from(number.value).ok().filter(|_| range.contains(&number.value)) {
+                Some(value) => Ok(number.map(|_| value)),
+                None => {
+                    let wrong = Diagnostic::new(number.span, outside(number.value, what, &range));
+                    Err(wrong.remark(number.remark()))
+                }
+            }
+        })
     }
 
     /// A number to fill with.
-    fn fill_number(&mut self, leaf: Leaf<'_>) -> Option<f64> {
-        self.number_because(leaf, "a value to fill with").map(|(number, _)| number)
+    fn fill_number(&mut self, leaf: Leaf<'_>) -> Option<Given<f64>> {
+        self.number_because(leaf, "a value to fill with").map(Given::alone)
     }
 
     /// A number, and what decided it. `what` names it: "a scale".
-    pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Decided<f64>> {
+    pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Given<Decided<f64>>> {
         let Shape::Text = leaf.shape() else {
-            return self.reader.number_as(leaf, Some(what)).map(|number| (number, None));
+            return self.reader.number_as(leaf, Some(what)).map(|number| Given::said(leaf, number));
         };
         let words = ("a number", Some("a number"));
-        let Evaluated { value, because, .. } = self.value(leaf, SettingKind::is_number, Wanted::NUMBER, words)?;
-        match value {
-            Value::Number(number) => Some((number, because)),
+        let (number, _) = self.value(leaf, SettingKind::is_number, Wanted::NUMBER, words)?;
+        typed(number, |value| match value {
+            Value::Number(number) => Some(number),
             #[allow(clippy::cast_precision_loss, reason = "the nearest number is meant")]
-            Value::Integer(number) => Some((number as f64, because)),
+            Value::Integer(number) => Some(number as f64),
             _ => None,
-        }
+        })
     }
 
     /// `true` or `false`.
-    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<bool> {
-        let Shape::Text = leaf.shape() else { return self.reader.truth(leaf) };
+    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<bool>>> {
+        let Shape::Text = leaf.shape() else { return self.reader.truth(leaf).map(|value| Given::said(leaf, value)) };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
-        let value = self.value(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))?.value;
-        if let Value::Bool(value) = value { Some(value) } else { None }
+        let (value, _) = self.value(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))?;
+        typed(value, |value| if let Value::Bool(value) = value { Some(value) } else { None })
     }
 
     /// A format that an expression says.
-    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<Format> {
-        match self.evaluate(leaf, Wanted::FORMAT)?.value {
-            Value::Format(format) => Some(format),
-            _ => None,
-        }
+    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
+        let format = decided(self.expression(leaf, Wanted::FORMAT)?, leaf.span());
+        typed(format, |value| if let Value::Format(format) = value { Some(format) } else { None })
     }
 
     /// A value for a shader's parameter, and what stands for it in the file.
-    pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<Decided<ParamValue>> {
-        let (value, written) = match leaf.shape() {
-            Shape::Text => {
-                let fits = |kind: &SettingKind| !matches!(kind, SettingKind::Choice { .. });
-                match self.quoted(leaf, fits, Wanted::PARAMETER.words, Some(Wanted::PARAMETER.words))? {
-                    Quoted::Parameter(parameter, value) => (
-                        value.value.clone(),
-                        format!("{} `{}`", self.scope.symbols.parameter_word(), parameter.name.text),
-                    ),
-                    Quoted::Expression => {
-                        let Outcome { value, decided, .. } = self.evaluate(leaf, Wanted::PARAMETER)?;
-                        (value, joined(&decided).map_or_else(|| leaf.text().to_owned(), |because| because.to_string()))
-                    }
-                }
+    pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ParamValue>>> {
+        match leaf.shape() {
+            Shape::Text => {}
+            Shape::Word("true" | "false", None) => {
+                return self.reader.truth(leaf).map(|value| Given::said(leaf, ParamValue::Bool(value)));
             }
-            Shape::Word("true" | "false", None) => return Some((ParamValue::Bool(self.reader.truth(leaf)?), None)),
             Shape::Number | Shape::Word("NaN" | "inf", None) => {
-                return Some(match leaf.number() {
-                    Some(Number::Whole(number)) => (ParamValue::Integer(number), None),
-                    _ => (ParamValue::Number(self.reader.number_as(leaf, Some("a parameter"))?), None),
-                });
+                let value = match leaf.number() {
+                    Some(Number::Whole(number)) => ParamValue::Integer(number),
+                    _ => ParamValue::Number(self.reader.number_as(leaf, Some("a parameter"))?),
+                };
+                return Some(Given::said(leaf, value));
             }
             _ => {
                 self.reader.expected(leaf, "a number, `true`, `false`, or an expression in quotes");
                 return None;
             }
+        }
+        let fits = |kind: &SettingKind| !matches!(kind, SettingKind::Choice { .. });
+        let words = (Wanted::PARAMETER.words, Some(Wanted::PARAMETER.words));
+        let value = match self.quoted(leaf, fits, Wanted::PARAMETER, words)? {
+            Quoted::Parameter(parameter, at) => {
+                let written: Arc<str> =
+                    format!("{} `{}`", self.scope.symbols.parameter_word(), parameter.name.text).into();
+                let span = leaf.span();
+                let value = Given::asked(move |evaluator| evaluator.parameter(at, span));
+                value.map(move |decided| Decided { because: Some(written.clone()), ..decided })
+            }
+            Quoted::Expression(expression) => {
+                let written: Arc<str> = leaf.text().into();
+                decided(expression, leaf.span()).map(move |decided| {
+                    let because = decided.because.or_else(|| Some(written.clone()));
+                    Decided { because, ..decided }
+                })
+            }
         };
-        let value = match value {
-            Value::Bool(value) => ParamValue::Bool(value),
-            Value::Integer(value) => ParamValue::Integer(value),
-            Value::Number(value) => ParamValue::Number(value),
-            _ => return None,
-        };
-        Some((value, Some(written.into())))
+        typed(value, |value| match value {
+            Value::Bool(value) => Some(ParamValue::Bool(value)),
+            Value::Integer(value) => Some(ParamValue::Integer(value)),
+            Value::Number(value) => Some(ParamValue::Number(value)),
+            _ => None,
+        })
     }
 
     /// One of a few words, by itself or as the text that an expression says.
-    pub(crate) fn word<T: Copy>(&mut self, leaf: Leaf<'_>, what: &str, choices: &[(&'static str, T)]) -> Option<T> {
+    pub(crate) fn word<T: Copy + Kept>(
+        &mut self,
+        leaf: Leaf<'_>,
+        what: &'static str,
+        choices: &'static [(&'static str, T)],
+    ) -> Option<Given<Decided<T>>> {
         let quoted = leaf.plain().filter(|text| !self.scope.names_nothing(text));
         if quoted.is_none() {
-            return choice(self.reader, leaf, what, choices);
+            return choice(self.reader, leaf, what, choices).map(|word| Given::said(leaf, word));
         }
-        let Outcome { value: Value::Text(text), decided, .. } = self.evaluate(leaf, Wanted::TEXT)? else {
-            return None;
-        };
-        let found = choices.iter().find(|(word, _)| **word == *text).map(|(_, value)| *value);
-        if found.is_none() {
-            let because = self.scope.within_view(joined(&decided).as_deref().unwrap_or_default());
-            let wrong = Diagnostic::new(leaf.span(), format!("`{text}` is not {what}")).remark(because);
+        let said = decided(self.expression(leaf, Wanted::TEXT)?, leaf.span());
+        typed(said, text)?.checked(self.reader, move |said, view| {
+            if let Some((_, value)) = choices.iter().find(|(word, _)| *word == &*said.value) {
+                return Ok(said.map(|_| *value));
+            }
+            let wrong = Diagnostic::new(said.span, format!("`{}` is not {what}", said.value));
             let known: Vec<String> = choices.iter().map(|(word, _)| format!("`'{word}'`")).collect();
-            self.fault(leaf, wrong.help(format!("it is one of {}", known.join(", "))));
-        }
-        found
+            let wrong = wrong.remark(within_view(view, said.remark()));
+            Err(wrong.help(format!("it is one of {}", known.join(", "))))
+        })
     }
 
-    /// What an image or buffer is filled with.
-    pub(crate) fn fill(&mut self, leaf: Leaf<'_>) -> Option<Fill> {
-        if !matches!(leaf.shape(), Shape::Parentheses) {
-            return self.fill_number(leaf).map(Fill::Number);
-        }
-        if let Some([depth, stencil]) = leaf.tuple() {
+    /// What an image or buffer is filled with, and its place.
+    pub(crate) fn fill(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<Fill>>> {
+        let fill = if !matches!(leaf.shape(), Shape::Parentheses) {
+            self.fill_number(leaf)?.map(Fill::Number)
+        } else if let Some([depth, stencil]) = leaf.tuple() {
             let (depth, stencil) = (self.fill_number(depth), self.fill_number(stencil));
-            return Some(Fill::DepthStencil(depth?, stencil?));
-        }
-        let Some(parts) = leaf.tuple::<4>() else {
+            given((depth?, stencil?), |(depth, stencil)| Fill::DepthStencil(depth, stencil))
+        } else if let Some(parts) = leaf.tuple::<4>() {
+            given(all(parts.map(|part| self.fill_number(part)))?, Fill::Color)
+        } else {
             self.reader.wrong(leaf, "this is no value for all texels", FILLS);
             return None;
         };
-        let parts = parts.map(|part| self.fill_number(part));
-        Some(Fill::Color([parts[0]?, parts[1]?, parts[2]?, parts[3]?]))
+        Some(at(leaf, fill))
     }
 
     /// One of several words that take nothing, or a setting or expression that says one.
-    pub(crate) fn bare_word(&mut self, leaf: Leaf<'_>, words: &'static Words) -> Option<Decided<&'static str>> {
+    pub(crate) fn bare_word(&mut self, leaf: Leaf<'_>, words: &'static Words) -> Option<Given<Decided<&'static str>>> {
         let Shape::Text = leaf.shape() else {
             let (word, rest) = self.reader.one_of(leaf, words)?;
-            return self.reader.bare(word, rest).map(|()| (word, None));
+            return self.reader.bare(word, rest).map(|()| Given::said(leaf, word));
         };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
-        let Evaluated { value, because, setting } = self.value(leaf, fits, Wanted::TEXT, ("a text", None))?;
+        let (said, setting) = self.value(leaf, fits, Wanted::TEXT, ("a text", None))?;
         if let Some(setting) = setting
             && let Some(odd) = setting.texts().iter().find(|text| words.find(text).is_none())
         {
@@ -183,17 +200,37 @@ impl Context<'_, '_> {
             self.reader.report(wrong.help(help));
             return None;
         }
-        let Value::Text(text) = value else { return None };
-        match words.find(&text) {
-            Some(known) => Some((known.word, because)),
+        typed(said, text)?.checked(self.reader, move |said, _| match words.find(&said.value) {
+            Some(known) => Ok(said.map(|_| known.word)),
             None => {
-                let wrong = Diagnostic::new(leaf.span(), format!("`{}` is not {}", text, words.what));
-                let wrong = wrong.remark(because.as_deref().unwrap_or_default()).help(words.forms());
-                self.fault(leaf, wrong);
-                None
+                let wrong = Diagnostic::new(said.span, format!("`{}` is not {}", said.value, words.what));
+                Err(wrong.remark(said.remark()).help(words.forms()))
             }
-        }
+        })
     }
+}
+
+/// A value of another type.
+pub(crate) fn typed<T: Kept>(
+    value: Given<Decided<Value>>,
+    make: impl Fn(Value) -> Option<T> + Send + Sync + 'static,
+) -> Option<Given<Decided<T>>> {
+    value.then(move |Decided { value, span, because }| Some(Decided { value: make(value)?, span, because }))
+}
+
+/// The whole number that a value is.
+pub(crate) fn whole_number(value: Value) -> Option<i64> {
+    if let Value::Integer(number) = value { Some(number) } else { None }
+}
+
+fn text(value: Value) -> Option<Arc<str>> {
+    if let Value::Text(text) = value { Some(text) } else { None }
+}
+
+/// A value with the place of `leaf`.
+pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: Given<T>) -> Given<Spanned<T>> {
+    let span = leaf.span();
+    value.map(move |value| Spanned { value, span })
 }
 
 /// A whole number of `range` that stands there by itself.
@@ -206,10 +243,13 @@ fn constant<'src, T: TryFrom<i64>>(
     let number = reader.integer(leaf)?;
     let fitting = T::try_from(number).ok().filter(|_| range.contains(&number));
     if fitting.is_none() {
-        let (least, most) = (range.start(), range.end());
-        reader.wrong(leaf, format!("{number} is no {what}: {least} to {most} are allowed"), "");
+        reader.wrong(leaf, outside(number, what, &range), "");
     }
     fitting
+}
+
+fn outside(number: i64, what: &str, range: &RangeInclusive<i64>) -> String {
+    format!("{number} is no {what}: {} to {} are allowed", range.start(), range.end())
 }
 
 /// A field that may be absent: `None` if it is there and wrong.

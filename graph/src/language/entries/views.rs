@@ -8,7 +8,7 @@ use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Context, DecidedValue, Scope};
+use crate::language::scope::{Context, DecidedValue, Evaluator, Given, Parts, ScopeValues, all, given};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
@@ -67,6 +67,16 @@ static SIZES: Words = Words {
     ],
 };
 
+/// The views that a pipeline's file says, the main one first; none if it names none.
+pub(crate) struct ViewEntries {
+    names: Names,
+    /// `None` where one couldn't be read.
+    list: Vec<Option<Given<SetView>>>,
+}
+
+/// A view, and the values that settings have within it.
+type SetView = (View, Vec<Option<DecidedValue>>);
+
 /// What expressions see that stand in a view.
 pub(crate) struct ViewInputs<'a> {
     pub(crate) surroundings: Surroundings<'a>,
@@ -74,41 +84,31 @@ pub(crate) struct ViewInputs<'a> {
     pub(crate) values: Vec<Option<DecidedValue>>,
 }
 
-/// The views of a pipeline, the main one first; none if the file names none.
-pub(crate) struct Views<'a> {
-    names: Names,
-    /// `None` where one couldn't be read.
-    list: Vec<Option<(View, ViewInputs<'a>)>>,
-}
+/// The views of a pipeline with all values put in; `None` where one has a mistake.
+pub(crate) struct Views<'a>(Vec<Option<(View, ViewInputs<'a>)>>);
 
-impl<'a> Views<'a> {
-    /// No views: all is drawn for one that has the frame's size.
-    pub(crate) fn none() -> Views<'a> {
-        Views { names: Names::new("view"), list: Vec::new() }
-    }
-
-    /// Reads a list of views in the context of the frame; `settings` are those that views may set.
+impl ViewEntries {
+    /// Reads a list of views in the context of the frame; `settings` are those that views may set. `removed` is the first
+    /// view that is no longer there.
     pub(crate) fn read(
-        context: &mut Context<'_, '_>,
-        surroundings: &Surroundings<'a>,
+        context: &mut Context<'_>,
         settings: &[Option<Setting>],
-        list: Leaf<'_>,
+        list: Option<Leaf<'_>>,
         removed: Option<&Change>,
-    ) -> Views<'a> {
+    ) -> ViewEntries {
         let (mut names, before) = (Names::new("view"), context.reader.errors.len());
-        let fields: Vec<Option<ViewFields<'_>>> =
-            list::entries(context.reader, Some(list), "`views`", "view", &mut names);
-        if fields.is_empty() && context.reader.errors.is_empty() {
+        let fields: Vec<Option<ViewFields<'_>>> = list::entries(context.reader, list, "`views`", "view", &mut names);
+        if let Some(list) = list.filter(|_| fields.is_empty() && context.reader.errors.is_empty()) {
             context.reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
         }
         let mut views = Vec::with_capacity(fields.len());
         for (number, fields) in fields.into_iter().enumerate() {
-            views.push(fields.and_then(|fields| context.view(surroundings, settings, number == 0, &fields)));
+            views.push(fields.and_then(|fields| context.view(settings, number == 0, &fields)));
             if number == 0 {
                 since_removed(&mut context.reader.errors[before..], removed);
             }
         }
-        Views { names, list: views }
+        ViewEntries { names, list: views }
     }
 
     /// The view that `leaf` names.
@@ -124,21 +124,42 @@ impl<'a> Views<'a> {
         }
         self.names.find(reader, &name).and_then(|at| u32::try_from(at).ok()).map(ViewIndex)
     }
+}
+
+impl<'a> Views<'a> {
+    /// No views: all is drawn for one that has the frame's size.
+    pub(crate) const fn none() -> Views<'a> {
+        Views(Vec::new())
+    }
+
+    /// Puts in the values of views; `surroundings` are those of the frame.
+    pub(crate) fn new(
+        entries: &ViewEntries,
+        surroundings: &Surroundings<'a>,
+        evaluator: &mut Evaluator<'_, '_>,
+    ) -> Views<'a> {
+        let views = entries.list.iter().map(|entry| {
+            let (view, values) = evaluator.put_in(entry)?;
+            let surroundings = Surroundings { extent: view.extent, allows: view.allows, ..*surroundings };
+            Some((view, ViewInputs { surroundings, values }))
+        });
+        Views(views.collect())
+    }
 
     /// What expressions see within a view; `None`: what they see of the frame.
     pub(crate) fn inputs(&self, view: ViewIndex) -> Option<&ViewInputs<'a>> {
-        self.list.get(view.0 as usize)?.as_ref().map(|(_, inputs)| inputs)
+        self.0.get(view.0 as usize)?.as_ref().map(|(_, inputs)| inputs)
     }
 
     /// The name of a view, unless it is the main one.
     pub(crate) fn name(&self, view: ViewIndex) -> Option<&Name> {
-        let (view, _) = self.list.get(view.0 as usize).filter(|_| view != ViewIndex::default())?.as_ref()?;
+        let (view, _) = self.0.get(view.0 as usize).filter(|_| view != ViewIndex::default())?.as_ref()?;
         Some(&view.name)
     }
 
-    /// All of them. `None` if one couldn't be read.
+    /// All of them. `None` if one has a mistake.
     pub(crate) fn into_list(self) -> Option<Vec<View>> {
-        self.list.into_iter().map(|view| view.map(|(view, _)| view)).collect()
+        self.0.into_iter().map(|view| view.map(|(view, _)| view)).collect()
     }
 }
 
@@ -153,14 +174,13 @@ fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
 /// Said of a first view with a size.
 const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
 
-impl Context<'_, '_> {
-    fn view<'a>(
-        &mut self,
-        surroundings: &Surroundings<'a>,
-        settings: &[Option<Setting>],
-        main: bool,
-        fields: &ViewFields<'_>,
-    ) -> Option<(View, ViewInputs<'a>)> {
+/// The size of the frame, or of the view at hand.
+fn own_size() -> Given<[u32; 2]> {
+    Given::asked(|evaluator| Some(evaluator.scope.surroundings.extent))
+}
+
+impl Context<'_> {
+    fn view(&mut self, settings: &[Option<Setting>], main: bool, fields: &ViewFields<'_>) -> Option<Given<SetView>> {
         let name = self.reader.name(fields.name, "a view");
         if let Some(about) = fields.about {
             self.reader.words(about, "a description");
@@ -174,69 +194,66 @@ impl Context<'_, '_> {
                 None
             }
             Some(leaf) => self.view_size(leaf),
-            None => Some(surroundings.extent),
+            None => Some(own_size()),
         };
         let camera = optional(fields.camera, |leaf| self.reader.reference(leaf, "a camera"));
-        let mut allowed = |leaf: Option<Leaf<'_>>, frame: bool| leaf.map_or(Some(frame), |leaf| self.truth(leaf));
-        let all = surroundings.allows;
-        let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
-        let scale = allowed(fields.allows_scale, all.scale);
+        let allows = [fields.allows_msaa, fields.allows_hdr, fields.allows_scale];
+        let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf).map(Given::alone)));
         let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
-        let mut values = self.scope.values.to_vec();
-        for Choice { setting, value, .. } in set.iter().flatten() {
-            if let Some(slot) = values.get_mut(*setting) {
-                *slot = Some(value.clone().into());
+        let jitter = self.jitter(fields);
+        let (name, extent, camera, allows) = (name?, extent?, camera?, all(allows)?);
+        let (set, jitter) = (set?, jitter?);
+        Some(Given::asked(move |evaluator| {
+            let frame = evaluator.scope.surroundings;
+            let extent = extent.evaluate(evaluator);
+            let allows = allows.evaluate(evaluator);
+            let mut values = evaluator.scope.values.to_vec();
+            for Choice { setting, value, .. } in &set {
+                if let Some(slot) = values.get_mut(*setting) {
+                    *slot = Some(value.clone().into());
+                }
             }
-        }
-        // Read even where something else is wrong, so that all mistakes are told.
-        let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
-        let scope = Scope { values: &values, surroundings: &seen, ..self.scope };
-        let jitter = Context::new(self.reader, scope).jitter(fields);
-        set?;
-        let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
-        let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter?, eye: None };
-        let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
-        Some((view, ViewInputs { surroundings, values }))
+            // Evaluated even where something else is wrong, so that all mistakes are told.
+            let seen = Surroundings { extent: extent.unwrap_or(frame.extent), ..*frame };
+            let scope = ScopeValues { values: &values, surroundings: &seen, ..evaluator.scope };
+            let jitter = jitter.evaluate(&mut Evaluator::new(evaluator.reader, scope, evaluator.lenient));
+            let [msaa, hdr, scale] = allows?;
+            let allows = Allowances {
+                msaa: msaa.unwrap_or(frame.allows.msaa),
+                hdr: hdr.unwrap_or(frame.allows.hdr),
+                scale: scale.unwrap_or(frame.allows.scale),
+            };
+            let (name, camera) = (name.clone(), camera.clone());
+            Some((View { name, extent: extent?, camera, allows, jitter: jitter?, eye: None }, values))
+        }))
     }
 
-    /// How what a view's camera sees is shifted. The context is the view's own.
-    fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
+    /// How what a view's camera sees is shifted.
+    fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<Given<Option<Jitter>>> {
         let range = 1..=i64::from(frame::LONGEST_JITTER);
         let length = |leaf| self.whole::<u16>(leaf, "number of shifts", range);
-        let length = fields.jitter.map_or(Some(1), length);
-        let extent = fields.jitter_size.map_or(Some(self.scope.surroundings.extent), |leaf| self.view_size(leaf));
-        let (length, extent) = (length?, extent?);
-        Some((length > 1).then(|| Jitter::halton(length, extent)))
+        let length = fields.jitter.map_or(Some(Given::Known(1)), length);
+        let extent = fields.jitter_size.map_or_else(|| Some(own_size()), |leaf| self.view_size(leaf));
+        let jitter = |(length, extent)| (length > 1).then(|| Jitter::halton(length, extent));
+        Some(given((length?, extent?), jitter))
     }
 
-    fn view_size(&mut self, leaf: Leaf<'_>) -> Option<[u32; 2]> {
+    fn view_size(&mut self, leaf: Leaf<'_>) -> Option<Given<[u32; 2]>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
-        let frame = self.scope.surroundings.extent;
         match word {
-            "Output" => self.reader.bare(word, rest).map(|()| frame),
-            "Fixed" => {
-                let [width, height]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
-                let (width, height) = (self.extent(width), self.extent(height));
-                Some([width?, height?])
-            }
+            "Output" => self.reader.bare(word, rest).map(|()| own_size()),
+            "Fixed" => Some(given(self.fixed(leaf, rest)?, |extent| extent)),
             _ => {
                 let [by]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Scaled(0.5)")?;
-                let (factor, because) = self.scale(by)?;
-                match times(frame, factor) {
-                    Ok(extent) => Some(extent),
-                    // No frame is known yet, or none of this.
-                    Err(_) if self.scope.lenient => {
-                        self.forgave = true;
-                        None
-                    }
-                    Err([width, height]) => {
+                // While a file is read no frame is known; then this is no mistake.
+                given((self.scale(by)?, own_size()), |of| of).checked(self.reader, |(factor, frame), _| {
+                    times(frame, factor.value).map_err(|[width, height]| {
                         let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-                        let because = because.map_or_else(|| shown_number(factor), |because| because.to_string());
-                        let wrong = Diagnostic::new(by.span(), message);
-                        self.reader.report(wrong.remark(format!("{because} times {}×{}", frame[0], frame[1])));
-                        None
-                    }
-                }
+                        let wrong = Diagnostic::new(factor.span, message);
+                        let because = factor.because.map_or_else(|| shown_number(factor.value), |it| it.to_string());
+                        wrong.remark(format!("{because} times {}×{}", frame[0], frame[1]))
+                    })
+                })
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::draw::Beside;
 use super::pass_fields::PassFields;
 use crate::language::model::Work;
-use crate::language::scope::Context;
+use crate::language::scope::{Context, Given, given};
 use crate::ron::{Reader, Shape};
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
@@ -23,9 +23,9 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
     ("writes", &["custom"]),
 ];
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// The one thing that the pass does. `what` names the pass.
-    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<Work> {
+    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<Given<Work>> {
         let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
         let named = [
             ("draw", *draw),
@@ -35,13 +35,13 @@ impl Context<'_, '_> {
             ("fill", *fill),
             ("custom", *custom),
         ];
-        let mut given = named.into_iter().filter_map(|(word, leaf)| Some((word, leaf?)));
-        let Some((word, leaf)) = given.next() else {
+        let mut kinds = named.into_iter().filter_map(|(word, leaf)| Some((word, leaf?)));
+        let Some((word, leaf)) = kinds.next() else {
             let help = "give it one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`";
             self.reader.wrong(fields.name, format!("{what} does nothing"), help);
             return None;
         };
-        if let Some((second, more)) = given.next() {
+        if let Some((second, more)) = kinds.next() {
             let twice = crate::base::Diagnostic::new(more.span(), format!("{what} has both `{word}` and `{second}`"));
             let twice = twice.label(leaf.span(), format!("`{word}` stands here"));
             self.reader.report(twice.help("a pass does one thing: make it two passes"));
@@ -66,7 +66,12 @@ impl Context<'_, '_> {
                 let callback = self.reader.outside_name(leaf, "what the program records");
                 let reads = self.listed_parts(fields.reads, "`reads`");
                 let writes = self.listed_parts(fields.writes, "`writes`");
-                Some(Work::Custom { callback: callback?, reads: reads?, writes: writes? })
+                let callback = callback?;
+                Some(given((reads?, writes?), move |(reads, writes)| Work::Custom {
+                    callback: callback.clone(),
+                    reads,
+                    writes,
+                }))
             }
         }
     }

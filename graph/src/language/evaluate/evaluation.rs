@@ -6,11 +6,10 @@ use crate::frame::ViewIndex;
 use crate::language::entries::body::Body;
 use crate::language::entries::fragments::Fragments;
 use crate::language::entries::repeat::{MOST_THINGS, Repeat};
-use crate::language::entries::textures::Pictures;
 use crate::language::entries::views::Views;
 use crate::language::inputs::Surroundings;
-use crate::language::scope::{Checked, Context, DecidedValue, Elements, LevelValues, Scope};
-use crate::ron::{Leaf, Name, Reader};
+use crate::language::scope::{DecidedValue, Elements, Evaluator, LevelValues, Parts, ScopeValues};
+use crate::ron::{Name, Reader};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -27,11 +26,10 @@ pub(crate) enum Purpose {
 }
 
 /// A pipeline that is being evaluated.
-pub(super) struct Evaluation<'a, 't> {
+pub(super) struct Evaluation<'a> {
     pub(super) purpose: Purpose,
     pub(super) surroundings: &'a Surroundings<'a>,
-    pub(super) fragments: &'a Fragments<'t>,
-    pub(super) pictures: &'a Pictures,
+    pub(super) fragments: &'a Fragments<Body>,
     pub(super) views: Views<'a>,
     pub(super) flat: Flat,
     /// Fragments that are being put in, by number, and where.
@@ -40,7 +38,6 @@ pub(super) struct Evaluation<'a, 't> {
     pub(super) reported: HashSet<(Span, String)>,
     /// Fragments that were put in, by number.
     pub(super) used: HashSet<usize>,
-    checked: Checked,
     /// How many images, buffers, passes and uses of fragments were made.
     made: u32,
     /// Whether more were asked for than a pipeline may have.
@@ -48,8 +45,8 @@ pub(super) struct Evaluation<'a, 't> {
 }
 
 /// A level that is being evaluated: the pipeline itself, or a fragment that is put in.
-pub(super) struct Level<'b, 't> {
-    pub(super) body: &'b Body<'t>,
+pub(super) struct Level<'b> {
+    pub(super) body: &'b Body,
     pub(super) values: LevelValues,
     /// The beginning of the names of what it makes: `glow.`.
     pub(super) prefix: Arc<str>,
@@ -70,9 +67,9 @@ pub(super) enum Count {
     Failed,
 }
 
-impl<'b, 't> Level<'b, 't> {
+impl<'b> Level<'b> {
     /// The pipeline itself, or a fragment by itself: for the main view.
-    pub(super) fn top(body: &'b Body<'t>, values: Vec<Option<DecidedValue>>) -> Level<'b, 't> {
+    pub(super) fn top(body: &'b Body, values: Vec<Option<DecidedValue>>) -> Level<'b> {
         Level {
             body,
             values: below(body, values),
@@ -85,11 +82,11 @@ impl<'b, 't> Level<'b, 't> {
 
     /// A fragment that is put in under the name `whole`.
     pub(super) fn within(
-        outer: &Level<'_, 't>,
-        (body, values): (&'b Body<'t>, Vec<Option<DecidedValue>>),
+        outer: &Level<'_>,
+        (body, values): (&'b Body, Vec<Option<DecidedValue>>),
         (whole, view, instance): (&Name, ViewIndex, Option<u32>),
         off: bool,
-    ) -> Level<'b, 't> {
+    ) -> Level<'b> {
         let prefix = format!("{}.", whole.text).into();
         Level { body, values: below(body, values), prefix, view, instance, off: outer.off || off }
     }
@@ -107,44 +104,37 @@ impl<'b, 't> Level<'b, 't> {
 }
 
 /// Values of a level of which no image or buffer is evaluated yet.
-fn below(body: &Body<'_>, values: Vec<Option<DecidedValue>>) -> LevelValues {
+fn below(body: &Body, values: Vec<Option<DecidedValue>>) -> LevelValues {
     let [images, buffers] = [body.images.len(), body.buffers.len()].map(|count| vec![Elements::Below; count]);
     LevelValues { values, images, buffers }
 }
 
-impl<'a, 't> Evaluation<'a, 't> {
-    pub(super) fn new(
-        purpose: Purpose,
-        surroundings: &'a Surroundings<'a>,
-        fragments: &'a Fragments<'t>,
-        pictures: &'a Pictures,
-    ) -> Self {
+impl<'a> Evaluation<'a> {
+    pub(super) fn new(purpose: Purpose, surroundings: &'a Surroundings<'a>, fragments: &'a Fragments<Body>) -> Self {
         Evaluation {
             purpose,
             surroundings,
             fragments,
-            pictures,
             views: Views::none(),
             flat: Flat::default(),
             path: Vec::new(),
             reported: HashSet::new(),
             used: HashSet::new(),
-            checked: Checked::default(),
             made: 0,
             is_full: false,
         }
     }
 
-    /// The context of an entry of a level that is for `view`.
-    pub(super) fn context<'s>(
+    /// What finds the values of an entry of a level that is for `view`; `index` is the number of the repetition.
+    pub(super) fn evaluator<'s>(
         &'s self,
         reader: &'s mut Reader,
-        level: &'s Level<'_, 't>,
+        level: &'s Level<'_>,
         view: ViewIndex,
-        index: Option<(&'s Name, u32)>,
-    ) -> Context<'s, 's> {
+        index: Option<u32>,
+    ) -> Evaluator<'s, 's> {
         let inputs = self.views.inputs(view);
-        let scope = Scope {
+        let scope = ScopeValues {
             symbols: &level.body.symbols,
             level: &level.values,
             values: inputs
@@ -153,48 +143,34 @@ impl<'a, 't> Evaluation<'a, 't> {
             surroundings: inputs.map_or(self.surroundings, |inputs| &inputs.surroundings),
             properties: Some(&self.flat.properties),
             index,
-            checked: &self.checked,
-            lenient: level.off || self.purpose != Purpose::Pipeline,
             view: self.views.name(view),
         };
-        Context::new(reader, scope)
-    }
-
-    /// The view that an entry names, else the one that everything on the level is for.
-    pub(super) fn view(&self, reader: &mut Reader, level: &Level<'_, 't>, leaf: Option<Leaf<'t>>) -> Option<ViewIndex> {
-        match leaf {
-            None => Some(level.view),
-            Some(leaf) if level.body.symbols.settings => self.views.find(reader, leaf),
-            Some(leaf) => {
-                let help = "leave it out; the use of the fragment may have a `view`";
-                reader.wrong(leaf, "all that a fragment makes is for the view of its use", help);
-                None
-            }
-        }
+        Evaluator::new(reader, scope, level.off || self.purpose != Purpose::Pipeline)
     }
 
     /// How often an entry is repeated; `early` puts off a number that depends on properties of images.
     pub(super) fn count(
         &mut self,
         reader: &mut Reader,
-        level: &Level<'_, 't>,
+        level: &Level<'_>,
         view: ViewIndex,
-        repeat: Option<&Repeat<'t>>,
+        repeat: Option<&Repeat>,
         early: bool,
     ) -> Count {
         let is_check = self.purpose != Purpose::Pipeline;
         let (count, span) = match repeat {
             None | Some(Repeat::Once) => (1, None),
             Some(Repeat::Broken) => return Count::Failed,
-            Some(Repeat::Times { count, .. }) => {
+            Some(Repeat::Times { count, span, .. }) => {
                 let before = reader.errors.len();
-                let mut context = self.context(reader, level, view, None);
-                context.scope.properties = context.scope.properties.filter(|_| !early);
-                match context.whole::<u32>(*count, "number of repetitions", 0..=i64::from(MOST_THINGS)) {
-                    Some(number) => (number.max(u32::from(is_check)), Some(count.span())),
+                let count = count.get(reader);
+                let mut evaluator = self.evaluator(reader, level, view, None);
+                evaluator.scope.properties = evaluator.scope.properties.filter(|_| !early);
+                match count.and_then(|count| count.evaluate(&mut evaluator)) {
+                    Some(number) => (number.max(u32::from(is_check)), Some(*span)),
                     None if reader.errors.len() > before => return Count::Failed,
                     None if early => return Count::Later,
-                    None if is_check => (1, Some(count.span())),
+                    None if is_check => (1, Some(*span)),
                     None => return Count::Failed,
                 }
             }
@@ -217,13 +193,5 @@ impl<'a, 't> Evaluation<'a, 't> {
             reader.report(Diagnostic::new(at, message).help("repeat less, or let fragments use each other less often"));
         }
         false
-    }
-}
-
-/// The index and its value, if something is repeated.
-pub(super) fn indexed<'r>(repeat: &'r Repeat<'_>, number: u32) -> Option<(&'r Name, u32)> {
-    match repeat {
-        Repeat::Times { index, .. } => Some((index, number)),
-        Repeat::Once | Repeat::Broken => None,
     }
 }

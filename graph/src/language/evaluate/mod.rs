@@ -12,4 +12,4 @@ mod resources;
 mod unused;
 
 pub(crate) use evaluation::Purpose;
-pub(crate) use pipeline::{Declared, evaluate};
+pub(crate) use pipeline::evaluate;

@@ -4,12 +4,10 @@ use super::evaluation::{Evaluation, Level, Purpose};
 use crate::base::{Diagnostic, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
-use crate::language::entries::fragments::Fragment;
 use crate::language::entries::stand_ins::{self, Of};
-use crate::language::entries::uses::UseFields;
-use crate::language::entries::values::optional;
+use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
-use crate::language::scope::DecidedValue;
+use crate::language::scope::{DecidedValue, Parts};
 use crate::ron::{Name, Reader};
 
 /// Uses of fragments stand at most this deep in each other.
@@ -18,82 +16,76 @@ const MOST_NESTED: usize = 32;
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;
 
-impl<'t> Evaluation<'_, 't> {
+impl Evaluation<'_> {
     /// Puts in what a use asks for. If the use is off, a pass that does nothing stands for it, with what fills its
     /// targets instead.
     pub(super) fn put_in(
         &mut self,
         reader: &mut Reader,
-        level: &Level<'_, 't>,
+        level: &Level<'_>,
         view: ViewIndex,
-        (index, number): (Option<(&Name, u32)>, Option<u32>),
-        fields: &UseFields<'t>,
+        number: Option<u32>,
+        entry: &UseEntry,
     ) {
         let before = reader.errors.len();
-        let mut context = self.context(reader, level, view, index);
-        let name = context.reader.name(fields.name, "a use");
-        let fragment = context.reader.reference(fields.r#use, "a fragment");
-        let fragment = fragment.and_then(|name| Some((self.fragments.names.find(context.reader, &name)?, name)));
-        let off = context.off(fields.when);
+        let mut evaluator = self.evaluator(reader, level, view, number);
+        let off = entry.off.evaluate(&mut evaluator);
         let is_off = matches!(off, Some(Some(_)));
-        let otherwise =
-            context.leniently(!is_off, |context| optional(fields.otherwise, |leaf| context.stand_ins(leaf)));
-        let fragments = self.fragments;
-        let found = fragment.as_ref().and_then(|(at, _)| fragments.list.get(*at)?.as_ref());
-        let values = found.map(|fragment| {
-            context.leniently(is_off, |context| context.arguments(fields, (fragment.called(), &fragment.body.symbols)))
+        let otherwise = evaluator.leniently(!is_off, |evaluator| {
+            entry.otherwise.as_ref().map(|otherwise| otherwise.stand_ins.evaluate(evaluator))
         });
-        let (Some(name), Some((at, _)), Some(found), Some(values), Some(off)) = (name, fragment, found, values, off)
-        else {
+        let arguments = entry.arguments.iter().map(|argument| {
+            let Argument { value, span } = argument.as_ref()?;
+            Some((evaluator.leniently(is_off, |evaluator| value.evaluate(evaluator))?, *span))
+        });
+        let values: Vec<Option<(DecidedValue, Option<Span>)>> = arguments.collect();
+        let (name, at, fragments) = (&entry.name, entry.fragment, self.fragments);
+        let (Some(found), Some(off)) = (fragments.get(at), off) else {
             self.flat.fail();
             return;
         };
-        if reader.errors.len() > before || !self.may_nest(reader, at, &name) {
+        if reader.errors.len() > before || !self.may_nest(reader, at, name) {
             self.flat.fail();
             return;
         }
         let arguments: Vec<(Resource, Span)> = values
             .iter()
             .flatten()
-            .filter_map(|(value, leaf)| {
+            .filter_map(|(value, span)| {
                 let resource = match value.value {
                     Value::Image(index) => Resource::Image(index),
                     Value::Buffer(index) => Resource::Buffer(index),
                     _ => return None,
                 };
-                Some((resource, (*leaf)?.span()))
+                Some((resource, (*span)?))
             })
             .collect();
         let values: Vec<Option<DecidedValue>> = values.into_iter().map(|value| value.map(|(value, _)| value)).collect();
-        let whole = level.full(&name, number);
+        let whole = level.full(name, number);
         let start = self.flat.lengths();
         let instance = u32::try_from(self.flat.instances.len()).ok();
-        let mut inner = Level::within(level, (&found.body, values), (&whole, view, instance), is_off);
+        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off);
         self.flat.instances.push(Instance { name: whole.text.clone(), span: name.span, within: level.instance });
         self.used.insert(at);
         self.path.push((at, name.clone()));
         let inside = reader.errors.len();
         self.level(reader, &mut inner);
         self.path.pop();
-        self.used_here(reader, inside, &name);
+        self.used_here(reader, inside, name);
 
-        let written = if fields.otherwise.is_some() || is_off {
-            self.written_since(start.passes, &arguments)
-        } else {
-            Vec::new()
-        };
+        let written =
+            if entry.otherwise.is_some() || is_off { self.written_since(start.passes, &arguments) } else { Vec::new() };
         let otherwise = match otherwise {
-            Some(otherwise) => otherwise.unwrap_or_default(),
-            None if is_off => {
+            Some(None) if is_off => {
                 self.flat.fail();
                 return;
             }
-            None => Vec::new(),
+            otherwise => otherwise.flatten().unwrap_or_default(),
         };
-        let work = Work::Custom { callback: name, reads: Vec::new(), writes: written };
+        let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
         let pass = Pass { off, work, otherwise, view, instance: level.instance, ..Pass::idle(whole) };
-        if let Some(leaf) = fields.otherwise {
-            stand_ins::stand_ins_make_sense(reader, fields.when.is_some(), leaf, Of::Use, &pass);
+        if let Some(otherwise) = &entry.otherwise {
+            stand_ins::stand_ins_make_sense(reader, otherwise, Of::Use, &pass);
         }
         if is_off {
             self.flat.truncate(start);
@@ -122,10 +114,7 @@ impl<'t> Evaluation<'_, 't> {
             return false;
         }
         if let Some(first) = self.path.iter().position(|(outer, _)| *outer == at) {
-            let called = |at: usize| {
-                let fragment = self.fragments.list.get(at).and_then(Option::as_ref);
-                format!("`{}`", fragment.map_or("", Fragment::called))
-            };
+            let called = |at: usize| format!("`{}`", self.fragments.called(at));
             let circle: Vec<(usize, &Name)> =
                 self.path[first + 1..].iter().map(|(at, name)| (*at, name)).chain([(at, name)]).collect();
             let mut path = vec![called(at)];

@@ -1,28 +1,27 @@
 //! Images and buffers of a level: how many there are, then what each is like.
 
-use super::evaluation::{Count, Evaluation, Level, indexed};
+use super::evaluation::{Count, Evaluation, Level};
 use super::properties;
-use crate::language::entries::body::AnyImage;
 use crate::language::model::{Buffer, Image};
-use crate::language::scope::Elements;
+use crate::language::scope::{Elements, Parts};
 use crate::ron::Reader;
 use std::ops::Range;
 
-impl<'t> Evaluation<'_, 't> {
+impl Evaluation<'_> {
     /// Gives images and buffers their indices, then evaluates them. A number of repetitions that depends on images waits until
     /// the images above are evaluated; those can't refer to images below then.
-    pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'_, 't>) {
+    pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'_>) {
         let body = level.body;
         let images = body.images.len();
         let mut evaluated = 0;
         let [mut next_image, mut next_buffer] = [self.flat.images.len(), self.flat.buffers.len()];
         for at in 0..images + body.buffers.len() {
             let (repeat, view) = match at.checked_sub(images) {
-                None => body.images[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view())),
-                Some(at) => body.buffers[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view)),
+                None => body.images[at].as_ref().map(|entry| (&entry.repeat, entry.view(reader, level.view))),
+                Some(at) => body.buffers[at].as_ref().map(|entry| (&entry.repeat, entry.view(reader, level.view))),
             }
             .unzip();
-            let view = self.view(reader, level, view.flatten()).unwrap_or_default();
+            let view = view.unwrap_or(Some(level.view)).unwrap_or_default();
             let mut count = self.count(reader, level, view, repeat, true);
             if let Count::Later = count {
                 self.each(reader, level, evaluated..at);
@@ -46,7 +45,7 @@ impl<'t> Evaluation<'_, 't> {
     }
 
     /// Evaluates those of a range: images, then buffers.
-    fn each(&mut self, reader: &mut Reader, level: &Level<'_, 't>, range: Range<usize>) {
+    fn each(&mut self, reader: &mut Reader, level: &Level<'_>, range: Range<usize>) {
         let images = level.body.images.len();
         for at in range {
             let elements = match at.checked_sub(images) {
@@ -61,35 +60,24 @@ impl<'t> Evaluation<'_, 't> {
         }
     }
 
-    fn image(&mut self, reader: &mut Reader, level: &Level<'_, 't>, at: usize, count: u32) {
+    fn image(&mut self, reader: &mut Reader, level: &Level<'_>, at: usize, count: u32) {
         let entry = level.body.images[at].as_ref();
-        let view = self.view(reader, level, entry.and_then(|entry| entry.fields.view()));
+        let view = entry.map_or(Some(level.view), |entry| entry.view(reader, level.view));
         let mut right = view.is_some();
         let view = view.unwrap_or_default();
         for number in 0..count {
             let before = reader.errors.len();
+            let number = level.body.symbols.image_lists[at].then_some(number);
             let image = entry.filter(|_| right).and_then(|entry| {
-                let mut context = self.context(reader, level, view, indexed(&entry.repeat, number));
-                let image = match &entry.fields {
-                    AnyImage::Made(fields) => context.image_entry(fields),
-                    AnyImage::Texture(fields) => context.texture(self.pictures, fields),
-                }?;
-                let known = properties::of(&image, &self.flat.properties, context.scope.surroundings.extent);
-                let lenient = context.scope.lenient;
-                Some((
-                    image,
-                    known
-                        .map_err(|wrong| {
-                            if !lenient {
-                                reader.report(wrong)
-                            }
-                        })
-                        .ok(),
-                ))
+                let image = entry.value.get(reader)?;
+                let mut evaluator = self.evaluator(reader, level, view, number);
+                let image = image.evaluate(&mut evaluator)?;
+                let known = properties::of(&image, &self.flat.properties, evaluator.scope.surroundings.extent);
+                let known = known.map_err(|wrong| evaluator.fault(wrong)).ok();
+                Some((image, known))
             });
             let (image, known) = image.unzip();
             self.flat.properties.push(known.flatten());
-            let number = level.body.symbols.image_lists[at].then_some(number);
             self.flat.images.push(image.map(|image| {
                 let name = level.full(&image.name, number);
                 Image { name, view, instance: level.instance, ..image }
@@ -99,17 +87,18 @@ impl<'t> Evaluation<'_, 't> {
         }
     }
 
-    fn buffer(&mut self, reader: &mut Reader, level: &Level<'_, 't>, at: usize, count: u32) {
+    fn buffer(&mut self, reader: &mut Reader, level: &Level<'_>, at: usize, count: u32) {
         let entry = level.body.buffers[at].as_ref();
-        let view = self.view(reader, level, entry.and_then(|entry| entry.fields.view));
+        let view = entry.map_or(Some(level.view), |entry| entry.view(reader, level.view));
         let mut right = view.is_some();
         let view = view.unwrap_or_default();
         for number in 0..count {
             let before = reader.errors.len();
-            let buffer = entry.filter(|_| right).and_then(|entry| {
-                self.context(reader, level, view, indexed(&entry.repeat, number)).buffer_entry(&entry.fields)
-            });
             let number = level.body.symbols.buffer_lists[at].then_some(number);
+            let buffer = entry.filter(|_| right).and_then(|entry| {
+                let buffer = entry.value.get(reader)?;
+                buffer.evaluate(&mut self.evaluator(reader, level, view, number))
+            });
             self.flat.buffers.push(buffer.map(|buffer| {
                 let name = level.full(&buffer.name, number);
                 Buffer { name, instance: level.instance, ..buffer }

@@ -11,7 +11,7 @@ use crate::language::scope::{Parameter, ParameterKind};
 use crate::ron::{Name, Reader};
 use crate::vulkan::Format;
 
-impl Evaluation<'_, '_> {
+impl Evaluation<'_> {
     /// Evaluates the bodies of fragments that were never put in. Their arguments are images and buffers of which nothing is
     /// known, and default values, so that only mistakes are reported that don't depend on arguments.
     pub(super) fn unused(&mut self, reader: &mut Reader) {
@@ -22,13 +22,13 @@ impl Evaluation<'_, '_> {
                 continue;
             };
             let mut stand_ins = StandIns::default();
-            let parameters = fragment.body.symbols.parameters.iter();
+            let parameters = fragment.symbols.parameters.iter();
             let values = parameters.map(|parameter| parameter.as_ref().map(|it| stand_ins.give(it).into())).collect();
             self.flat = Flat::nothing_known(stand_ins.images, stand_ins.buffers);
             let unnamed = || Name { text: "".into(), span: Span::NONE };
             self.used.insert(at);
-            self.path.push((at, fragment.name.clone().unwrap_or_else(unnamed)));
-            self.level(reader, &mut Level::top(&fragment.body, values));
+            self.path.push((at, fragments.names.get(at).cloned().unwrap_or_else(unnamed)));
+            self.level(reader, &mut Level::top(fragment, values));
             self.path.pop();
             circles::find(&self.flat.images, &self.flat.buffers, &mut reader.errors);
             previous::check(&self.flat.images, &self.flat.buffers, &self.flat.passes, &mut reader.errors);

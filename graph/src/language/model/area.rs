@@ -52,7 +52,7 @@ fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagno
     times(base, factor).map_err(|[width, height]| {
         let name = &image.name.text;
         let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-        let because = image.size_because.as_ref().map_or_else(|| shown_number(factor), ToString::to_string);
+        let because = image.size.because.as_ref().map_or_else(|| shown_number(factor), ToString::to_string);
         let remark = format!("{because} times {}×{}", base[0], base[1]);
         Diagnostic::new(image.size.span, message).remark(remark)
     })

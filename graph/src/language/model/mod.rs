@@ -2,6 +2,7 @@
 
 mod area;
 mod choices;
+mod decided;
 mod part;
 mod pass;
 mod pipeline;
@@ -13,6 +14,7 @@ mod view;
 pub(crate) use area::{Area, LARGEST_SIZE, area, times};
 pub use choices::{Choice, ChosenBy, InForce, Preset, SettingsFile};
 pub(crate) use choices::{in_force, unknown_preset};
+pub use decided::Decided;
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub use pass::{
     Color, Depth, Draw, Face, Forward, Groups, LeftOut, Off, Param, Pass, Sample, StandIn, Storage, StorageAccess,

@@ -1,5 +1,6 @@
 //! What a pipeline file says of an image or a buffer: what it is like, and how long it lives.
 
+use super::decided::Decided;
 use super::references::{BufferRef, ImageRef, ResourceRef};
 use crate::base::Span;
 use crate::frame::{EyeForm, ResolveWay, TextureFile, ViewIndex};
@@ -13,23 +14,19 @@ pub struct Image {
     /// Unique name, among buffers too.
     pub name: Name,
     /// Texel format.
-    pub format: Spanned<Format>,
-    /// Width and height.
-    pub size: Spanned<Size>,
-    /// What decided the factor of its size, if anything did: "scale = 0.5".
-    pub size_because: Option<Arc<str>>,
+    pub format: Decided<Format>,
+    /// Width and height, with what decided the factor.
+    pub size: Decided<Size>,
     /// Samples a texel.
-    pub samples: Spanned<Samples>,
-    /// What decided how many samples it has, if anything did: "msaa = 4".
-    pub samples_because: Option<Arc<str>>,
+    pub samples: Decided<Samples>,
     /// How several samples become one value, if the file says it.
     pub resolve: Option<Resolves>,
     /// Mip levels.
-    pub mips: Spanned<Mips>,
+    pub mips: Decided<Mips>,
     /// Array layers.
-    pub layers: Spanned<Layers>,
+    pub layers: Decided<Layers>,
     /// Flat, deep, or a cube.
-    pub shape: Spanned<Shape>,
+    pub shape: Decided<Shape>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
     /// Whether each eye has one of its own, if the file says so; `None`: as the image whose size it follows, else not.
@@ -168,9 +165,7 @@ pub struct Buffer {
     /// Unique name, among images too.
     pub name: Name,
     /// Size in bytes.
-    pub bytes: Spanned<Bytes>,
-    /// What decided its size, if anything did: "count = 100".
-    pub bytes_because: Option<Arc<str>>,
+    pub bytes: Decided<Bytes>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).

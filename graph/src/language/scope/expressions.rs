@@ -1,5 +1,6 @@
 //! What names in expressions stand for at one level, and their values.
 
+use super::evaluator::ScopeValues;
 use super::level::Elements;
 use super::lookup::Scope;
 use super::parameter::{Parameter, ParameterKind};
@@ -37,7 +38,7 @@ impl Declarations for Scope<'_> {
         let Symbols { names: parameter_names, parameters, images, image_lists, buffers, buffer_lists, settings } =
             self.symbols;
         let found = |symbol: Option<Symbol>| symbol.map_or(Found::Reported, Found::Symbol);
-        if let Some((index, _)) = self.index.filter(|(index, _)| *index.text == *name) {
+        if let Some(index) = self.index.filter(|index| *index.text == *name) {
             let declared = index.span;
             let symbol = Symbol { id: INDEX, ty: Type::Integer, list: false, origin: Origin::Index, declared };
             return Found::Symbol(symbol);
@@ -73,7 +74,7 @@ impl Declarations for Scope<'_> {
     }
 
     fn names(&self) -> Vec<&str> {
-        let index = self.index.map(|(index, _)| &*index.text);
+        let index = self.index.map(|index| &*index.text);
         let own =
             self.symbols.names.in_order().chain(self.symbols.images.in_order()).chain(self.symbols.buffers.in_order());
         let mut names: Vec<&str> = index.into_iter().chain(own).collect();
@@ -92,7 +93,7 @@ impl Declarations for Scope<'_> {
     }
 }
 
-impl Scope<'_> {
+impl ScopeValues<'_> {
     fn block(&self, id: u32) -> Result<(u32, u32), Missing> {
         let (kind, at) = split(id);
         let (blocks, names) = match kind {
@@ -115,7 +116,7 @@ const fn thing(id: u32, index: u32) -> Value {
     }
 }
 
-impl Values for Scope<'_> {
+impl Values for ScopeValues<'_> {
     fn value(&self, id: u32) -> Result<Value, Missing> {
         let (kind, at) = split(id);
         match kind {
@@ -123,7 +124,7 @@ impl Values for Scope<'_> {
                 Some(Some(value)) => Ok(value.value.clone()),
                 _ => Err(Missing::Reported),
             },
-            INDEX => self.index.map(|(_, at)| Value::Integer(at.into())).ok_or(Missing::Reported),
+            INDEX => self.index.map(|at| Value::Integer(at.into())).ok_or(Missing::Reported),
             SURROUNDINGS => self.surroundings.value(id & !KIND).ok_or(Missing::Reported),
             _ => self.block(id).map(|(first, _)| thing(id, first)),
         }
@@ -163,7 +164,7 @@ impl Values for Scope<'_> {
     }
 }
 
-impl Scope<'_> {
+impl ScopeValues<'_> {
     /// Which declaration of this level an image comes from; of an image from elsewhere, one that there is not.
     fn declaration(&self, image: ImageIndex) -> usize {
         let within = |block: &Elements| matches!(block, Elements::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));

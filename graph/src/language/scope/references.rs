@@ -1,49 +1,55 @@
 //! References to images and buffers: plain names, or expressions.
 
 use super::context::Context;
+use super::given::Given;
 use crate::base::Diagnostic;
-use crate::expression::{Type, Value, Wanted};
+use crate::expression::{Expression, Type, Wanted};
 use crate::frame::Resource;
 use crate::language::model::{BufferRef, ImageRef, ResourceRef};
 use crate::ron::{Leaf, Name};
 
-impl Context<'_, '_> {
+impl Context<'_> {
     /// An image that is referred to.
-    pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<ImageRef> {
-        match self.reference(leaf, Wanted::IMAGE, "an image")?.resource {
-            Resource::Image(index) => Some(ImageRef { index, span: leaf.span() }),
+    pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<Given<ImageRef>> {
+        self.reference(leaf, Wanted::IMAGE, "an image")?.then(|of| match of.resource {
+            Resource::Image(index) => Some(ImageRef { index, span: of.span }),
             Resource::Buffer(_) => None,
-        }
+        })
     }
 
     /// A buffer that is referred to.
-    pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<BufferRef> {
-        match self.reference(leaf, Wanted::BUFFER, "a buffer")?.resource {
-            Resource::Buffer(index) => Some(BufferRef { index, span: leaf.span() }),
+    pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<Given<BufferRef>> {
+        self.reference(leaf, Wanted::BUFFER, "a buffer")?.then(|of| match of.resource {
+            Resource::Buffer(index) => Some(BufferRef { index, span: of.span }),
             Resource::Image(_) => None,
-        }
+        })
     }
 
     /// An image or buffer that is referred to.
-    pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<ResourceRef> {
+    pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<Given<ResourceRef>> {
         self.reference(leaf, Wanted::RESOURCE, "an image or buffer")
     }
 
-    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<ResourceRef> {
+    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<Given<ResourceRef>> {
         let span = leaf.span();
-        if let Some(resource) = leaf.plain().and_then(|plain| self.scope.plain_reference(plain, wanted)) {
-            return Some(ResourceRef { resource, span });
+        let found = move |resource: Resource| ResourceRef { resource, span };
+        if let Some(plain) = leaf.plain()
+            && let Some(declared) = self.scope.plain_reference(plain, wanted)
+        {
+            // The expression says what is wrong with one that isn't evaluated yet.
+            let expression = Expression::new(plain, leaf.span_of(plain), &self.scope, wanted).ok();
+            return Some(Given::asked(move |evaluator| {
+                let known = evaluator.declared(declared);
+                known.or_else(|| evaluator.resource(expression.as_ref()?)).map(found)
+            }));
         }
         if !self.scope.refers_by_expression(leaf, wanted) {
             let name = self.reader.reference(leaf, what)?;
             self.unknown(&name, wanted);
             return None;
         }
-        match self.evaluate(leaf, wanted)?.value {
-            Value::Image(index) => Some(ResourceRef { resource: Resource::Image(index), span }),
-            Value::Buffer(index) => Some(ResourceRef { resource: Resource::Buffer(index), span }),
-            _ => None,
-        }
+        let expression = self.expression(leaf, wanted)?;
+        Some(Given::asked(move |evaluator| evaluator.resource(&expression).map(found)))
     }
 
     /// Reports a name of another kind, or that nothing has.

@@ -1,8 +1,9 @@
 //! The shipped pipelines under their settings and over scenes.
 
 use crate::testing::pipelines::{INPUTS, frame, set, shipped};
-use framewright_graph::expand::{Facts, Inputs};
+use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Face, Frame, Image, ParamValue, Work};
+use framewright_graph::language::Facts;
 use framewright_graph::vulkan::Format;
 
 fn names(frame: &Frame) -> Vec<&str> {

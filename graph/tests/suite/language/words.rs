@@ -1,8 +1,9 @@
 //! What the words of the language come to in a frame.
 
 use crate::testing::pipelines::{INPUTS, right, set};
-use framewright_graph::expand::{Facts, Inputs};
+use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Blend, Face, Image, ImageIndex, ParamValue, Resource, Work};
+use framewright_graph::language::Facts;
 use framewright_graph::vulkan::{CompareOp, Filter, Format};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.

@@ -2,9 +2,9 @@
 
 use crate::testing::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
-use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Files, Found, NoFiles, Unread};
+use framewright_graph::language::{self, Facts, Files, Found, NoFiles, Unread};
 use framewright_graph::vulkan::{Format, Rotation};
 use std::sync::Arc;
 

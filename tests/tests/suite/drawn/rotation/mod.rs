@@ -22,9 +22,9 @@ mod shaders;
 
 use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo};
-use framewright_graph::language;
+use framewright_graph::language::{self, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Rotation;

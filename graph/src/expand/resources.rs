@@ -1,40 +1,42 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
-use super::chosen::Chosen;
-use super::follow::follow;
+use super::follow::{follow, follow_all};
 use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
-use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described};
+use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Pipeline};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::State;
 use crate::vulkan::states::{Subject, When};
 use std::sync::Arc;
 
-/// Everything that passes name; `None` where a mistake was reported.
-pub(super) struct Things {
-    pub(super) images: Vec<Option<images::Resolved>>,
+/// The pipeline at hand, with everything that passes name; `None` where a mistake was reported.
+pub(super) struct Resources<'a> {
+    pub(super) pipeline: &'a Pipeline,
+    pub(super) images: Vec<Option<images::FrameImage>>,
     pub(super) buffers: Vec<Option<Buffer>>,
 }
 
-impl Things {
-    /// Resolves all of them.
-    pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Things {
-        let mut images = images::resolve(chosen, errors);
-        for (image, described) in images.iter_mut().zip(&chosen.pipeline.images) {
+impl<'a> Resources<'a> {
+    /// Resolves all of them, in a frame of this size.
+    pub(super) fn resolve(pipeline: &'a Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Resources<'a> {
+        let mut images = images::resolve(pipeline, extent, errors);
+        let lifetimes = lifetimes(pipeline);
+        let (of_images, of_buffers) = lifetimes.split_at(images.len());
+        for ((image, described), kept) in images.iter_mut().zip(&pipeline.images).zip(of_images) {
             if let Some(resolved) = image {
                 let (format, samples) = (Some(resolved.image.format), resolved.image.samples);
                 let subject = Subject { name: &described.name.text, format, samples };
                 let before = errors.len();
-                match lifetime(chosen, &described.lifetime, subject, errors) {
+                match lifetime(described.lifetime.span, *kept, subject, errors) {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
-                super::chosen::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
+                super::instances::used_here(pipeline, described.instance, &mut errors[before..]);
             }
         }
-        let mut sizes = vec![None; chosen.pipeline.buffers.len()];
-        let buffers = &chosen.pipeline.buffers;
+        let mut sizes = vec![None; pipeline.buffers.len()];
+        let buffers = &pipeline.buffers;
         let buffers = buffers.iter().enumerate().map(|(at, buffer)| {
             let before = errors.len();
             let next = |buffer: &language::Buffer| match buffer.bytes.value {
@@ -44,17 +46,30 @@ impl Things {
             let bytes =
                 follow(buffers, &mut sizes, at, next, |buffer, followed| bytes(&images, buffer, followed, errors));
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
-            let lifetime = lifetime(chosen, &buffer.lifetime, subject, errors);
-            super::chosen::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
+            let lifetime = lifetime(buffer.lifetime.span, of_buffers[at], subject, errors);
+            super::instances::used_here(pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
         });
         let buffers = buffers.collect();
-        Things { images, buffers }
+        Resources { pipeline, images, buffers }
+    }
+
+    /// What the file says of an image.
+    pub(super) fn declared(&self, index: ImageIndex) -> &'a language::Image {
+        &self.pipeline.images[index.0 as usize]
+    }
+
+    /// The name of an image or buffer.
+    pub(super) fn name(&self, of: Resource) -> &'a Name {
+        match of {
+            Resource::Image(index) => &self.pipeline.images[index.0 as usize].name,
+            Resource::Buffer(index) => &self.pipeline.buffers[index.0 as usize].name,
+        }
     }
 
     /// The image, if it could be resolved.
-    pub(super) fn image(&self, index: ImageIndex) -> Option<&images::Resolved> {
+    pub(super) fn image(&self, index: ImageIndex) -> Option<&images::FrameImage> {
         self.images.get(index.0 as usize)?.as_ref()
     }
 
@@ -66,7 +81,6 @@ impl Things {
     /// The state in which an output is to be left, if nothing contradicts it.
     pub(super) fn left(
         &self,
-        chosen: &Chosen<'_>,
         of: Resource,
         after: Spanned<language::State>,
         errors: &mut Vec<Diagnostic>,
@@ -76,7 +90,7 @@ impl Things {
             Resource::Buffer(_) => None,
         };
         let (format, samples) = (image.map(|image| image.format), image.map_or(1, |image| image.samples));
-        let name = chosen.name(of);
+        let name = self.name(of);
         let lowered = states::lower(after, Subject { name: &name.text, format, samples }, When::After, errors)?;
         if let Some(Lifetime::Imported { after: Some(promised), .. }) = self.lifetime(of)
             && *promised != lowered
@@ -98,19 +112,9 @@ impl Things {
     }
 }
 
-impl<'a> Chosen<'a> {
-    /// The name of an image or buffer.
-    pub(super) fn name(&self, of: Resource) -> &'a Name {
-        match of {
-            Resource::Image(index) => &self.pipeline.images[index.0 as usize].name,
-            Resource::Buffer(index) => &self.pipeline.buffers[index.0 as usize].name,
-        }
-    }
-}
-
 /// The size of a buffer.
 fn bytes(
-    images: &[Option<images::Resolved>],
+    images: &[Option<images::FrameImage>],
     buffer: &language::Buffer,
     followed: Option<u64>,
     errors: &mut Vec<Diagnostic>,
@@ -118,7 +122,7 @@ fn bytes(
     let (bytes, because) = match buffer.bytes.value {
         Bytes::Count(bytes) => (bytes.checked_next_multiple_of(4), format!("{bytes} bytes")),
         Bytes::Times(each, count) => {
-            let because = buffer.bytes_because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
+            let because = buffer.bytes.because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
             (each.checked_mul(count), format!("{each} bytes times {count}{because}"))
         }
         Bytes::PerTexel(each, of) => {
@@ -138,23 +142,30 @@ fn bytes(
     rounded
 }
 
+/// What the file says of the lifetime of each image, then of each buffer: its own, or that of the one that it follows.
+fn lifetimes(Pipeline { images, buffers, .. }: &Pipeline) -> Vec<Option<&Spanned<Described>>> {
+    let of_images = images.iter().map(|image| &image.lifetime);
+    let all: Vec<_> = of_images.chain(buffers.iter().map(|buffer| &buffer.lifetime)).collect();
+    let next = |lifetime: &&Spanned<Described>| match &lifetime.value {
+        Described::Like(of) => Some(match of.resource {
+            Resource::Image(index) => index.0 as usize,
+            Resource::Buffer(index) => images.len() + index.0 as usize,
+        }),
+        _ => None,
+    };
+    follow_all(&all, next, |own, followed| followed.or(Some(*own)))
+}
+
+/// How long contents live that are declared so at `own`; `kept` is what they follow in the end.
 fn lifetime(
-    chosen: &Chosen<'_>,
-    described: &Spanned<Described>,
+    own: Span,
+    kept: Option<&Spanned<Described>>,
     of: Subject<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Lifetime> {
-    let mut value = described;
-    // A circle would be longer than everything together; reading a pipeline has ruled it out.
-    for _ in 0..chosen.pipeline.images.len() + chosen.pipeline.buffers.len() {
-        let Described::Like(other) = &value.value else { break };
-        value = match other.resource {
-            Resource::Image(index) => &chosen.pipeline.images[index.0 as usize].lifetime,
-            Resource::Buffer(index) => &chosen.pipeline.buffers[index.0 as usize].lifetime,
-        };
-    }
+    let value = kept?;
     // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
-    let here = |span: Span| if value.span == described.span { span } else { described.span };
+    let here = |span: Span| if value.span == own { span } else { own };
     let initial = |fill: Option<Spanned<language::Fill>>, errors: &mut Vec<Diagnostic>| {
         let Some(fill) = fill else { return Some(fills::zero(of.format)) };
         match fills::typed(fill.value, of.format) {
@@ -183,10 +194,10 @@ fn lifetime(
             };
             Lifetime::Imported { before: before?, after: after? }
         }
-        Described::File(file) if value.span == described.span => Lifetime::File(Arc::clone(file)),
+        Described::File(file) if value.span == own => Lifetime::File(Arc::clone(file)),
         Described::File(_) => {
             let message = format!("`{}` can't live like a texture: its contents come from no file", of.name);
-            errors.push(Diagnostic::new(described.span, message).label(value.span, "the texture's file"));
+            errors.push(Diagnostic::new(own, message).label(value.span, "the texture's file"));
             return None;
         }
     })

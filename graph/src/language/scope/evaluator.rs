@@ -1,0 +1,134 @@
+//! Where the values of entries are found at a lowering.
+
+use super::given::Parts;
+use super::level::{DecidedValue, Elements, LevelValues, Properties};
+use super::lookup::Declared;
+use super::symbols::Symbols;
+use crate::base::{Diagnostic, Label, Span};
+use crate::expression::{Decision, Expression, Outcome, Value};
+use crate::frame::{BufferIndex, ImageIndex, Resource};
+use crate::language::inputs::Surroundings;
+use crate::language::model::Decided;
+use crate::ron::{Name, Reader};
+use std::sync::Arc;
+
+/// The values of everything that a name in quotes may refer to. A handle, copied freely.
+#[derive(Clone, Copy)]
+pub(crate) struct ScopeValues<'a> {
+    pub(crate) symbols: &'a Symbols,
+    pub(crate) level: &'a LevelValues,
+    /// Settings as the view at hand has them, or parameters; `None` where one has no value, which was reported.
+    pub(crate) values: &'a [Option<DecidedValue>],
+    pub(crate) surroundings: &'a Surroundings<'a>,
+    /// Of the images that were evaluated so far, `None` where a mistake was reported; `None`: they are put off.
+    pub(crate) properties: Option<&'a [Option<Properties>]>,
+    /// The number of the repetition at hand.
+    pub(crate) index: Option<u32>,
+    /// The view that the entry is for, unless it is the main one.
+    pub(crate) view: Option<&'a Name>,
+}
+
+/// What finds the values of an entry: the scope that they are asked of, and the reader that mistakes are reported to.
+pub(crate) struct Evaluator<'e, 'a> {
+    pub(crate) reader: &'e mut Reader,
+    pub(crate) scope: ScopeValues<'a>,
+    /// Whether an expression without a value is no mistake, because it belongs to something that is off.
+    pub(crate) lenient: bool,
+    /// Whether an expression had no value, and that was no mistake.
+    pub(crate) forgave: bool,
+}
+
+impl<'e, 'a> Evaluator<'e, 'a> {
+    pub(crate) const fn new(reader: &'e mut Reader, scope: ScopeValues<'a>, lenient: bool) -> Evaluator<'e, 'a> {
+        Evaluator { reader, scope, lenient, forgave: false }
+    }
+
+    /// Evaluates something that may be `off`: then an expression without a value is no mistake.
+    pub(crate) fn leniently<T>(&mut self, off: bool, evaluate: impl FnOnce(&mut Self) -> T) -> T {
+        let lenient = self.lenient;
+        self.lenient |= off;
+        let value = evaluate(self);
+        self.lenient = lenient;
+        value
+    }
+
+    /// Puts in the values of a field; `None` if it couldn't be read, or has no value.
+    pub(crate) fn put_in<P: Parts>(&mut self, field: &Option<P>) -> Option<P::Values> {
+        field.as_ref()?.evaluate(self)
+    }
+
+    /// The value of an expression, and what decided it.
+    pub(crate) fn evaluate(&mut self, expression: &Expression) -> Option<Outcome> {
+        match expression.evaluate(&self.scope) {
+            Ok(outcome) => Some(outcome),
+            Err(errors) => {
+                for mut error in errors {
+                    if let Some(Label { text, .. }) = error.labels.first_mut() {
+                        *text = within_view(self.scope.view, text);
+                    }
+                    self.fault(error);
+                }
+                self.forgave = true;
+                None
+            }
+        }
+    }
+
+    /// Reports a mistake in the value of an expression, unless it belongs to something that is off.
+    pub(crate) fn fault(&mut self, diagnostic: Diagnostic) {
+        if self.lenient {
+            self.forgave = true;
+        } else {
+            self.reader.report(diagnostic);
+        }
+    }
+
+    /// The value of a setting or parameter that is named at `span`.
+    pub(crate) fn parameter(&self, at: usize, span: Span) -> Option<Decided<Value>> {
+        let DecidedValue { value, decided } = self.scope.values.get(at)?.as_ref()?;
+        let because = if self.scope.symbols.settings {
+            let parameter = self.scope.symbols.parameters.get(at)?.as_ref()?;
+            Some(format!("{} = {value}", parameter.name.text).into())
+        } else {
+            joined(decided)
+        };
+        Some(Decided { value: value.clone(), span, because })
+    }
+
+    /// The image or buffer that a declaration of this level stands for.
+    pub(super) fn declared(&self, declared: Declared) -> Option<Resource> {
+        let one = |block: Option<&Elements>| match block {
+            Some(Elements::At { first, .. }) => Some(*first),
+            _ => None,
+        };
+        match declared {
+            Declared::Image(at) => one(self.scope.level.images.get(at)).map(|at| Resource::Image(ImageIndex(at))),
+            Declared::Buffer(at) => one(self.scope.level.buffers.get(at)).map(|at| Resource::Buffer(BufferIndex(at))),
+        }
+    }
+
+    /// The image or buffer that an expression means.
+    pub(super) fn resource(&mut self, expression: &Expression) -> Option<Resource> {
+        match self.evaluate(expression)?.value {
+            Value::Image(index) => Some(Resource::Image(index)),
+            Value::Buffer(index) => Some(Resource::Buffer(index)),
+            _ => None,
+        }
+    }
+}
+
+/// What decided a value, with the view that it is of if that isn't the main one.
+pub(crate) fn within_view(view: Option<&Name>, because: &str) -> String {
+    match view {
+        Some(name) if !because.is_empty() => format!("{because} in view `{}`", name.text),
+        _ => because.to_owned(),
+    }
+}
+
+/// What decided, for people: "msaa = 4, hdr = true".
+pub(crate) fn joined(decided: &[Decision]) -> Option<Arc<str>> {
+    if decided.is_empty() {
+        return None;
+    }
+    Some(decided.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ").into())
+}
