@@ -1,6 +1,5 @@
 //! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
 
-mod alpha;
 mod bindings;
 mod capabilities;
 mod compile;

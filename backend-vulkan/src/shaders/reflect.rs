@@ -4,10 +4,10 @@ use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
+use super::rotation;
 use super::text::Refused;
-use super::{alpha, rotation};
 use crate::process::ShaderStage;
-use framewright_graph::shader::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
+use framewright_graph::shader::{FragmentOutput, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
@@ -75,7 +75,6 @@ pub(super) fn reflect(
             ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
         },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
-        alpha: alpha_uses(&module, fragment),
         discards: module
             .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
@@ -117,18 +116,6 @@ fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -
         }
     }
     Ok(())
-}
-
-/// What becomes of the alpha of the images that the pass's own set samples.
-fn alpha_uses(module: &IndexedModule<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
-    let sampled = module.variables().filter(|(id_of, it)| {
-        let image =
-            module.pointee(it).is_some_and(|ty| matches!(ty.class.opcode, Op::TypeSampledImage | Op::TypeImage));
-        image && module.decoration_number(*id_of, Decoration::DescriptorSet) == Some(PASS_SET)
-    });
-    sampled
-        .filter_map(|(id_of, _)| Some((module.name(id_of).to_owned(), alpha::used(module, id_of, fragment)?)))
-        .collect()
 }
 
 /// Invocations of a workgroup, as the entry point says.

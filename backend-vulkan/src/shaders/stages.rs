@@ -59,12 +59,6 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
             }
         }
     }
-    for (name, used) in &vertex.reflected.interface.alpha {
-        match joined.alpha.iter_mut().find(|(known, _)| known == name) {
-            Some((_, known)) => *known = (*known).max(*used),
-            None => joined.alpha.push((name.clone(), *used)),
-        }
-    }
     joined.unturned.extend(
         vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
     );

@@ -99,8 +99,7 @@ fn expand_so(
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }
-    let kept =
-        precision::choose(surroundings(inputs).facts.depth_range, &mut resources, &states, &outputs, &mut checked);
+    let kept = precision::choose(surroundings(inputs).facts.depth_range, &mut resources, &states, &outputs);
 
     let Resources { images, buffers, .. } = resources;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();

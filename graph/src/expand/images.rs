@@ -85,8 +85,8 @@ fn index(of: ImageRef) -> usize {
 
 fn format(image: &language::Image, followed: Option<Format>) -> Option<Format> {
     match image.format.value {
-        Described::Color { hdr: true } => Some(Format::R16G16B16A16_SFLOAT),
-        Described::Color { hdr: false } | Described::Output => Some(Format::R8G8B8A8_SRGB),
+        Described::Color { hdr: true, .. } => Some(Format::R16G16B16A16_SFLOAT),
+        Described::Color { hdr: false, .. } | Described::Output => Some(Format::R8G8B8A8_SRGB),
         Described::Depth => Some(Format::D32_SFLOAT),
         Described::DepthStencil => Some(Format::D32_SFLOAT_S8_UINT),
         Described::Named(format) => Some(format),

@@ -2,16 +2,13 @@
 //!
 //! Only images that passes of the frame alone draw and sample: what comes in, leaves, is a storage image, or is copied to or
 //! from buffers or by custom passes has the usual format, which others may rely on. Images that follow each other, and
-//! those that are copied texel for texel, have one format. Colour whose alpha counts keeps it.
+//! those that are copied texel for texel, have one format. Colour keeps its alpha, unless its format has none.
 
 use super::resources::Resources;
-use super::shader::Checked;
 use super::state::State;
-use super::variant;
 use crate::base::Span;
-use crate::frame::{Access, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
 use crate::language::{self, Format as Described, Precision, Precisions};
-use crate::shader::AlphaUse;
 use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
 
@@ -26,9 +23,9 @@ fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range
     };
     let Some(Precisions { precision, said, .. }) = policy.as_ref() else { return Wanted::Usual };
     let formats: &[Format] = match (described, precision) {
-        (Described::Color { hdr: true }, Precision::Smallest) => &[Format::B10G11R11_UFLOAT_PACK32],
-        (Described::Color { hdr: true }, Precision::Exact) => &[Format::R32G32B32A32_SFLOAT],
-        (Described::Color { hdr: false }, Precision::Exact) => &[Format::R16G16B16A16_UNORM],
+        (Described::Color { hdr: true, .. }, Precision::Smallest) => &[Format::B10G11R11_UFLOAT_PACK32],
+        (Described::Color { hdr: true, .. }, Precision::Exact) => &[Format::R32G32B32A32_SFLOAT],
+        (Described::Color { hdr: false, .. }, Precision::Exact) => &[Format::R16G16B16A16_UNORM],
         (Described::Depth, Precision::Smallest) => &[Format::D16_UNORM, Format::X8_D24_UNORM_PACK32],
         (Described::Depth, Precision::Balanced) => &[Format::X8_D24_UNORM_PACK32],
         (Described::DepthStencil, Precision::Smallest | Precision::Balanced) => &[Format::D24_UNORM_S8_UINT],
@@ -75,7 +72,6 @@ pub(super) fn choose(
     resources: &mut Resources<'_>,
     states: &[State],
     outputs: &[Output],
-    shaders: &mut Checked<'_>,
 ) -> Vec<Remark> {
     let pipeline = resources.pipeline;
     if pipeline.color.is_none() && pipeline.depth_format.is_none() {
@@ -91,7 +87,7 @@ pub(super) fn choose(
     for [one, other] in passes.iter().filter_map(|pass| copied(resources, pass)) {
         alike.union(one.0, other.0);
     }
-    let uses = Uses::find(resources, states, outputs, shaders);
+    let fixed = fixed(resources, states, outputs);
     let mut remarks = Vec::new();
     for group in groups(&mut alike, pipeline.images.len()) {
         let format = |at: &u32| resources.image(ImageIndex(*at)).map(|image| image.image.format);
@@ -109,8 +105,8 @@ pub(super) fn choose(
         // All that is in one group has one format; what stands in it first decides.
         let Some((described, format, choice, too_coarse)) = of_group.into_iter().next() else { continue };
         let no_alpha = format.components() < choice.usual.components() && !format.is_depth();
-        let hindrance = group.iter().find_map(|at| uses.hindrance(ImageIndex(*at), no_alpha));
-        if let Some(Hindrance { why, span }) = hindrance {
+        let alpha = group.iter().find_map(|at| keeps_alpha(&pipeline.images[*at as usize])).filter(|_| no_alpha);
+        if let Some(Hindrance { why, span }) = group.iter().find_map(|at| fixed[*at as usize].clone()).or(alpha) {
             let text = format!("{} is taken in spite of {}: {why}", choice.usual, choice.because);
             remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
             continue;
@@ -177,116 +173,43 @@ struct Hindrance {
     span: Span,
 }
 
-/// What stands in the way of other formats, for each image.
-struct Uses {
-    /// Somebody relies on the very format.
-    fixed: Vec<Option<Hindrance>>,
-    /// The alpha counts.
-    alpha: Vec<Option<Hindrance>>,
+/// The alpha of an image is kept, unless its format says that it has none.
+fn keeps_alpha(described: &language::Image) -> Option<Hindrance> {
+    let Described::Color { alpha: true, .. } = described.format.value else { return None };
+    let why = "its alpha is kept, since its format isn't `Color(alpha: false)`".to_owned();
+    Some(Hindrance { why, span: described.format.span })
 }
 
-impl Uses {
-    fn hindrance(&self, image: ImageIndex, no_alpha: bool) -> Option<Hindrance> {
-        let at = image.0 as usize;
-        self.fixed[at].clone().or_else(|| self.alpha[at].clone().filter(|_| no_alpha))
+/// For each image, what relies on its very format, if anything does.
+fn fixed(resources: &Resources<'_>, states: &[State], outputs: &[Output]) -> Vec<Option<Hindrance>> {
+    let lives = resources.images.iter().map(|image| {
+        let image = &image.as_ref()?.image;
+        let why = match image.lifetime {
+            Lifetime::Imported { .. } => "it is handed in",
+            Lifetime::File(_) => "it comes from a file",
+            Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => return None,
+        };
+        Some(Hindrance { why: why.to_owned(), span: image.span })
+    });
+    let mut fixed: Vec<Option<Hindrance>> = lives.collect();
+    let mut fix = |image: ImageIndex, why: String, span: Span| {
+        fixed[image.0 as usize].get_or_insert(Hindrance { why, span });
+    };
+    // Images that are dumped are looked at as they are.
+    for output in outputs.iter().filter(|output| output.span != Span::NONE) {
+        if let Resource::Image(image) = output.resource {
+            fix(image, "it leaves the frame".to_owned(), output.span);
+        }
     }
-
-    fn find(resources: &Resources<'_>, states: &[State], outputs: &[Output], shaders: &mut Checked<'_>) -> Uses {
-        let images = &resources.pipeline.images;
-        let mut uses = Uses { fixed: vec![None; images.len()], alpha: vec![None; images.len()] };
-        for (image, fixed) in resources.images.iter().zip(&mut uses.fixed) {
-            let Some(image) = image.as_ref().map(|image| &image.image) else { continue };
-            let why = match image.lifetime {
-                Lifetime::Imported { .. } => "it is handed in",
-                Lifetime::File(_) => "it comes from a file",
-                Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => continue,
-            };
-            *fixed = Some(Hindrance { why: why.to_owned(), span: image.span });
-        }
-        // Images that are dumped are looked at as they are.
-        for output in outputs.iter().filter(|output| output.span != Span::NONE) {
-            if let Resource::Image(image) = output.resource {
-                uses.fix(image, "it leaves the frame".to_owned(), output.span);
-            }
-        }
-        let passes = running(states);
-        let format = |image: ImageIndex| resources.image(image).map(|known| known.image.format);
-        for pass in &passes {
-            for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
-                if let Some(image) = access.image_index() {
-                    let storage = matches!(access, Access::Storage(_));
-                    let what = if storage { "uses it as a storage image" } else { "moves its bytes" };
-                    uses.fix(image, format!("`{}` {what}", pass.name), access.span());
-                }
-            }
-        }
-        uses.alpha(resources, states, shaders);
-        uses
-    }
-
-    fn fix(&mut self, image: ImageIndex, why: String, span: Span) {
-        self.fixed[image.0 as usize].get_or_insert(Hindrance { why, span });
-    }
-
-    /// Finds the images whose alpha counts: somebody makes use of it, or it is handed on to where it counts.
-    fn alpha(&mut self, resources: &Resources<'_>, states: &[State], shaders: &mut Checked<'_>) {
-        let has_alpha =
-            |image: &ImageIndex| resources.image(*image).is_some_and(|image| image.image.format.components() == 4);
-        // What others are told the format of may be looked at with its alpha.
-        for at in 0..self.fixed.len() {
-            self.alpha[at] = self.fixed[at].clone().filter(|_| has_alpha(&ImageIndex(at as u32)));
-        }
-        // From where to where it is handed on, by which pass, and where that is said.
-        let mut handed_on: Vec<(ImageIndex, ImageIndex, &Pass, Span)> = Vec::new();
-        for (state, described) in states.iter().zip(&resources.pipeline.passes) {
-            let pass = match state {
-                State::On(pass) => pass,
-                State::Off { stand_ins, .. } => {
-                    let moves = stand_ins
-                        .iter()
-                        .filter_map(|pass| pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
-                    handed_on.extend(moves);
-                    continue;
-                }
-            };
-            handed_on.extend(pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
-            let Some(alpha) = alpha_of(resources, described, pass, shaders) else { continue };
-            for sampled in &pass.sampled {
-                let Some((_, used)) = alpha.iter().find(|(name, _)| **name == *sampled.binding) else { continue };
-                let weighs = |blend: Blend| matches!(blend, Blend::Alpha | Blend::Premultiplied);
-                let blends = pass.color.iter().any(|target| weighs(target.blend));
-                if *used == AlphaUse::Read || blends {
-                    let why = format!("its alpha counts for what `{}` draws", pass.name);
-                    self.alpha[sampled.image.0 as usize].get_or_insert(Hindrance { why, span: sampled.span });
-                }
-                handed_on.extend(pass.color.iter().map(|target| (sampled.image, target.image, pass, sampled.span)));
-            }
-        }
-        // Against the order of passes nearly all is found the first time; what lives longer than a frame may take more.
-        let mut found = true;
-        while std::mem::take(&mut found) {
-            for (from, to, pass, span) in handed_on.iter().rev() {
-                let (from, to) = (from.0 as usize, to.0 as usize);
-                if self.alpha[to].is_some() && self.alpha[from].is_none() {
-                    let target = &resources.pipeline.images[to].name.text;
-                    let why = format!("`{}` hands its alpha on to `{target}`, where it counts", pass.name);
-                    self.alpha[from] = Some(Hindrance { why, span: *span });
-                    found = true;
-                }
+    let format = |image: ImageIndex| resources.image(image).map(|known| known.image.format);
+    for pass in running(states) {
+        for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
+            if let Some(image) = access.image_index() {
+                let storage = matches!(access, Access::Storage(_));
+                let what = if storage { "uses it as a storage image" } else { "moves its bytes" };
+                fix(image, format!("`{}` {what}", pass.name), access.span());
             }
         }
     }
-}
-
-/// What a pass's shader does with alpha; `None` if it has none, or it can't be had, which is reported elsewhere.
-fn alpha_of(
-    resources: &Resources<'_>,
-    described: &language::Pass,
-    pass: &Pass,
-    shaders: &mut Checked<'_>,
-) -> Option<Vec<(String, AlphaUse)>> {
-    if pass.sampled.is_empty() {
-        return None;
-    }
-    shaders.interface(described, &variant::of(resources, described), &mut Vec::new()).map(|found| found.alpha)
+    fixed
 }

@@ -15,9 +15,6 @@ pub struct ShaderInterface {
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
     pub outputs: Vec<FragmentOutput>,
-    /// What it does with the alpha of the images that [`PASS_SET`] samples, by their names; of images that aren't there it
-    /// makes no use of alpha.
-    pub alpha: Vec<(String, AlphaUse)>,
     /// Whether the fragment stage may discard fragments.
     pub discards: bool,
     /// Whether the fragment stage reads `gl_FragCoord`.
@@ -49,15 +46,6 @@ pub enum Unturned {
     FragCoord,
     /// It takes derivatives to the right or down.
     Derivatives,
-}
-
-/// What a shader does with the fourth component of an image that it samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum AlphaUse {
-    /// It counts for nothing but the fourth component of colour outputs.
-    Passed,
-    /// It may count for anything.
-    Read,
 }
 
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.

@@ -59,6 +59,8 @@ fields! {
     struct ColorFormatFields<'src> {
         /// Whether values above 1 are kept; not if left out.
         hdr: Option<Leaf<'src>> => Form::Truth,
+        /// Whether alpha is kept; it is if left out. If not, `color: Smallest` chooses a format without alpha.
+        alpha: Option<Leaf<'src>> => Form::Truth,
     }
 }
 
@@ -182,12 +184,17 @@ impl Context<'_> {
         };
         match word {
             "Color" => {
-                let hdr = match rest {
-                    Some(_) => self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
+                let fields = match rest {
+                    Some(_) => Some(self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?),
                     None => None,
                 };
-                let hdr = hdr.map_or_else(|| Some(Given::said(leaf, false)), |hdr| self.truth(hdr));
-                Some(hdr?.of(|hdr| Format::Color { hdr }))
+                let mut truth = |field: Option<Leaf<'_>>, absent: bool| match field {
+                    Some(field) => self.truth(field),
+                    None => Some(Given::said(leaf, absent)),
+                };
+                let (hdr, alpha) = fields.map_or((None, None), |fields| (fields.hdr, fields.alpha));
+                let (hdr, alpha) = (truth(hdr, false), truth(alpha, true));
+                Some(given((hdr?, alpha?), |(hdr, alpha)| hdr.map(|hdr| Format::Color { hdr, alpha: alpha.value })))
             }
             "Like" => self.like(leaf, rest, Format::Like),
             name => {

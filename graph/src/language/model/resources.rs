@@ -77,6 +77,8 @@ pub enum Format {
     Color {
         /// Whether values above 1 are kept.
         hdr: bool,
+        /// Whether alpha is kept.
+        alpha: bool,
     },
     /// Depth: `D32_SFLOAT`, unless the pipeline says otherwise.
     Depth,

@@ -17,7 +17,7 @@ fn pipeline(policies: &str, hdr: &str, more: &str) -> String {
                 (name: "close", value: Bool(default: true)),
             ],
             images: [
-                (name: "color", format: Color(hdr: {hdr}), size: Output),
+                (name: "color", format: Color(hdr: {hdr}, alpha: false), size: Output),
                 (name: "follows", format: Like("color"), size: Output),
                 (name: "depth", format: Depth, size: Output),
                 (name: "marked", format: DepthStencil, size: Output),
@@ -164,29 +164,24 @@ fn what_others_rely_on_keeps_its_format() {
 }
 
 #[test]
-fn colour_whose_alpha_counts_keeps_it() {
+fn colour_keeps_its_alpha_unless_its_format_has_none() {
     let text = pipeline("color: Smallest,", "true", "");
-    // `tinted` makes use of the alpha of what it samples, `copy` hands it on.
-    let reads = text.replace(
-        "FullScreen(\"blur_tent\"), sample: {\"source\": \"follows\"}",
-        "FullScreen(\"tinted\"), sample: {\"source\": \"follows\"}",
-    );
-    assert_eq!(kept(&reads), "its alpha counts for what `show` draws");
-    let on = text.replace(
-        "FullScreen(\"blur_tent\"), sample: {\"source\": \"follows\"}",
-        "FullScreen(\"copy\"), sample: {\"source\": \"follows\"}",
-    );
-    assert_eq!(kept(&on), "`show` hands its alpha on to `screen`, where it counts");
-    let inside = text.replace(
-        "FullScreen(\"blur_tent\"), sample: {\"source\": \"color\"}",
-        "FullScreen(\"copy\"), sample: {\"source\": \"color\"}",
-    );
-    assert_eq!(right(&inside, &INPUTS).images[0].format, B10G11R11_UFLOAT_PACK32, "nobody looks at it");
-    let blended = inside
-        .replace("color: [\"follows\"]", "color: [(image: \"follows\", clear: (0.0, 0.0, 0.0, 1.0), blend: Alpha)]");
-    assert_eq!(kept(&blended), "its alpha counts for what `blur` draws");
-    let exact = reads.replace("color: Smallest", "color: Exact");
-    assert_eq!(right(&exact, &INPUTS).images[0].format, R32G32B32A32_SFLOAT, "it has alpha");
+    assert_eq!(right(&text, &INPUTS).images[0].format, B10G11R11_UFLOAT_PACK32);
+    let because = "its alpha is kept, since its format isn't `Color(alpha: false)`";
+    for with_alpha in ["Color(hdr: true)", "Color(hdr: true, alpha: true)", "Color(hdr: true, alpha: \"close\")"] {
+        let kept_alpha = text.replace("Color(hdr: true, alpha: false)", with_alpha);
+        assert_eq!(kept(&kept_alpha), because, "{with_alpha}");
+        let exact = kept_alpha.replace("color: Smallest", "color: Exact");
+        assert_eq!(right(&exact, &INPUTS).images[0].format, R32G32B32A32_SFLOAT, "it has alpha");
+    }
+    let copied = text
+        .replace("format: Like(\"color\")", "format: Color(hdr: true)")
+        .replace(
+            "\"blur_tent\"), sample: {\"source\": \"color\"}, color: [\"follows\"]",
+            "\"blur_tent\"), sample: {\"source\": \"color\"}, color: [\"named\"]",
+        )
+        .replace("(name: \"show\"", "(name: \"move\", copy: (from: \"color\", to: \"follows\")), (name: \"show\"");
+    assert_eq!(kept(&copied), because, "it is copied into an image that keeps its alpha");
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use framewright_graph::base::Quote;
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
-    AlphaUse, Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface,
-    ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
+    Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
+    ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
@@ -183,16 +183,6 @@ fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterfa
         binding.kind = BindingKind::InputAttachment { multisampled: false, component: Component::Float };
     }
     shader
-}
-
-/// What shaders do with the alpha of what they sample.
-fn alpha(name: &str) -> Vec<(String, AlphaUse)> {
-    let used = match name {
-        "copy" | "scale_area" | "scale_catmull_rom" | "resolve_weighted" | "depth_stripes_copy" => AlphaUse::Passed,
-        "tinted" => AlphaUse::Read,
-        _ => return Vec::new(),
-    };
-    vec![("source".to_owned(), used)]
 }
 
 impl ShaderInterfaces for Table {
@@ -393,7 +383,7 @@ impl ShaderInterfaces for Table {
                 return Err(ShaderProblem::Missing { looked_in, known });
             }
         };
-        Ok(ShaderInterface { alpha: alpha(name), ..read_locally(shader, variant) })
+        Ok(read_locally(shader, variant))
     }
 
     fn compute_shader(&mut self, name: &str, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
