@@ -16,8 +16,8 @@ fn text(policies: &str) -> String {
             version: 1,
             {policies}
             images: [
-                (name: "light", format: Color(hdr: true), size: Output, samples: 4),
-                (name: "kept", format: Color(hdr: true), size: Output, lifetime: Persistent()),
+                (name: "light", format: Color(hdr: true, alpha: false), size: Output, samples: 4),
+                (name: "kept", format: Color(hdr: true, alpha: false), size: Output, lifetime: Persistent()),
                 (name: "depth", format: Depth, size: Output, samples: 4),
                 (name: "screen", format: Output, size: Output),
             ],
