@@ -66,7 +66,7 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
     let mut drawn = HashMap::new();
     let pipelines = shipped_pipelines();
     let cases = ways.into_iter().flat_map(|way| pipelines.iter().map(move |pipeline| (way, pipeline)));
-    for (way, pipeline) in sweep::of("ways to make Plans", cases.collect(), 16) {
+    for (way, pipeline) in sweep::of("ways to make Plans", cases.collect(), 10) {
         let picture_of = |way: &[&str]| {
             let outcome = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&["--frames", "3", "-o", "a.png"], way].concat())?;
             outcome.exits(0);
@@ -88,7 +88,7 @@ fn silent(name: &str, vulkan: Vulkan) {
         };
         sets.map(|set| (pipeline.clone(), set))
     });
-    for (pipeline, set) in sweep::of(name, cases.collect(), 8) {
+    for (pipeline, set) in sweep::of(name, cases.collect(), 6) {
         let place = Place::new();
         let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
         let Some(outcome) = draw(&place, vulkan, &pipeline, &more) else { return };
@@ -131,7 +131,7 @@ fn both_drivers_draw_the_same_pictures_up_to_their_edges() {
     }
     // In the other scene the sun casts shadows.
     cases.extend(["deferred", "shadows"].map(|pipeline| (pipeline.to_owned(), "courtyard", "", 1)));
-    for (pipeline, scene, set, around) in sweep::of("pictures of both drivers", cases, 6) {
+    for (pipeline, scene, set, around) in sweep::of("pictures of both drivers", cases, 4) {
         let set: &[&str] = if set.is_empty() { &[] } else { &["--set", set] };
         for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
             let more = [&["--frames", "3", "-o", file], set].concat();
