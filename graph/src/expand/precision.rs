@@ -173,10 +173,13 @@ struct Hindrance {
     span: Span,
 }
 
-/// The alpha of an image is kept, unless its format says that it has none.
+/// The alpha of an image is kept, unless its format says that it has none. A format that follows another says nothing.
 fn keeps_alpha(described: &language::Image) -> Option<Hindrance> {
-    let Described::Color { alpha: true, .. } = described.format.value else { return None };
-    let why = "its alpha is kept, since its format isn't `Color(alpha: false)`".to_owned();
+    if matches!(described.format.value, Described::Color { alpha: false, .. } | Described::Like(_)) {
+        return None;
+    }
+    let name = &described.name.text;
+    let why = format!("the alpha of `{name}` is kept, since its format isn't `Color(alpha: false)`");
     Some(Hindrance { why, span: described.format.span })
 }
 

@@ -59,7 +59,8 @@ fields! {
     struct ColorFormatFields<'src> {
         /// Whether values above 1 are kept; not if left out.
         hdr: Option<Leaf<'src>> => Form::Truth,
-        /// Whether alpha is kept; it is if left out. If not, `color: Smallest` chooses a format without alpha.
+        /// Whether alpha is kept; it is if left out. If not, `color: Smallest` with high dynamic range chooses a format without
+        /// alpha, and shaders read 1 in its place.
         alpha: Option<Leaf<'src>> => Form::Truth,
     }
 }
@@ -194,7 +195,7 @@ impl Context<'_> {
                 };
                 let (hdr, alpha) = fields.map_or((None, None), |fields| (fields.hdr, fields.alpha));
                 let (hdr, alpha) = (truth(hdr, false), truth(alpha, true));
-                Some(given((hdr?, alpha?), |(hdr, alpha)| hdr.map(|hdr| Format::Color { hdr, alpha: alpha.value })))
+                Some(given((hdr?, alpha?), |(hdr, alpha)| hdr.and(alpha, |hdr, alpha| Format::Color { hdr, alpha })))
             }
             "Like" => self.like(leaf, rest, Format::Like),
             name => {

@@ -66,15 +66,18 @@ impl Context<'_> {
                 let (by, up_to) = (self.scale(fields.by), self.scale(fields.up_to));
                 let by = by?;
                 let said = by.is_known();
-                let factors = given((by, up_to?, of?), |factors| factors);
-                factors.checked_as(self.reader, said, move |(by, up_to, of), view| {
+                let factors = given((by, up_to?), |factors| factors);
+                let factors = factors.checked_as(self.reader, said, move |(by, up_to), view| {
                     if by.value > up_to.value {
                         let message = format!("the factor {} is more than there is room for", shown_number(by.value));
                         let wrong = Diagnostic::new(by.span, message).remark(within_view(view, by.remark()));
                         return Err(wrong.label(up_to.span, format!("at most {}", shown_number(up_to.value))));
                     }
-                    Ok(by.map(|by| Size::Dynamic { by, up_to: up_to.value, of }))
-                })
+                    Ok((by, up_to))
+                });
+                Some(given((factors?, of?), |((by, up_to), of)| {
+                    by.map(|by| Size::Dynamic { by, up_to: up_to.value, of })
+                }))
             }
             _ => {
                 let (by, of) = match rest.and_then(Leaf::tuple) {

@@ -71,6 +71,7 @@ impl Evaluation<'_> {
         let inside = reader.errors.len();
         self.level(reader, &mut inner);
         self.path.pop();
+        let is_whole = reader.errors.len() == inside;
         self.used_here(reader, inside, name);
 
         let written =
@@ -84,7 +85,8 @@ impl Evaluation<'_> {
         };
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
         let pass = Pass { off, work, otherwise, view, instance: level.instance, ..Pass::idle(whole) };
-        if let Some(otherwise) = &entry.otherwise {
+        // A pass that is wrong isn't among those that write.
+        if let Some(otherwise) = entry.otherwise.as_ref().filter(|_| is_whole) {
             stand_ins::stand_ins_make_sense(reader, otherwise, Of::Use, &pass);
         }
         if is_off {

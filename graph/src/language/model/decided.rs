@@ -26,6 +26,15 @@ impl<T> Decided<T> {
         Decided { value: make(self.value), span: self.span, because: self.because }
     }
 
+    /// What is made of two values; what decided either decided it. The place is that of the first.
+    pub(crate) fn and<U, V>(self, other: Decided<U>, make: impl FnOnce(T, U) -> V) -> Decided<V> {
+        let because = match (self.because, other.because) {
+            (Some(one), Some(other)) => Some(format!("{one}, {other}").into()),
+            (one, other) => one.or(other),
+        };
+        Decided { value: make(self.value, other.value), span: self.span, because }
+    }
+
     /// The value and its place alone.
     pub(crate) fn spanned(self) -> Spanned<T> {
         Spanned { value: self.value, span: self.span }

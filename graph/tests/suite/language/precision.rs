@@ -167,7 +167,7 @@ fn what_others_rely_on_keeps_its_format() {
 fn colour_keeps_its_alpha_unless_its_format_has_none() {
     let text = pipeline("color: Smallest,", "true", "");
     assert_eq!(right(&text, &INPUTS).images[0].format, B10G11R11_UFLOAT_PACK32);
-    let because = "its alpha is kept, since its format isn't `Color(alpha: false)`";
+    let because = "the alpha of `color` is kept, since its format isn't `Color(alpha: false)`";
     for with_alpha in ["Color(hdr: true)", "Color(hdr: true, alpha: true)", "Color(hdr: true, alpha: \"close\")"] {
         let kept_alpha = text.replace("Color(hdr: true, alpha: false)", with_alpha);
         assert_eq!(kept(&kept_alpha), because, "{with_alpha}");
@@ -181,7 +181,11 @@ fn colour_keeps_its_alpha_unless_its_format_has_none() {
             "\"blur_tent\"), sample: {\"source\": \"color\"}, color: [\"named\"]",
         )
         .replace("(name: \"show\"", "(name: \"move\", copy: (from: \"color\", to: \"follows\")), (name: \"show\"");
+    let because = "the alpha of `follows` is kept, since its format isn't `Color(alpha: false)`";
     assert_eq!(kept(&copied), because, "it is copied into an image that keeps its alpha");
+    let named = copied
+        .replace("(name: \"follows\", format: Color(hdr: true)", "(name: \"follows\", format: R16G16B16A16_SFLOAT");
+    assert_eq!(kept(&named), because, "it is copied into an image whose format is named");
 }
 
 #[test]

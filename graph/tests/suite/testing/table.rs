@@ -204,7 +204,7 @@ impl ShaderInterfaces for Table {
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
-            "over_bright" | "blur_tent" | "copy" | "tinted" => full_screen(vec![source()]),
+            "over_bright" | "blur_tent" | "copy" => full_screen(vec![source()]),
             "scale_area" | "scale_catmull_rom" => {
                 full_screen(vec![source(), params(&[("target_width", "int"), ("target_height", "int")])])
             }
