@@ -39,7 +39,7 @@ static DRAWS: Words = Words {
             "Vertices",
             &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY])],
             &["Vertices(3, 100)"],
-            "So many vertices, or indices, of triangles, so many times; once if one number stands there.",
+            "This many vertices, or indices, of triangles, in this many instances; one instance if one number stands there.",
         ),
         Word::new(
             "Indirect",

@@ -63,7 +63,7 @@ static SIZES: Words = Words {
             &["Scaled(0.5)"],
             "The frame's, times a number above 0; rounded down, at least 1.",
         ),
-        Word::new("Fixed", &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])], &["Fixed(640, 360)"], "So many pixels."),
+        Word::new("Fixed", &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])], &["Fixed(640, 360)"], "This many pixels."),
     ],
 };
 
