@@ -6,7 +6,7 @@
 
 // What this frame shows.
 layout(set = 0, binding = 0) uniform sampler2D now;
-// What this shader made of the frame before; all zero before the first.
+// This shader's previous output; all zero before the first.
 layout(set = 0, binding = 1) uniform sampler2D before;
 layout(set = 0, binding = 2) uniform Params {
     // The share of the frames before, 0 to less than 1.

@@ -29,8 +29,8 @@ vec3 place_at(ivec2 texel, ivec2 extent, float depth_there) {
     return place.xyz / place.w;
 }
 
-// The share of light from everywhere that reaches each surface past those around it; 1 where none is. In squares of 4 × 4
-// texels each one looks elsewhere: for `ambient_occlusion_blur`.
+// The share of light from everywhere that reaches each surface past those around it; 1 is unoccluded. The pattern varies in
+// 4 × 4 texels; blur it with `ambient_occlusion_blur`.
 void main() {
     const ivec2 extent = used_of(depth, depth_st);
     const ivec2 texel = texel_at(uv, extent);

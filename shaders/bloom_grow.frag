@@ -19,8 +19,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// A level of a bloom chain with all below it mixed in. A mixture and no sum: however many levels there are, no light is
-// added.
+// A level of a bloom chain with all levels below it mixed in. It interpolates, so no light is added, however many levels
+// there are.
 void main() {
     const vec3 here = guard_radiance(found_in(own, own_st, uv).rgb);
     const vec3 around = tent(below, below_st, uv, params.radius);

@@ -19,8 +19,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// A sharp image with its bloom. What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the
-// sharp image.
+// A sharp image with its bloom. It interpolates, so no light is added: what a lens scatters is missing where it
+// was. Alpha stays that of the sharp image.
 void main() {
     const vec4 focused = guard_color(found_in(sharp, sharp_st, uv));
     const vec3 scattered = tent(bloom, bloom_st, uv, params.radius);

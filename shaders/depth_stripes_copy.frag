@@ -19,7 +19,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// What `depth_stripes` draws over a colour, for one that is sampled.
+// Like `depth_stripes`, but samples the colour instead of blending.
 void main() {
     const float near = view.world_to_clip[3].z;
     float light = 0.0;

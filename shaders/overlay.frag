@@ -17,7 +17,7 @@ layout(set = 0, binding = 1) uniform Params {
     float offset_y;
     // Multiplies colours. One component is shown as grey, and two as red and green.
     float gain;
-    // Colours may be negative, like normals: what is shown of a value, times `gain`, is half of it plus 0.5.
+    // For colours that may be negative, like normals: shows value · gain / 2 + 0.5.
     bool is_signed;
     // Above 0 the image is depth, of which the red channel is taken, and what is this far away is white; metres along the
     // camera's axis. At 0 it is colour.

@@ -18,7 +18,7 @@ layout(location = 0) out vec4 color;
 
 // A resolve that bright samples don't drown. For `Samples("color")`: each sample is tone-mapped before they are averaged.
 // The inverse of the mean, mean / (1 − largest channel of the mean), is the weighted mean wherever one channel is the
-// largest in all samples; dividing by the weights is that without taking nearly 1 from 1.
+// largest in all samples; dividing by the weights gives the same and avoids cancellation.
 void main() {
     vec4 sum = vec4(0.0);
     float weights = 0.0;

@@ -7,7 +7,7 @@
 
 // Radiance of this frame, one sample a texel, shifted from frame to frame by parts of a texel.
 layout(set = 0, binding = 0) uniform sampler2D now;
-// What this shader made of the frame before; all zero before the first.
+// This shader's previous output; all zero before the first.
 layout(set = 0, binding = 1) uniform sampler2D before;
 // Depth of this frame, as large as its radiance.
 layout(set = 0, binding = 2) uniform sampler2D depth;

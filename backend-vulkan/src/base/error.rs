@@ -185,7 +185,7 @@ pub enum Error {
         /// What the Plan gives it.
         planned: MemoryNeeds,
     },
-    /// Whoever draws misused the recorder.
+    /// The code that draws a pass misused the recorder.
     #[error("pass `{}`, while recording: {what}", escape(pass))]
     Recording {
         /// The pass.
@@ -193,7 +193,7 @@ pub enum Error {
         /// What was wrong.
         what: String,
     },
-    /// Whoever draws gave up.
+    /// The draw source gave up.
     #[error("{}", escape(what))]
     DrawSource {
         /// Its own words.

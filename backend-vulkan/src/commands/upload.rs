@@ -11,21 +11,21 @@ use framewright_graph::plan::Queue;
 use framewright_graph::vulkan::{Accesses, Aspects, Layout, Stages, State, Subresources};
 use std::sync::Arc;
 
-/// While it is set to a value or copied to.
+/// The state of an image or buffer that a clear or a copy writes.
 pub(crate) const WRITTEN: State = State {
     stages: Stages::COPY.union(Stages::CLEAR),
     accesses: Accesses::TRANSFER_WRITE,
     layout: Layout::TransferDstOptimal,
 };
 
-/// While a smaller level is made of it.
+/// The state of a mip level that a blit reads, to make a smaller level.
 const BLITTED: State =
     State { stages: Stages::BLIT, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
 
-/// While its levels are made.
+/// The state of an image while copies and blits write its mip levels.
 const MADE: State = State { stages: Stages::COPY.union(Stages::BLIT), ..WRITTEN };
 
-/// Not used by anything yet.
+/// The state of an image or buffer before its first use.
 pub(crate) const UNUSED: State =
     State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
 

@@ -44,8 +44,9 @@ impl Import {
         }
     }
 
-    /// Records it before the first step that touches it. Nothing is to be done in the first frame, for what the program
-    /// imports itself, and where the Plan's own barrier waits for all that the frame before left open.
+    /// Records the barrier from `after` to `before`, ahead of the first step that accesses the resource. Nothing is recorded
+    /// in the first frame, for resources that the program imports itself, and if `before` equals `after`: then the Plan's
+    /// own barrier waits for all accesses of the frame before.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         let Import { before, after, .. } = *self;
         if frame.number == 0 || !self.is_own(frame.physical) || before == after {

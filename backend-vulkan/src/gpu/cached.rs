@@ -102,7 +102,7 @@ pub(crate) struct PipelineDescriptor {
     /// Bytes from vertex to vertex in each vertex buffer.
     pub(crate) strides: Vec<u32>,
     pub(crate) attributes: Vec<VertexAttribute>,
-    /// Format and blending of each colour attachment; without blending it is not written.
+    /// The format of each colour attachment, and how it is blended. `None`: the attachment isn't written.
     pub(crate) color: Vec<(Format, Option<Blend>)>,
     pub(crate) depth_format: Option<Format>,
     pub(crate) depth: Option<DepthState>,
@@ -116,7 +116,7 @@ pub(crate) struct PipelineDescriptor {
     pub(crate) turned: Option<RotationConstants>,
 }
 
-/// What its shaders are told of a picture that they draw turned: shaders/include/rotation.glsl has the same numbers.
+/// Specialization constants of shaders that draw a rotated picture: shaders/include/rotation.glsl has the same numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct RotationConstants {
     pub(crate) rotation: Rotation,

@@ -26,7 +26,7 @@ pub(crate) struct Gpu {
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
     /// Those that are switched on.
     pub(crate) features: Features,
-    /// How many views a rendering scope can draw at once, as it says.
+    /// `maxMultiviewViewCount`: how many views a rendering scope can draw at once.
     pub(crate) max_views: u32,
     /// Whether images can be in the layout `PRESENT_SRC_KHR`.
     pub(crate) presents: bool,

@@ -47,8 +47,8 @@ pub struct Message {
 }
 
 impl Message {
-    /// Whether it says that something is wrong, rather than slow, about the layer's own settings, or none of this program's
-    /// business.
+    /// Whether the message reports an error of this program. Performance warnings, messages about the layer's own settings,
+    /// and known false reports are none.
     #[must_use]
     pub fn is_finding(&self) -> bool {
         self.kind == MessageKind::Validation && !self.is_about_settings() && !self.takes_a_fill_for_a_copy()

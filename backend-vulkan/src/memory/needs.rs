@@ -1,4 +1,4 @@
-//! What memory images and buffers need, and whether the device can make them at all.
+//! Memory requirements of images and buffers, and whether the device can create them at all.
 
 use super::{buffer, image};
 use crate::base::convert;
@@ -8,7 +8,7 @@ use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, 
 use framewright_graph::vulkan::{Shape, Usage};
 use std::sync::Arc;
 
-/// The memory needs of a device that is here: exact.
+/// The memory requirements that an open device reports: exact.
 pub struct LiveMemory {
     gpu: Arc<Gpu>,
 }
@@ -57,7 +57,7 @@ impl Device {
     }
 }
 
-/// The needs of what the driver may not even be asked about: no memory is enough.
+/// The memory requirements of an image or buffer that the device can't create: no memory is enough.
 const IMPOSSIBLE: MemoryNeeds = MemoryNeeds { bytes: u64::MAX, alignment: 1, type_bits: u32::MAX };
 
 impl Gpu {

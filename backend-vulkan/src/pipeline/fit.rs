@@ -8,8 +8,8 @@ use framewright_graph::shader::{
 };
 use framewright_graph::vulkan::{Component, Dimension, ImageShape};
 
-/// A stage may be given so many resources of a kind and read so large a block, and no more. What is brought along counts
-/// whether it is read or not.
+/// Checks the device's limits for one stage: the number of resources of each kind, and the size of a block. Resources that
+/// the draw source brings along count whether the shader reads them or not.
 pub(crate) fn check_limits(gpu: &Gpu, shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
     let limits = &gpu.limits;
     let bindings = &shader.bindings;

@@ -5,13 +5,13 @@ use crate::gpu::{Gpu, LayoutBinding};
 use ash::vk;
 use framewright_graph::shader::MOST_PARTS;
 
-/// Every stage may ask which part of an image is in use.
+/// The stages that see the push constants: each may ask which part of an image is in use.
 pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
     vk::ShaderStageFlags::VERTEX.as_raw()
         | vk::ShaderStageFlags::FRAGMENT.as_raw()
         | vk::ShaderStageFlags::COMPUTE.as_raw(),
 );
-/// Bytes of push constants that tell it: four numbers each.
+/// The size of the push constants, in bytes: four numbers for each image that is used in part.
 const PARTS_BYTES: u32 = 16 * MOST_PARTS as u32;
 
 impl Gpu {

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_first_frame_acquires_belongs_to_whoever_would_have_released_it() {
+    fn what_the_first_frame_acquires_belongs_to_the_queue_that_would_have_released_it() {
         let steps = vec![step(Queue::Compute, 0, vec![barrier(0, LAYOUT, Some([Queue::Graphics, Queue::Compute]))])];
         let plan = plan(steps);
         assert_eq!(owners(&plan), [(0, Queue::Graphics, true)]);

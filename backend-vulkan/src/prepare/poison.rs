@@ -1,12 +1,15 @@
-//! Filling images and buffers with values that nobody may see.
+//! Poison: fills images and buffers with values that nobody may see.
 //!
-//! Where the frame takes an image into use (a barrier from `UNDEFINED`), the image is cleared to a pattern first. The clear
-//! stands between the two scopes of the Plan's own barrier and has no other: what waits for the barrier waits for the clear,
-//! and what the barrier waits for is done before it. Buffers have no such barrier, and what hands their memory over may stand
-//! before an earlier step: a buffer is filled right before the first step of its lifetime, after whatever the Plan lets come
-//! before that step, and made visible to it. Neither makes any write available that the Plan doesn't. So a poisoned frame
-//! shows the same picture exactly if nobody reads what was not written, and if the Plan's barriers order memory that changes
-//! hands.
+//! Images: a barrier from `UNDEFINED` takes an image into use. The image is cleared to a pattern between the two scopes of
+//! this barrier. The clear needs no barrier of its own: what waits for the barrier waits for the clear, and what the barrier
+//! waits for is done before the clear.
+//!
+//! Buffers: no such barrier exists, and the barrier that hands over the memory may stand before an earlier step. So a buffer
+//! is filled right before the first step of its lifetime, after all that the Plan orders before that step. The fill is made
+//! visible to that step.
+//!
+//! Neither makes any write available that the Plan doesn't. So a poisoned frame shows the same picture exactly if nobody
+//! reads what was not written, and if the Plan's barriers order memory that changes hands.
 
 use super::frame::Frame;
 use super::uses::passes;

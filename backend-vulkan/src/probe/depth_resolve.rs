@@ -82,8 +82,8 @@ pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<DepthResolve, 
     Ok(DepthResolve { has, refuted, refuted_layered, untested: Vec::new() })
 }
 
-/// Those of these modes that give what they have to, in every format and with every number of samples, for all that is drawn
-/// into at once.
+/// The resolve modes, of these, that resolve correctly in every format and with every sample count, in all layers that are
+/// drawn at once.
 fn resolves_so(
     device: &Device,
     claimed: &Profile,

@@ -157,8 +157,8 @@ impl<'f> Recorder<'f> {
         self.target.rotation.extent(self.target.extent)
     }
 
-    /// By how much the picture is turned in what is drawn into. Shaders that know of it turn what they place themselves
-    /// (`include/rotation.glsl`); who draws by [`Recorder::raw`] with a pipeline of its own turns it, too.
+    /// The rotation of the picture in the attachments. Shaders that support rotation turn their own positions
+    /// (`include/rotation.glsl`). Code that draws by [`Recorder::raw`] with a pipeline of its own must turn them itself.
     #[must_use]
     pub fn rotation(&self) -> Rotation {
         self.target.rotation

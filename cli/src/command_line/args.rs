@@ -60,7 +60,7 @@ pub(crate) struct CheckArguments {
     /// `--set` chooses don't vary.
     #[arg(long)]
     pub(crate) all_variants: bool,
-    /// Of the variants check so many that every pair of values of any two settings, facts and devices occurs.
+    /// Check only enough variants that every pair of values of any two settings, facts and devices occurs.
     #[arg(long, requires = "all_variants")]
     pub(crate) pairwise: bool,
     /// Variants that are checked at the same time; by default as many as there are processors.
@@ -251,8 +251,7 @@ pub(crate) struct PlanningArguments {
     /// Give each image and buffer memory of its own.
     #[arg(long)]
     no_alias: bool,
-    /// Draw what is shown on a screen turned by so many degrees clockwise, as a screen that is mounted so wants it. Pictures
-    /// are read back upright.
+    /// Rotate shown outputs clockwise by this angle, for a rotated screen. Pictures are read back upright.
     #[arg(long, value_name = "0|90|180|270", default_value = "0", value_parser = rotation)]
     pub(crate) rotate: Rotation,
 }

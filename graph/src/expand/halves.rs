@@ -1,4 +1,4 @@
-//! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
+//! Halves of one image for two eyes: checks that the shader of a pass supports them, as far as the shader tells.
 
 use super::resources::Resources;
 use crate::base::Diagnostic;
@@ -6,7 +6,7 @@ use crate::frame::EyeForm;
 use crate::language;
 use crate::shader::{ShaderInterface, Unturned};
 
-/// Reports a shader that takes where its fragments lie for their place in one eye's picture.
+/// Reports a shader that reads `gl_FragCoord` without `frag_coord()`: in halves it isn't the place in one eye's picture.
 pub(super) fn check(
     resources: &Resources<'_>,
     pass: &language::Pass,

@@ -269,7 +269,7 @@ impl Check<'_> {
         }
     }
 
-    /// What is filtered can be.
+    /// Reports a linear filter on an image that can't be filtered.
     fn filters(&self, errors: &mut Vec<Diagnostic>) {
         let (image, shader, multisampled) = (&self.image.image, self.shader, self.declared.shape.multisampled);
         let why = match () {
@@ -285,7 +285,7 @@ impl Check<'_> {
         }
     }
 
-    /// Only what is looked up between texels has something beyond its edges.
+    /// Reports `address` where the shader reads single samples by number: such reads never go beyond the edges.
     fn address(&self, errors: &mut Vec<Diagnostic>) {
         let single_samples = self.declared.shape.multisampled && !self.declared.adapts;
         let Some(address) = self.sample.address.filter(|_| single_samples) else { return };
@@ -294,7 +294,7 @@ impl Check<'_> {
         errors.push(Diagnostic::new(address.span, message).help("leave `address` out"));
     }
 
-    /// Of what is used in part the shader must know which.
+    /// Reports a shader that samples an image of which only a part is in use, and doesn't ask for that part.
     fn part(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let halves = image.eyes == Some(EyeForm::Halves);

@@ -125,9 +125,9 @@ pub enum Work {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Groups {
-    /// So many in x, y and z.
+    /// This many workgroups in x, y and z.
     Count([u32; 3]),
-    /// As many as cover so many invocations in x, y and z: divided by the shader's own workgroup size, rounded up.
+    /// Enough workgroups for this many invocations in x, y and z: divided by the shader's own workgroup size, rounded up.
     Invocations([u32; 3]),
     /// As many as its buffer of the role [`BufferRole::Indirect`] says, a `VkDispatchIndirectCommand` at this byte.
     Indirect {

@@ -20,13 +20,13 @@ pub struct Sampled {
     pub frames_ago: u32,
     /// Where the image was named.
     pub span: Span,
-    /// Whose part it is, of an image that holds both eyes'; `None`: that of the eye for which the pass draws, which is for
-    /// both.
+    /// The eye whose part is sampled, of an image that holds both eyes' parts. `None`: the pass draws for both eyes, and
+    /// samples for each eye the part of that eye.
     pub eye: Option<Eye>,
     /// What the shader reads of each texel.
     pub face: Face,
-    /// As what the shader declares it, if the shader leaves that to the pass; single samples only if they are read. Where the
-    /// image comes to have one sample, it is declared without samples.
+    /// The texture type that the shader declares, if the shader leaves the type to the pass. It is multisampled only if
+    /// single samples are read. If the image gets one sample in the end, the declared type is not multisampled.
     pub texture: Option<ImageShape>,
     /// Whether each fragment reads only the texel at its own position: then, where the device has local reads, the pass
     /// can share the rendering scope of the one that drew it.

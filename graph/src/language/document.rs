@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, FilePath, Sources};
 use crate::expression::Value;
 use crate::frame::Allowances;
 use crate::frame::change::{Change, Kind};
-use crate::language::compose::account::Account;
+use crate::language::compose::account::ChangeLog;
 use crate::language::compose::extend::Composed;
 use crate::language::compose::includes::{self, Wanted};
 use crate::language::compose::loader::{self, Loader};
@@ -41,7 +41,7 @@ pub struct Document {
     /// The pipeline, as it was put together of its files.
     tree: Tree,
     /// What files did to the pipeline that they extend.
-    account: Account,
+    account: ChangeLog,
     origins: Origins,
 }
 

@@ -104,7 +104,7 @@ impl<const Q: usize> Clocks<Q> {
         joined
     }
 
-    /// What comes before somebody who knows that `stages`, of whichever queue, are over.
+    /// The clock of all that comes before the end of `stages`, on every queue.
     pub(super) fn after_all_queues(&self, stages: StageSet, now: Time) -> Clock<Q> {
         let mut joined = Clock::START;
         for queue in 0..Q as u8 {
@@ -118,7 +118,7 @@ impl<const Q: usize> Clocks<Q> {
         stages.iter().for_each(|stage| self.stages[usize::from(queue)][stage].join(before));
     }
 
-    /// What is available `before` becomes visible to `pairs` of `queue`.
+    /// Makes the writes that are available in `before` visible to `pairs` of `queue`.
     pub(super) fn show(&mut self, queue: u8, pairs: PairSet, before: &Clock<Q>) {
         for pair in pairs.iter() {
             raise(&mut self.visible[usize::from(queue)][pair], &before.available);

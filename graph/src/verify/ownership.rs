@@ -58,7 +58,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 return true;
             }
             (Some(_), Owner::Anyone) if self.frame == 0 => {
-                // Whoever made it has released it, in the layout in which the frame finds it.
+                // The owner before the first frame has released it, in the layout in which the frame finds it.
                 let state = &mut self.subresources[index];
                 *state = SubresourceState {
                     owner: owned,

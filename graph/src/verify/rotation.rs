@@ -27,7 +27,8 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
             Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
                 same_rotation(plan, id, transfer, found);
             }
-            // Of one value it doesn't matter, and who records a custom pass knows.
+            // A fill writes one value, so rotation doesn't matter. A program that records a custom pass handles rotation
+            // itself.
             Work::Fill(_) | Work::Custom(_) | Work::Export => {}
         }
     }

@@ -92,7 +92,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         if image.shape != Shape::D2 || image.mips > 1 {
             wrong("changes its size and is deep, a cube or has several mip levels");
         }
-        // Whoever finds it outside of the frame, or reads it whole, would find what nobody made.
+        // A reader outside of the frame, or one that reads the whole image, would see texels that no pass wrote.
         if !matches!(image.role, Role::Transient(_)) || image.usage.contains(Usage::STORAGE) {
             wrong("changes its size and outlives the frame, or is used as storage");
         }

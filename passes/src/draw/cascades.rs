@@ -60,7 +60,7 @@ pub fn may_cast(scene: &Scene, camera: &Camera, sun: &SunView, object: &Object) 
 const MARGIN: f64 = 6.0;
 /// Slices begin at this share of the reach, or at the near plane where that is further off.
 const NEAREST: f64 = 1.0 / 256.0;
-/// How much of the way slices grow by a factor, and not by a distance.
+/// The share of logarithmic splits between slices; the rest is uniform splits.
 const LOGARITHMIC: f64 = 0.75;
 
 /// How the sun sees a cascade of a camera's picture, of which `aspect` is width over height. Its map has `texels` in width
@@ -97,7 +97,7 @@ fn sphere_around(scene: &Scene) -> (DVec3, f64) {
     (around.0, (around.1 * 1.001).max(1e-3))
 }
 
-/// A power of √2 that is no less: it stays the same while the camera moves a little.
+/// Rounds a distance up to a power of √2, so that it stays the same while the camera moves a little.
 fn through(distance: f64) -> f64 {
     ((distance.max(1e-3).log2() * 2.0).ceil() * 0.5).exp2()
 }

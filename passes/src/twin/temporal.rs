@@ -4,7 +4,7 @@ use super::weighted_resolve::{compressed, expanded};
 
 type Color = [f64; 3];
 
-/// A deviation that is taken for none.
+/// A difference from the mean that is always allowed, also where all texels are equal.
 const EVEN_DEVIATION: f64 = 1e-3;
 
 /// Luma and two differences of colour (ITU-T H.273, YCgCo).
@@ -16,8 +16,8 @@ fn from_ycocg([y, co, cg]: Color) -> Color {
     [y + co - cg, y + cg, y - co - cg]
 }
 
-/// History as far as the 3 × 3 texels around allow it: within this number of standard deviations from their mean, as what is shown of
-/// radiance in luma and differences of colour.
+/// Clips history to the 3 × 3 texels around it: to this number of standard deviations from their mean, in YCgCo of
+/// tone-mapped radiance.
 #[must_use]
 pub fn allowed_history(history: Color, around: &[Color; 9], deviations: f64) -> Color {
     let seen = around.map(|radiance| to_ycocg(compressed(radiance)));

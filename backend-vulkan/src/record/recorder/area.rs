@@ -9,9 +9,9 @@ use std::ops::Range;
 const RIGHT_EYE: u32 = 1 << 31;
 
 impl Recorder<'_> {
-    /// How both eyes are drawn for at once: each of the recorder's own draws is for both, and who draws by [`Recorder::raw`] sees
-    /// to that himself. `None`: it is drawn for one eye, or for what both see alike. Width, height, viewport and scissor are those
-    /// of one eye's picture.
+    /// How the pass draws for both eyes at once. Each draw of the recorder's own then draws for both eyes. Code that draws
+    /// by [`Recorder::raw`] must do so itself. `None`: the pass draws for one eye, or into images that both eyes share.
+    /// Width, height, viewport and scissor are those of one eye's picture.
     #[must_use]
     pub fn both_eyes(&self) -> Option<(Stereo, EyeForm)> {
         self.target.eyes

@@ -1,18 +1,18 @@
-//! Until when images are used.
+//! Last accesses: until when each image of the frame is used.
 
 use crate::compile::cull::Live;
 use crate::frame::{Frame, ImageIndex};
 
 /// For each image of the frame the last pass that stays and accesses it, and the last that writes it.
 #[derive(Debug, Default)]
-pub(super) struct Later {
+pub(super) struct LastAccesses {
     pub(super) access: Vec<Option<u32>>,
     pub(super) write: Vec<Option<u32>>,
 }
 
-impl Later {
-    pub(super) fn of(frame: &Frame, live: &Live) -> Later {
-        let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
+impl LastAccesses {
+    pub(super) fn of(frame: &Frame, live: &Live) -> LastAccesses {
+        let mut later = LastAccesses { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
         for number in &live.passes {
             let pass = &frame.passes[*number as usize];
             pass.accesses().for_each(|access| {

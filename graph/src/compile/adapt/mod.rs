@@ -22,7 +22,7 @@ use super::model::Adapted;
 use crate::base::Diagnostic;
 use crate::frame::{Resource, Work};
 use adapter::Adapter;
-use later::Later;
+use later::LastAccesses;
 
 pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
     let Input { frame, live, .. } = input;
@@ -33,7 +33,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         }
     }
     if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
-        adapter.later = Later::of(frame, live);
+        adapter.later = LastAccesses::of(frame, live);
     }
     adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
     adapter.adapted.resources.reserve(frame.images.len());

@@ -73,7 +73,8 @@ impl Compiler {
 
     /// Finds out how `frame` is made on `device`, as [`compile`](crate::compile::compile) does.
     ///
-    /// `memory` must say of the same device, as long as it is equally exact, what it said before.
+    /// `memory` must give the same needs as before for the same device, unless [`MemoryProvider::exact`] gives another
+    /// answer.
     ///
     /// # Errors
     /// As [`compile`](crate::compile::compile). The next frame is compiled anew then.

@@ -6,7 +6,7 @@
 //! windows smaller, so windows are looked at again until nothing changes.
 
 use super::crossing::Crossing;
-use super::eligible::{Bound, Eligible};
+use super::eligible::{Eligible, GraphicsOnly};
 use super::layout_changes;
 use super::number::QUEUES;
 use super::state::Queues;
@@ -52,7 +52,7 @@ pub(in crate::compile) fn assign(
         return one_queue(scoped, Vec::new());
     }
     let eligible = Eligible { frame, adapted, device, options };
-    let bound: Vec<Result<[bool; QUEUES], Bound>> = scoped.steps.iter().map(|step| eligible.of(step)).collect();
+    let bound: Vec<Result<[bool; QUEUES], GraphicsOnly>> = scoped.steps.iter().map(|step| eligible.of(step)).collect();
     let mut queues = wanted(frame, adapted, &scoped, &bound);
     let mut windows = Vec::new();
     let mut gives_up = false;
@@ -95,7 +95,12 @@ fn one_queue(scoped: Scoped, notes: Vec<Note>) -> Assigned {
 
 /// The queue that each step would leave graphics for. A transfer of what dispatches use goes to the compute queue: that
 /// saves waits.
-fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
+fn wanted(
+    frame: &Frame,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    bound: &[Result<[bool; QUEUES], GraphicsOnly>],
+) -> Vec<Queue> {
     let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(|queue| queue as usize);
     let mut dispatched = vec![false; adapted.resources.len()];
     for (step, able) in scoped.steps.iter().zip(bound) {
@@ -103,7 +108,7 @@ fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bo
             uses(adapted, step).for_each(|(resource, ..)| dispatched[resource as usize] = true);
         }
     }
-    let choose = |(step, able): (&Step, &Result<[bool; QUEUES], Bound>)| match able {
+    let choose = |(step, able): (&Step, &Result<[bool; QUEUES], GraphicsOnly>)| match able {
         Err(_) => Queue::Graphics,
         Ok(able) if able[transfer] => {
             let beside = able[compute] && uses(adapted, step).any(|(resource, ..)| dispatched[resource as usize]);
@@ -125,7 +130,7 @@ fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (Physi
 }
 
 /// The graphics steps of a window, without eligible ones that stay.
-fn beside(bound: &[Result<[bool; QUEUES], Bound>], [from, to]: [u32; 2]) -> impl Iterator<Item = u32> {
+fn beside(bound: &[Result<[bool; QUEUES], GraphicsOnly>], [from, to]: [u32; 2]) -> impl Iterator<Item = u32> {
     (from..to.max(from)).filter(|step| bound[*step as usize].is_err())
 }
 
@@ -152,7 +157,7 @@ fn notes(
     frame: &Frame,
     adapted: &Adapted,
     scoped: &Scoped,
-    bound: &[Result<[bool; QUEUES], Bound>],
+    bound: &[Result<[bool; QUEUES], GraphicsOnly>],
     queues: &[Queue],
     windows: &[[u32; 2]],
     stays: &str,

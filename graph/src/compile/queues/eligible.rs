@@ -12,36 +12,36 @@ use crate::frame::{Frame, Work};
 use crate::plan::Queue;
 use crate::vulkan::Stages;
 
-/// Why a step can't leave graphics.
+/// Why a step can run only on the graphics queue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Bound {
+pub(super) enum GraphicsOnly {
     /// It is drawn, or inserted by the compiler.
-    Graphics,
+    DrawnOrInserted,
     /// It is a blit.
-    Scales,
+    Blit,
     /// The embedding program records it.
-    Recorded,
+    Custom,
     /// It has an effect that no image or buffer shows, in order with others.
     Effect,
     /// It copies or fills a depth, stencil or multisampled image.
-    Planes,
+    DepthOrMultisampled,
     /// It uses an image or buffer that is imported or leaves the frame.
     Outside,
     /// The device has no other queue that can run it.
     NoQueue,
 }
 
-impl Bound {
+impl GraphicsOnly {
     /// The words of the note; `None` where there is none.
     pub(super) fn why(self) -> Option<&'static str> {
         match self {
-            Bound::Graphics => None,
-            Bound::Scales => Some("blits need it"),
-            Bound::Recorded => Some("the embedding program records it"),
-            Bound::Effect => Some("its effect comes in order with others that no image or buffer shows"),
-            Bound::Planes => Some("copies and fills of depth, stencil or several samples need it"),
-            Bound::Outside => Some("what it touches is handed in or leaves the frame"),
-            Bound::NoQueue => Some("no other queue of the device can do it"),
+            GraphicsOnly::DrawnOrInserted => None,
+            GraphicsOnly::Blit => Some("blits need it"),
+            GraphicsOnly::Custom => Some("the embedding program records it"),
+            GraphicsOnly::Effect => Some("its effect comes in order with others that no image or buffer shows"),
+            GraphicsOnly::DepthOrMultisampled => Some("copies and fills of depth, stencil or several samples need it"),
+            GraphicsOnly::Outside => Some("what it touches is handed in or leaves the frame"),
+            GraphicsOnly::NoQueue => Some("no other queue of the device can do it"),
         }
     }
 }
@@ -66,25 +66,25 @@ pub(super) struct Eligible<'a> {
 
 impl Eligible<'_> {
     /// The queues beside graphics that can run a step, by number.
-    pub(super) fn of(&self, step: &Step) -> Result<[bool; QUEUES], Bound> {
-        let Step::Single(op) = step else { return Err(Bound::Graphics) };
+    pub(super) fn of(&self, step: &Step) -> Result<[bool; QUEUES], GraphicsOnly> {
+        let Step::Single(op) = step else { return Err(GraphicsOnly::DrawnOrInserted) };
         let kind = &self.adapted.ops[*op as usize];
-        let OpKind::Pass(pass) = kind.kind else { return Err(Bound::Graphics) };
+        let OpKind::Pass(pass) = kind.kind else { return Err(GraphicsOnly::DrawnOrInserted) };
         let uses = self.adapted.uses(*op);
         let work = &self.frame.passes[pass as usize].work;
         let fills = matches!(work, Work::Fill { .. });
         match work {
-            _ if kind.side_effect => return Err(Bound::Effect),
-            Work::Custom { .. } => return Err(Bound::Recorded),
-            Work::Blit { .. } => return Err(Bound::Scales),
+            _ if kind.side_effect => return Err(GraphicsOnly::Effect),
+            Work::Custom { .. } => return Err(GraphicsOnly::Custom),
+            Work::Blit { .. } => return Err(GraphicsOnly::Blit),
             Work::Copy | Work::Fill { .. } if uses.iter().any(|used| self.is_depth_or_multisampled(used)) => {
-                return Err(Bound::Planes);
+                return Err(GraphicsOnly::DepthOrMultisampled);
             }
-            Work::Draw { .. } | Work::Forward { .. } => return Err(Bound::Graphics),
+            Work::Draw { .. } | Work::Forward { .. } => return Err(GraphicsOnly::DrawnOrInserted),
             Work::Dispatch { .. } | Work::Copy | Work::Fill { .. } => {}
         }
         if uses.iter().any(|used| self.is_outside(used)) {
-            return Err(Bound::Outside);
+            return Err(GraphicsOnly::Outside);
         }
         let images = || uses.iter().filter(|used| self.adapted.resources[used.resource as usize].image().is_some());
         // Poison fills images wherever they are used first.
@@ -95,7 +95,7 @@ impl Eligible<'_> {
             let has_stages = uses.iter().all(|used| stages(queue).contains(used.stages) && self.is_found(used, queue));
             eligible[queue as usize] = has && has_stages && !(queue == Queue::Transfer && fills_images);
         }
-        if eligible.contains(&true) { Ok(eligible) } else { Err(Bound::NoQueue) }
+        if eligible.contains(&true) { Ok(eligible) } else { Err(GraphicsOnly::NoQueue) }
     }
 
     fn is_depth_or_multisampled(&self, used: &Use) -> bool {

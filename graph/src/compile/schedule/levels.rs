@@ -68,7 +68,7 @@ pub(super) fn by_level(
             let end = &mut ends[used.resource as usize];
             *end = (level + 1).max(*end);
         });
-        // In a level first what ends more than it begins: what comes next then finds its memory free.
+        // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
     counting_sort(&keys, 3 * top + 3)
@@ -97,8 +97,8 @@ struct Walk<'a> {
     subresources: Vec<SubresourceState>,
 }
 
-/// One more than the highest level of what was done to a subresource, 0 if nothing was: as in `runs`, reads in one layout
-/// don't depend on each other.
+/// The accesses to a subresource so far: one more than their highest level, 0 if there are none. Reads in one layout don't
+/// depend on each other, as in `runs`.
 #[derive(Debug, Clone, Copy)]
 struct SubresourceState {
     before: u32,

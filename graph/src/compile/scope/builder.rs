@@ -85,9 +85,11 @@ impl<'a> Builder<'a> {
     fn draw(&mut self, op: u32) {
         let adapted = self.adapted;
         let uses = adapted.uses(op);
-        let wishes = local::wishes(self.frame, adapted, op);
+        let has_own_pixel_reads = local::has_own_pixel_reads(self.frame, adapted, op);
         let reads_locally = |scope: &Scope, used: &Use| {
-            wishes && self.device.local_read && local::possible(self.frame, adapted, op, used, &scope.color)
+            has_own_pixel_reads
+                && self.device.local_read
+                && local::possible(self.frame, adapted, op, used, &scope.color)
         };
         let joins = match self.steps.last() {
             Some(Step::Scope(scope)) => {
@@ -128,7 +130,7 @@ impl<'a> Builder<'a> {
                 scope.stencil = scope.stencil.or_else(|| plane_of(adapted, uses, Role::Stencil));
                 scope.ops.push(op);
                 self.gains[op as usize] = Some(gain);
-                if wishes && !reads_any {
+                if has_own_pixel_reads && !reads_any {
                     self.explain(op);
                 }
             }
@@ -136,7 +138,7 @@ impl<'a> Builder<'a> {
                 if let Some(why) = why {
                     self.refuse(op, why);
                 }
-                if wishes {
+                if has_own_pixel_reads {
                     self.explain(op);
                 }
                 self.open(op);

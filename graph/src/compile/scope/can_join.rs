@@ -59,11 +59,12 @@ impl Scope {
         let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
         let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
         let colors = colors_of(adapted, uses);
-        let colors = colors == self.color || ((reads_locally || self.local) && self.joins(adapted, uses, most_colors));
+        let colors =
+            colors == self.color || ((reads_locally || self.local) && self.colors_fit(adapted, uses, most_colors));
         if !colors || !planes || !self.same_area(adapted, uses) {
             return refuse(Refusal::OtherAttachments);
         }
-        // Depth that a pass covers is no reason to leave the scope whose colour it goes on with.
+        // A pass that keeps the scope's colour and discards its depth can stay in the scope.
         let goes_on = uses
             .iter()
             .any(|used| used.role == Role::Color && used.contents == InitialContents::Keep && attached(used));
@@ -140,9 +141,9 @@ fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
     Some(TargetShape { extent, allocated, eyes, layers, samples: image.samples })
 }
 
-/// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that
-/// sizes decide about scopes. All attachments of one draw have one area, and draws that meet share an attachment, so areas
-/// only differ where a draw meets what it reads at its own position: nothing is said of devices without local reads.
+/// For each draw that may join the scope of an earlier draw, in the given order, whether both have the same area. Sizes
+/// decide nothing else about scopes. All attachments of one draw have one area, and draws that share an attachment have the
+/// same. So areas differ only where a draw reads the other's attachment locally: without local reads, the iterator is empty.
 pub(crate) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> impl Iterator<Item = bool> {
     let order = if device.local_read { order } else { &[] };
     let mut before = None;

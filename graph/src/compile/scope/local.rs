@@ -16,8 +16,8 @@ pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: 
     frame.passes[pass as usize].sampled.get(used.entry as usize).filter(|sampled| sampled.own_pixel)
 }
 
-/// Whether an operation reads anything at its own position alone.
-pub(super) fn wishes(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
+/// Whether an operation samples an image only at its own pixel.
+pub(super) fn has_own_pixel_reads(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
     frame.passes[pass as usize].sampled.iter().any(|sampled| sampled.own_pixel)
 }
@@ -60,8 +60,8 @@ pub(in crate::compile) fn read_locally(uses: &mut [Use], local: &[u32]) {
 }
 
 impl Scope {
-    /// Whether the colour attachments of a pass can stand beside those of the scope.
-    pub(super) fn joins(&self, adapted: &Adapted, uses: &[Use], most: usize) -> bool {
+    /// Whether the colour attachments of a pass fit into the scope, next to those that it has.
+    pub(super) fn colors_fit(&self, adapted: &Adapted, uses: &[Use], most: usize) -> bool {
         let colors = uses.iter().filter(|used| used.role == Role::Color);
         let mut new = 0;
         for used in colors {

@@ -1,8 +1,8 @@
 //! Initial barriers: what the first access to each subresource waits for.
 //!
-//! That is the state in which the subresource is found, or the accesses of the resource that had its memory before. In the
-//! latter case the barrier names the *stages* of those accesses; their writes are named by a memory barrier
-//! (`aliasing_barriers`). Frames follow each other, so the first owner of memory comes after the last one.
+//! It waits for the state in which the frame finds the subresource, or for the accesses of the resource that had its memory
+//! before. In the latter case the barrier names the *stages* of those accesses, and a memory barrier (`aliasing_barriers`)
+//! names their writes. The first owner of memory in a frame comes after the last owner in the frame before.
 
 use super::aliasing_barriers::{AliasedWrite, Source};
 use super::last_accesses::LastAccess;

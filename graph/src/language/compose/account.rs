@@ -1,4 +1,4 @@
-//! Changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
+//! The change log: changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
 
 use crate::base::{Diagnostic, Label, Span};
 use crate::frame::change::{Action, Change, Kind};
@@ -7,14 +7,14 @@ use crate::ron::{Name, Tree};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-/// All that was done.
+/// The change log: all changes, and the entries that they changed or removed.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Account {
-    /// In the order in which it was done.
+pub(crate) struct ChangeLog {
+    /// All changes, in the order in which they were made.
     pub(crate) changes: Vec<Change>,
-    /// What was changed.
+    /// The entries that were changed.
     pub(crate) changed: Vec<Changed>,
-    /// What was removed.
+    /// The entries that were removed.
     removed: Vec<Removed>,
     /// The last removal of a thing, by kind and name.
     last_removed: HashMap<(Kind, Arc<str>), usize>,
@@ -42,7 +42,7 @@ pub(crate) struct Removed {
     pub(crate) texts: Vec<Arc<str>>,
 }
 
-impl Account {
+impl ChangeLog {
     /// Something was done.
     pub(crate) fn did(&mut self, span: Span, action: Action) {
         self.changes.push(Change { span, action });
@@ -70,7 +70,7 @@ impl Account {
         if self.changed.is_empty() && self.removed.is_empty() {
             return;
         }
-        let places = Places::of(&self.changed);
+        let places = ChangeIndex::of(&self.changed);
         let removed: HashMap<(Kind, &str), Span> =
             self.removed.iter().map(|removed| ((removed.kind, &*removed.name.text), removed.by)).collect();
         for error in errors {
@@ -85,7 +85,7 @@ impl Account {
     }
 
     /// The second place of a mistake: of one in a change the changed entry, and of one in a changed entry the change.
-    fn beside(&self, places: &Places, error: &Diagnostic) -> Option<Label> {
+    fn beside(&self, places: &ChangeIndex, error: &Diagnostic) -> Option<Label> {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
         let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
@@ -106,16 +106,16 @@ impl Account {
     }
 }
 
-/// Where changes and what they change stand, by file and beginning: numbers of [`Account::changed`]. Neither stands within
-/// another of its sort.
-struct Places {
+/// An index of changes by place: the numbers in [`ChangeLog::changed`], by the file and the first byte of the change and of
+/// the changed entry. No change is within another change, and no entry within another entry.
+struct ChangeIndex {
     by: BTreeMap<(Option<usize>, u32), Vec<usize>>,
     entries: BTreeMap<(Option<usize>, u32), Vec<usize>>,
 }
 
-impl Places {
-    fn of(changed: &[Changed]) -> Places {
-        let mut places = Places { by: BTreeMap::new(), entries: BTreeMap::new() };
+impl ChangeIndex {
+    fn of(changed: &[Changed]) -> ChangeIndex {
+        let mut places = ChangeIndex { by: BTreeMap::new(), entries: BTreeMap::new() };
         for (at, Changed { entry, by, .. }) in changed.iter().enumerate() {
             places.by.entry((by.file(), by.start)).or_default().push(at);
             places.entries.entry((entry.file(), entry.start)).or_default().push(at);

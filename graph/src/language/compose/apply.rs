@@ -1,6 +1,6 @@
 //! `changes`: what a file sets, removes and inserts.
 
-use super::account::{Account, Changed, Removed};
+use super::account::{ChangeLog, Changed, Removed};
 use super::changes::{InsertFields, KINDS, RemoveFields, SetFields};
 use super::draft::{self, Draft};
 use super::entry::Entry;
@@ -20,7 +20,7 @@ const INSERT: &str = "Insert(before: \"name\", passes: […])";
 const OF_VALUES: [&str; 5] = ["default", "min", "max", "step", "of"];
 
 /// Applies a list of changes, one after the other.
-pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf<'t>, account: &mut Account) {
+pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf<'t>, account: &mut ChangeLog) {
     for leaf in reader.list(list, "`changes`").into_iter().flatten() {
         let Some((word, rest)) = reader.one_of(leaf, &KINDS) else { continue };
         let mut change = Change { reader, draft, account, leaf };
@@ -36,7 +36,7 @@ pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf
 struct Change<'c, 't> {
     reader: &'c mut Reader,
     draft: &'c mut Draft<'t>,
-    account: &'c mut Account,
+    account: &'c mut ChangeLog,
     leaf: Leaf<'t>,
 }
 

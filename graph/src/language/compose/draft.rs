@@ -1,6 +1,6 @@
 //! What a pipeline says while files add to it and change it: lists of entries, each still where it was written.
 
-use super::account::Account;
+use super::account::ChangeLog;
 use super::entry::{Called, Entry};
 use super::layers::Role;
 use super::order::Order;
@@ -84,7 +84,7 @@ impl<'t> Draft<'t> {
     }
 
     /// Adds what a file says.
-    pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut Account) {
+    pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut ChangeLog) {
         for (kind, section) in LISTS {
             let Some(leaf) = sections.get(&section) else { continue };
             let Some(entries) = reader.list(leaf, &format!("`{}`", section.name)) else { continue };

@@ -8,7 +8,7 @@
 //!
 //! The order: the pipeline that is extended, then extensions as they are listed, then the file's own lists and changes.
 
-use super::account::Account;
+use super::account::ChangeLog;
 use super::draft::Draft;
 use super::files::Found;
 use super::includes::Wanted;
@@ -22,7 +22,7 @@ use crate::ron::{Reader, Tree};
 pub(crate) struct Composed {
     pub(crate) tree: Tree,
     pub(crate) wanted: Vec<Wanted>,
-    pub(crate) account: Account,
+    pub(crate) account: ChangeLog,
 }
 
 /// Reads what the pipeline's own file is put together with, and then `further` extensions. `None` if something that was
@@ -32,7 +32,7 @@ pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, fur
         return None;
     }
     if own.is_all() && further.is_empty() {
-        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), account: Account::default() });
+        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), account: ChangeLog::default() });
     }
     let layers = layers::read(reader, loader, own, further)?;
     compose(reader, &layers)
@@ -43,7 +43,7 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
     let sections: Vec<Option<Sections<'_>>> = layers.list.iter().map(|layer| layer.sections(reader)).collect();
     let sections: Vec<Sections<'_>> = sections.into_iter().collect::<Option<_>>()?;
     let base = layers.list.iter().find(|layer| layer.role == Role::Whole)?.tree.root();
-    let mut account = Account::default();
+    let mut account = ChangeLog::default();
     let mut draft = Draft::default();
     let mut wanted = Vec::new();
     for Turn { layer: at, named, adds, changes } in &layers.turns {

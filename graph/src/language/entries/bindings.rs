@@ -6,7 +6,7 @@ use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::{Context, Given, Kept, Parts, given};
+use crate::language::scope::{Context, Given, GivenTuple, Kept, given};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;

@@ -39,13 +39,13 @@ static BYTES: Words = Words {
             "Times",
             &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), Form::Whole(1, LARGEST_BUFFER)])],
             &["Times(16, \"setting\")"],
-            "So many bytes for each of so many things; rounded up to a multiple of 4.",
+            "The bytes of one element, times the number of elements; rounded up to a multiple of 4.",
         ),
         Word::new(
             "PerTexel",
             &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), parts::WHOLE_IMAGE])],
             &["PerTexel(4, \"image\")"],
-            "So many bytes for each texel of an image's first mip level, layers and depth included; rounded up to a \
+            "This many bytes for each texel of an image's first mip level, layers and depth included; rounded up to a \
                     multiple of 4.",
         ),
         Word::new(

@@ -2,7 +2,7 @@
 
 use crate::expression::{Value, Wanted};
 use crate::language::model::{Decided, Off, SettingKind};
-use crate::language::scope::{Context, Given, Parts, Quoted, within_view};
+use crate::language::scope::{Context, Given, GivenTuple, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
 use std::sync::Arc;
 

@@ -18,19 +18,19 @@ static GROUPS: Words = Words {
             "Count",
             &[Takes::Values(&[GROUP]), Takes::Values(&[GROUP, GROUP]), Takes::Values(&[GROUP, GROUP, GROUP])],
             &["Count(8, 8, 1)"],
-            "So many in x, y and z; numbers that are left out are 1.",
+            "This many workgroups in x, y and z; numbers that are left out are 1.",
         ),
         Word::new(
             "Invocations",
             &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY]), Takes::Values(&[MANY, MANY, MANY])],
             &["Invocations(1000, 1, 1)"],
-            "As many as cover so many invocations in x, y and z, by the shader's own workgroup size.",
+            "Enough workgroups for this many invocations in x, y and z, by the shader's own workgroup size.",
         ),
         Word::new(
             "Texels",
             &[Takes::Values(&[parts::IMAGE]), Takes::Fields(parts::part)],
             &["Texels(\"image\")"],
-            "As many as cover one invocation for each texel of an image or a part of it, layers or depth in z.",
+            "Enough workgroups for one invocation for each texel of an image or a part of it, layers or depth in z.",
         ),
         Word::new(
             "Indirect",

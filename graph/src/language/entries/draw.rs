@@ -39,7 +39,7 @@ static DRAWS: Words = Words {
             "Vertices",
             &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY])],
             &["Vertices(3, 100)"],
-            "So many vertices, or indices, of triangles, so many times; once if one number stands there.",
+            "This many vertices, or indices, of triangles, in this many instances; one instance if one number stands there.",
         ),
         Word::new(
             "Indirect",
@@ -50,9 +50,9 @@ static DRAWS: Words = Words {
     ],
 };
 
-/// What a pass says beside `draw` of what it draws.
+/// The fields next to `draw` that describe a draw.
 #[derive(Clone, Copy)]
-pub(crate) struct Beside<'src> {
+pub(crate) struct DrawFields<'src> {
     pub(crate) shader: Option<Leaf<'src>>,
     pub(crate) vertex: Option<Leaf<'src>>,
     pub(crate) index: Option<Leaf<'src>>,
@@ -63,7 +63,7 @@ impl Context<'_> {
     pub(crate) fn draw_work(
         &mut self,
         leaf: Leaf<'_>,
-        Beside { shader, vertex, index }: Beside<'_>,
+        DrawFields { shader, vertex, index }: DrawFields<'_>,
         what: &str,
     ) -> Option<Given<Work>> {
         let (word, rest) = self.reader.one_of(leaf, &DRAWS)?;

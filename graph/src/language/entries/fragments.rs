@@ -20,7 +20,7 @@ fields! {
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
-        /// What whoever uses it gives it.
+        /// The arguments that each use of the fragment gives.
         parameters: Option<Leaf<'src>> => Form::List(&Form::Fields(ParameterFields::<'static>::table)),
         /// As those of a pipeline.
         textures: Option<Leaf<'src>> => textures::TEXTURES,

@@ -131,7 +131,7 @@ static SHAPES: Words = Words {
     or: &[],
     all: &[
         Word::alone("D2", "Two-dimensional, or an array of such layers."),
-        Word::new("D3", &[Takes::Values(&[sizes::EXTENT])], &["D3(64)"], "Three-dimensional, so many texels deep."),
+        Word::new("D3", &[Takes::Values(&[sizes::EXTENT])], &["D3(64)"], "Three-dimensional, this many texels deep."),
         Word::alone("Cube", "Six square layers that may be sampled as a cube, or several times six."),
     ],
 };

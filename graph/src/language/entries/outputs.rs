@@ -23,8 +23,8 @@ fields! {
         buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
         /// The state in which it is left; that of its last use if left out.
         after: Option<Leaf<'src>> => lifetimes::STATE,
-        /// What an image's numbers mean to whoever shows them or writes them to a file; what the format says, as far as it does,
-        /// if left out. What the format can't hold is refused.
+        /// The encoding of an image's numbers, for display and for files. If left out, the format tells it, as far as it
+        /// does. An encoding that the format can't hold is refused.
         encoding: Option<Leaf<'src>> => Form::Choice("an encoding", || names(&ENCODINGS)),
     }
 }

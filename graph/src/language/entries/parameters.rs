@@ -1,4 +1,4 @@
-//! `parameters`: what whoever uses a fragment gives it.
+//! `parameters`: the arguments that each use of a fragment gives.
 
 use super::list;
 use super::settings::{LISTED, default_on_step, listed, step};
@@ -11,7 +11,7 @@ use crate::vulkan::Format;
 use std::sync::Arc;
 
 fields! {
-    /// A parameter: what whoever uses a fragment gives it.
+    /// A parameter: an argument that each use of the fragment gives.
     /// ```ron
     /// (name: "levels", value: Integer(default: 5, min: 1, max: 8), about: "how far light runs over")
     /// ```

@@ -5,7 +5,7 @@ use super::stand_ins::{Of, stand_ins_make_sense};
 use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::language::model::{Color, Depth, Pass};
-use crate::language::scope::{Context, Given, Parts};
+use crate::language::scope::{Context, Given, GivenTuple};
 use crate::ron::{Name, Reader};
 use std::collections::HashMap;
 

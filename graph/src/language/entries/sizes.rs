@@ -41,7 +41,12 @@ static SIZES: Words = Words {
             &["Dynamic(by: 0.5, up_to: 1.0)"],
             "As `Scaled`, but the factor may be another one in each frame: the image has room for the greatest.",
         ),
-        Word::new("Fixed", &[Takes::Values(&[EXTENT, EXTENT])], &["Fixed(640, 480)"], "So many texels wide and high."),
+        Word::new(
+            "Fixed",
+            &[Takes::Values(&[EXTENT, EXTENT])],
+            &["Fixed(640, 480)"],
+            "This many texels wide and high.",
+        ),
         Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
     ],
 };

@@ -8,7 +8,7 @@ use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Context, DecidedValue, Evaluator, Given, Parts, ScopeValues, all, given};
+use crate::language::scope::{Context, DecidedValue, Evaluator, Given, GivenTuple, ScopeValues, all, given};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
@@ -63,7 +63,12 @@ static SIZES: Words = Words {
             &["Scaled(0.5)"],
             "The frame's, times a number above 0; rounded down, at least 1.",
         ),
-        Word::new("Fixed", &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])], &["Fixed(640, 360)"], "So many pixels."),
+        Word::new(
+            "Fixed",
+            &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])],
+            &["Fixed(640, 360)"],
+            "This many pixels.",
+        ),
     ],
 };
 

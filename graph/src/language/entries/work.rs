@@ -1,6 +1,6 @@
 //! What a pass does: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
 
-use super::draw::Beside;
+use super::draw::DrawFields;
 use super::pass_fields::PassFields;
 use crate::language::model::Work;
 use crate::language::scope::{Context, Given, given};
@@ -55,7 +55,7 @@ impl Context<'_> {
         }
         match word {
             "draw" => {
-                let beside = Beside { shader: fields.shader, vertex: fields.vertex, index: fields.index };
+                let beside = DrawFields { shader: fields.shader, vertex: fields.vertex, index: fields.index };
                 self.draw_work(leaf, beside, what)
             }
             "dispatch" => self.dispatch_work(leaf, fields.groups, what),

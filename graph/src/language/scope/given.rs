@@ -1,5 +1,5 @@
-//! A value of an entry: known when its file is read, or asked of settings, parameters, images and surroundings at each
-//! lowering.
+//! Values of fields: known when the file is read, or found at each lowering from settings, parameters, images and
+//! surroundings.
 
 use super::evaluator::{Evaluator, within_view};
 use crate::base::Diagnostic;
@@ -7,15 +7,15 @@ use crate::language::model::Decided;
 use crate::ron::{Leaf, Name, Reader, Spanned};
 use std::sync::Arc;
 
-/// What values of entries have in common: they are kept in a document, and copied into pipelines.
+/// The bounds of all values of fields: they are kept in a document, and copied into pipelines.
 pub(crate) trait Kept: Clone + Send + Sync + 'static {}
 
 impl<T: Clone + Send + Sync + 'static> Kept for T {}
 
-/// What finds a value.
+/// A closure that finds a value.
 type Ask<T> = dyn Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync;
 
-/// A value of an entry.
+/// A value of a field: a constant, or a closure that is evaluated at each lowering.
 #[derive(Clone)]
 pub(crate) enum Given<T> {
     /// The file says it.
@@ -29,7 +29,7 @@ impl<T: Kept> Given<T> {
         Given::Asked(Arc::new(ask))
     }
 
-    /// What is made of the value, if anything is.
+    /// A value that is computed from this one, if there is one.
     pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<Given<U>> {
         match self {
             Given::Known(value) => make(value).map(Given::Known),
@@ -37,14 +37,14 @@ impl<T: Kept> Given<T> {
         }
     }
 
-    /// What is made of the value.
+    /// A value that is computed from this one.
     pub(crate) fn map<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<U> {
         given(self, make)
     }
 
-    /// What is made of the value, or what is wrong with it. That is reported to `reader` if the value is known; else it is
-    /// a fault at each lowering, see [`Evaluator::fault`]. The second argument is the view of the entry, unless it is the
-    /// main one.
+    /// A value that is computed from this one, or a mistake. The mistake is reported to `reader` if the value is known; else
+    /// it is a fault at each lowering, see [`Evaluator::fault`]. The second argument is the view of the entry, unless it is
+    /// the main one.
     pub(crate) fn checked<U: Kept>(
         self,
         reader: &mut Reader,
@@ -53,7 +53,8 @@ impl<T: Kept> Given<T> {
         self.checked_as(reader, false, check)
     }
 
-    /// The same. Of a value whose wrong part is `said` by the file, what is wrong is always reported.
+    /// As [`checked`](Given::checked). If the file says the wrong part of the value itself (`said`), the mistake is always
+    /// reported, never a fault.
     pub(crate) fn checked_as<U: Kept>(
         self,
         reader: &mut Reader,
@@ -99,7 +100,7 @@ impl<T: Kept> Given<Decided<T>> {
         self.map(move |decided| Decided { span, ..decided })
     }
 
-    /// What is made of the value; the same decided it.
+    /// A value that is computed from this one, with the same cause.
     pub(crate) fn of<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<Decided<U>> {
         self.map(move |decided| decided.map(&make))
     }
@@ -116,7 +117,7 @@ impl<T: Kept> Given<Decided<T>> {
 }
 
 /// Values of an entry that belong together: one, a tuple or a list of them, or none.
-pub(crate) trait Parts: Send + Sync + 'static {
+pub(crate) trait GivenTuple: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
@@ -129,15 +130,18 @@ pub(crate) trait Parts: Send + Sync + 'static {
     }
 }
 
-/// What is made of several values.
-pub(crate) fn given<P: Parts, T: Kept>(parts: P, make: impl Fn(P::Values) -> T + Send + Sync + 'static) -> Given<T> {
+/// A value that is computed from several values.
+pub(crate) fn given<P: GivenTuple, T: Kept>(
+    parts: P,
+    make: impl Fn(P::Values) -> T + Send + Sync + 'static,
+) -> Given<T> {
     match parts.find(None) {
         Some(values) => Given::Known(make(values)),
         None => Given::asked(move |evaluator| parts.evaluate(evaluator).map(&make)),
     }
 }
 
-impl<T: Kept> Parts for Given<T> {
+impl<T: Kept> GivenTuple for Given<T> {
     type Values = T;
 
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<T> {
@@ -148,7 +152,7 @@ impl<T: Kept> Parts for Given<T> {
     }
 }
 
-impl<P: Parts> Parts for Option<P> {
+impl<P: GivenTuple> GivenTuple for Option<P> {
     type Values = Option<P::Values>;
 
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -156,7 +160,7 @@ impl<P: Parts> Parts for Option<P> {
     }
 }
 
-impl<P: Parts> Parts for Vec<P> {
+impl<P: GivenTuple> GivenTuple for Vec<P> {
     type Values = Vec<P::Values>;
 
     fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -168,7 +172,7 @@ impl<P: Parts> Parts for Vec<P> {
     }
 }
 
-impl<P: Parts, const N: usize> Parts for [P; N] {
+impl<P: GivenTuple, const N: usize> GivenTuple for [P; N] {
     type Values = [P::Values; N];
 
     fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -184,7 +188,7 @@ pub(crate) fn all<T, const N: usize>(values: [Option<T>; N]) -> Option<[T; N]> {
 
 macro_rules! tuples {
     ($($part:ident)*) => {
-        impl<$($part: Parts),*> Parts for ($($part,)*) {
+        impl<$($part: GivenTuple),*> GivenTuple for ($($part,)*) {
             type Values = ($($part::Values,)*);
 
             #[allow(non_snake_case, reason = "parts have the names of their types")]

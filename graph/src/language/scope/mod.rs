@@ -15,7 +15,7 @@ mod symbols;
 
 pub(crate) use context::{Context, Quoted, decided};
 pub(crate) use evaluator::{Evaluator, ScopeValues, joined, within_view};
-pub(crate) use given::{Given, Kept, Parts, all, given};
+pub(crate) use given::{Given, GivenTuple, Kept, all, given};
 pub(crate) use level::{DecidedValue, Elements, LevelValues, Properties};
 pub(crate) use lookup::Scope;
 pub(crate) use parameter::{Parameter, ParameterKind};
