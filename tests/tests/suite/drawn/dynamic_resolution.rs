@@ -188,12 +188,12 @@ fn places_in_an_eyes_half_follow_the_scale() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let (scene, mut shaders) = (empty_scene(), library());
     let ways = Ways { stereo: Stereo::DoubleWide, rotation: Rotation::Identity };
-    let mut planned = |scale| {
+    let planned = |scale| {
         let set = &[("scale", scale)];
         let setup = Setup { pipeline: "tests/pipelines/eyes_dynamic.ron", set, scene: &scene, extent: EXTENT };
         plan_for(device, &setup, ways, &mut shaders, &poisoned())
     };
-    let plans = SCALES.map(|scale| planned(scale));
+    let plans = SCALES.map(planned);
     let plans = plans.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut draws = SceneDrawSource::for_eyes(device, &scene, EXTENT, &plans[0], &Eyes::default())?;
     let how = ExecutorOptions { poison: true, frames_in_flight: 2, ..ExecutorOptions::default() };
