@@ -26,7 +26,8 @@ pub enum Error {
     NoDevice,
     /// The loader can't make an instance: a file that describes a driver or a layer is broken, or what it leads to is.
     #[error(
-        "the Vulkan loader can't make an instance{} ({result:?}): a file that it reads is broken, or leads to a library that can't be loaded; VK_LOADER_DEBUG=all shows which; mend it with: {INSTALL}{}",
+        "the Vulkan loader can't make an instance{} ({result:?}): a file that it reads is broken, or leads to a \
+         library that can't be loaded; VK_LOADER_DEBUG=all shows which; mend it with: {INSTALL}{}",
         if *validation { " with the validation layer" } else { "" },
         loader_variables(", or mend what they lead to")
     )]
@@ -62,7 +63,8 @@ pub enum Error {
     },
     /// The validation layer didn't report a mistake that was made on purpose: its silence would prove nothing.
     #[error(
-        "the validation layer {} did not report {planted}, which was planted to test it: check VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt",
+        "the validation layer {} did not report {planted}, which was planted to test it: check \
+         VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt",
         escape(layer)
     )]
     LayerIsBlind {
@@ -73,7 +75,8 @@ pub enum Error {
     },
     /// A file of this crate's own can't be written (the layer's manifest).
     #[error(
-        "can't write {}: {reason}; mend it with: XDG_CACHE_HOME naming a folder that is yours, or VK_LAYER_PATH naming the layer's own",
+        "can't write {}: {reason}; mend it with: XDG_CACHE_HOME naming a folder that is yours, or \
+         VK_LAYER_PATH naming the layer's own",
         escape(path)
     )]
     CantWrite {

@@ -4,6 +4,7 @@ use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
 use crate::prepare::{PreparedWork, Refuse, check, passes};
+use ash::vk;
 use framewright_graph::plan::{Plan, Work};
 use std::sync::Arc;
 
@@ -14,10 +15,19 @@ struct ChangedParams {
     filled: Arc<RawBuffer>,
 }
 
+/// The pipeline of a pass in a scope that has another size: the numbers of the step and of the pass in there.
+struct ChangedPipeline {
+    step: usize,
+    pass: usize,
+    pipeline: vk::Pipeline,
+}
+
 impl Executor {
     /// Executes `plan` from the next frame on, which may differ from the one before in values alone: see
-    /// [`Plan::differs_beyond_values`]. Nothing is made anew on the device but the blocks of parameters that have other values;
-    /// for those, frames in flight are waited for. Whichever part of an image is in use, no device memory is allocated for it.
+    /// [`Plan::differs_beyond_values`]. Made anew on the device are only the blocks of parameters that have other values, for
+    /// which frames in flight are waited for, and the pipelines of shaders that ask for `frag_coord()` in images that hold both
+    /// eyes' pictures side by side and change their size. There is one of those for each size, which the device keeps. Whichever
+    /// part of an image is in use, no device memory is allocated for it.
     ///
     /// # Errors
     /// [`Error::BadPlan`] if the Plan differs in more, and what is to be made anew; [`Error::Violations`] and
@@ -28,6 +38,7 @@ impl Executor {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
         check(&self.gpu, plan, Refuse::Violations, self.poisons())?;
+        let pipelines = self.changed_pipelines(plan)?;
         let changed = self.changed_params(plan)?;
         if !changed.is_empty() {
             self.frames.wait_for_all()?;
@@ -35,9 +46,31 @@ impl Executor {
         for ChangedParams { step, pass, filled } in changed {
             self.prepared.steps[step].sets()[pass].take(filled);
         }
+        for ChangedPipeline { step, pass, pipeline } in pipelines {
+            if let PreparedWork::Render(made) = &mut self.prepared.steps[step].work {
+                made[pass].pipeline = Some(pipeline);
+            }
+        }
         self.prepared.forget_commands();
         self.plan.clone_from(plan);
         Ok(())
+    }
+
+    /// The pipelines that `plan` needs where its scopes have another size.
+    fn changed_pipelines(&self, plan: &Plan) -> Result<Vec<ChangedPipeline>, Error> {
+        let mut changed = Vec::new();
+        for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
+            let (Work::Render(old), Work::Render(new)) = (&old.work, &new.work) else { continue };
+            let PreparedWork::Render(made) = &self.prepared.steps[step].work else { continue };
+            if old.extent == new.extent {
+                continue;
+            }
+            for (pass, (planned, made)) in new.passes.iter().zip(made).enumerate() {
+                let pipeline = made.resized(&self.gpu, &planned.name, new.extent)?;
+                changed.extend(pipeline.map(|pipeline| ChangedPipeline { step, pass, pipeline }));
+            }
+        }
+        Ok(changed)
     }
 
     /// The blocks of parameters that have other values in `plan`, whose counts of workgroups are checked.

@@ -194,7 +194,7 @@ impl Executor {
         match role {
             Role::External { .. } => Ok(()),
             Role::Transient(_) | Role::Persistent { .. } => {
-                Err(Error::BadResource { what: format!("`{name}` is not the program's own, and can't be handed in") })
+                Err(Error::BadResource { what: format!("`{name}` is not the program's own, and can't be imported") })
             }
         }
     }

@@ -13,8 +13,8 @@ use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subr
 use std::sync::Arc;
 
 /// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
-/// initial value or the texels in `staged`, others that were not imported to zero, each in the state that the Plan relies on and with the queue that
-/// uses it first.
+/// initial value or the texels in `staged`, others that were not imported to zero, each in the state that the Plan relies on and
+/// with the queue that uses it first.
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,

@@ -53,7 +53,8 @@ impl Gpu {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = minimum::has_local_read(&instance.raw, physical);
         let has = Features::of(&instance.raw, physical, false);
-        let [features, mut chained] = [(); 2].map(|()| Features::used(&has, has_local_read));
+        let features = Features::used(&has, has_local_read);
+        let mut chained = Features::used(&has, has_local_read);
         let max_views = minimum::max_views(&instance.raw, physical, &features);
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();

@@ -42,7 +42,8 @@ impl Image {
             })
             .format(convert::format(self.descriptor.format))
             .subresource_range(convert::range(range));
-        // SAFETY: the image lives, and the range was checked against it by `verify`.
+        // SAFETY: the image lives. `verify` checked the range against it, and refuses attachments that are three-dimensional;
+        // what shaders sample and store has the shape that they declare.
         let made =
             unsafe { self.gpu.raw.create_image_view(&info, None) }.map_err(Error::vulkan("creating an image view"))?;
         views.push((range, shape, made));

@@ -17,7 +17,7 @@ pub(crate) struct Batch {
     pub(crate) last: bool,
 }
 
-/// The batches of a frame, in the order in which they are submitted. `beside` are waits that the Plan doesn't have.
+/// The batches of a frame, in the order in which they are submitted. `extra_waits` are waits that the Plan doesn't have.
 pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)]) -> Vec<Batch> {
     let planned = plan.steps.iter().flat_map(|step| &step.waits);
     let awaited: HashSet<StepId> =

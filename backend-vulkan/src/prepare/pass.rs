@@ -25,6 +25,8 @@ pub(crate) struct PreparedDraw {
     pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
+    /// What the pipeline is made of, if the size of the scope is a constant of it.
+    sized: Option<PipelineDescriptor>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
     pub(crate) local: Option<LocalRead>,
     pub(crate) state: PassState,
@@ -92,6 +94,13 @@ pub(crate) enum WorkgroupCount<B> {
 }
 
 impl PreparedDraw {
+    /// The pipeline for a scope of another size; `None` if the one that it has serves for all sizes.
+    pub(crate) fn resized(&self, gpu: &Gpu, name: &str, extent: [u32; 2]) -> Result<Option<vk::Pipeline>, Error> {
+        let Some(descriptor) = &self.sized else { return Ok(None) };
+        let turned = descriptor.turned.map(|turned| RotationConstants { extent, ..turned });
+        gpu.pipeline(name, PipelineDescriptor { turned, ..descriptor.clone() }).map(Some)
+    }
+
     /// What the pass records in a frame.
     pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
         let buffer = |id: BufferId| frame.buffer(id).raw;
@@ -201,6 +210,7 @@ pub(super) fn prepare_draw(
         draw,
         sets,
         pipeline: None,
+        sized: None,
         local: None,
         state: PassState::default(),
         vertices: Vec::new(),
@@ -261,12 +271,13 @@ pub(super) fn prepare_draw(
         local: local.clone(),
         turned,
     };
+    let sized = descriptor.turned.filter(|turned| turned.extent != [0; 2]).map(|_| descriptor.clone());
     let pipeline = Some(gpu.pipeline(&pass.name, descriptor)?);
     let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
     let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
-    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+    Ok(PreparedDraw { pipeline, sized, local, state, vertices, ..nothing(sets) })
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

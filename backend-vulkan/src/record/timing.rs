@@ -68,9 +68,9 @@ pub(crate) struct Timing {
 ///
 /// Vulkan takes one query for a timestamp, and inside a scope with a view mask one for each view. Lavapipe 25 takes one for
 /// each view after such a scope too. So each timestamp has a query for each view of the Plan's widest scope, wherever it is
-/// taken: a driver that goes on to take as many as a scope of this Plan does writes over no other timestamp. Behind the last one there
-/// is one for each view that the device can draw: a driver that goes on with a wider scope of another Plan may write over the
-/// timestamps behind, and over no other memory.
+/// taken: a driver that goes on to take as many as a scope of this Plan does writes over no other timestamp. Behind the last one
+/// there is one for each view that the device can draw: a driver that goes on with a wider scope of another Plan may write over
+/// the timestamps behind, and over no other memory.
 #[derive(Debug, Clone, Copy)]
 struct Queries {
     stamps: u32,

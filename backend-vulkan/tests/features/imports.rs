@@ -3,6 +3,7 @@
 use crate::frames::{
     Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,
 };
+use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Output, Resource};
 use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Stages, State, Subresources};
@@ -137,8 +138,24 @@ fn what_is_to_be_presented_is_left_for_that() {
 }
 
 fn executor(device: &Device, frame: &Frame) -> Executor {
+    executor_with(device, frame, &ExecutorOptions::default())
+}
+
+/// An executor that begins a frame before the one before it is done.
+fn executor_of_two(device: &Device, frame: &Frame) -> Executor {
+    executor_with(device, frame, &ExecutorOptions { frames_in_flight: 2, ..ExecutorOptions::default() })
+}
+
+fn executor_with(device: &Device, frame: &Frame, options: &ExecutorOptions) -> Executor {
     let plan = planned(device, frame, &Options::default());
-    Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor")
+    Executor::new(device, &plan, &mut library(SHADERS), options).expect("an executor")
+}
+
+/// Draws two frames and waits for neither.
+fn two_frames(executor: &mut Executor) {
+    for _ in 0..2 {
+        executor.submit(&mut Nothing).expect("a frame");
+    }
 }
 
 /// Memory of the first type that will do, for an image or buffer that needs it.
@@ -150,29 +167,83 @@ fn memory(device: &Device, needs: vk::MemoryRequirements) -> vk::DeviceMemory {
     unsafe { device.raw().allocate_memory(&info, None) }.expect("memory")
 }
 
+/// The program's own image, as the Plans above describe it.
+fn own_image(device: &Device) -> (vk::Image, vk::DeviceMemory) {
+    let info = vk::ImageCreateInfo::default()
+        .image_type(vk::ImageType::TYPE_2D)
+        .format(vk::Format::R32_UINT)
+        .extent(vk::Extent3D { width: 2, height: 2, depth: 1 })
+        .mip_levels(1)
+        .array_layers(1)
+        .samples(vk::SampleCountFlags::TYPE_1)
+        .usage(
+            vk::ImageUsageFlags::COLOR_ATTACHMENT
+                | vk::ImageUsageFlags::SAMPLED
+                | vk::ImageUsageFlags::TRANSFER_SRC
+                | vk::ImageUsageFlags::TRANSFER_DST,
+        );
+    let raw = device.raw();
+    // SAFETY: the device lives, and the image is new.
+    unsafe {
+        let image = raw.create_image(&info, None).expect("an image");
+        let memory = memory(device, raw.get_image_memory_requirements(image));
+        raw.bind_image_memory(image, memory, 0).expect("it fits");
+        (image, memory)
+    }
+}
+
+/// # Safety
+/// Nothing may use the image any more.
+unsafe fn destroy_image(device: &Device, (image, memory): (vk::Image, vk::DeviceMemory)) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        device.raw().destroy_image(image, None);
+        device.raw().free_memory(memory, None);
+    }
+}
+
+/// The program's own buffer of three words.
+fn own_buffer(device: &Device) -> (vk::Buffer, vk::DeviceMemory) {
+    let usage =
+        vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+    let info = vk::BufferCreateInfo::default().size(12).usage(usage);
+    let raw = device.raw();
+    // SAFETY: the device lives, and the buffer is new.
+    unsafe {
+        let buffer = raw.create_buffer(&info, None).expect("a buffer");
+        let memory = memory(device, raw.get_buffer_memory_requirements(buffer));
+        raw.bind_buffer_memory(buffer, memory, 0).expect("it fits");
+        (buffer, memory)
+    }
+}
+
+/// # Safety
+/// Nothing may use the buffer any more.
+unsafe fn destroy_buffer(device: &Device, (buffer, memory): (vk::Buffer, vk::DeviceMemory)) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        device.raw().destroy_buffer(buffer, None);
+        device.raw().free_memory(memory, None);
+    }
+}
+
+/// Increases each word of the imported buffer `own`.
+fn increased() -> Frame {
+    let mut small = Small::default();
+    let changed = State {
+        stages: Stages::COMPUTE_SHADER,
+        accesses: Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE,
+        layout: Layout::Undefined,
+    };
+    let own = small.buffer_with("own", 3, Lifetime::Imported { before: changed, after: Some(changed) });
+    small.pass(dispatch("increase", ONE).block("Words", own, (true, true)));
+    small.frame
+}
+
 #[test]
 fn the_program_s_own_image_goes_from_one_plan_to_another() {
     on_each_driver(|device| {
-        let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(vk::Format::R32_UINT)
-            .extent(vk::Extent3D { width: 2, height: 2, depth: 1 })
-            .mip_levels(1)
-            .array_layers(1)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(
-                vk::ImageUsageFlags::COLOR_ATTACHMENT
-                    | vk::ImageUsageFlags::SAMPLED
-                    | vk::ImageUsageFlags::TRANSFER_SRC,
-            );
-        let raw = device.raw();
-        // SAFETY: the device lives, and the image is new.
-        let (image, memory) = unsafe {
-            let image = raw.create_image(&info, None).expect("an image");
-            let memory = memory(device, raw.get_image_memory_requirements(image));
-            raw.bind_image_memory(image, memory, 0).expect("it fits");
-            (image, memory)
-        };
+        let (image, memory) = own_image(device);
         let [mut first, mut second] = [drawn_into(), sampled_from()].map(|frame| executor(device, &frame));
         // SAFETY: it is made as the Plans say, outlives the executors, and the first leaves it as the second finds it.
         unsafe {
@@ -186,38 +257,68 @@ fn the_program_s_own_image_goes_from_one_plan_to_another() {
             assert_eq!(texels(&mut second, "doubled", 0), [0, 2, 20, 22]);
         }
         drop((first, second));
-        // SAFETY: nothing uses them any more.
+        // SAFETY: the executors were dropped.
+        unsafe { destroy_image(device, (image, memory)) };
+    });
+}
+
+#[test]
+fn an_image_is_imported_in_place_of_another_that_frames_in_flight_use() {
+    on_each_driver(|device| {
+        let [mut first, mut second] = [drawn_into(), sampled_from()].map(|frame| executor_of_two(device, &frame));
+        let [old, new] = [own_image(device), own_image(device)];
+        // SAFETY: each is made as the Plans say, and lives until another is imported or the executors are dropped. The first
+        // leaves it as the second finds it.
         unsafe {
-            raw.destroy_image(image, None);
-            raw.free_memory(memory, None);
+            for ((image, _), numbers) in [(new, [50, 60, 70, 80]), (old, [1, 2, 3, 4])] {
+                first.import_image("shared", image).expect("it is external");
+                frame(&mut first);
+                second.import_image("shared", image).expect("it is external");
+                second.write_image("shared", Aspects::COLOR, 0, &to_bytes(&numbers)).expect("it fits");
+            }
+            first.import_image("shared", new.0).expect("it is external");
+            two_frames(&mut second);
+            second.import_image("shared", new.0).expect("it is external");
+            destroy_image(device, old);
         }
+        two_frames(&mut second);
+        assert_eq!(texels(&mut second, "doubled", 0), [100, 120, 140, 160]);
+        two_frames(&mut first);
+        assert_eq!(texels(&mut first, "shared", 0), [0, 1, 10, 11]);
+        drop((first, second));
+        // SAFETY: the executors were dropped.
+        unsafe { destroy_image(device, new) };
+    });
+}
+
+#[test]
+fn a_buffer_is_imported_in_place_of_another_that_frames_in_flight_use() {
+    on_each_driver(|device| {
+        let mut executor = executor_of_two(device, &increased());
+        let [old, new] = [own_buffer(device), own_buffer(device)];
+        // SAFETY: each is made as the Plan says, and lives until another is imported or the executor is dropped.
+        unsafe {
+            for ((buffer, _), numbers) in [(new, [5, 50, 500]), (old, [1, 10, 100])] {
+                executor.import_buffer("own", buffer).expect("it is external");
+                executor.write_buffer("own", &to_bytes(&numbers)).expect("it fits");
+            }
+            two_frames(&mut executor);
+            executor.import_buffer("own", new.0).expect("it is external");
+            destroy_buffer(device, old);
+        }
+        two_frames(&mut executor);
+        assert_eq!(words(&mut executor, "own"), [7, 52, 502]);
+        drop(executor);
+        // SAFETY: the executor was dropped.
+        unsafe { destroy_buffer(device, new) };
     });
 }
 
 #[test]
 fn the_program_s_own_buffer_is_changed_in_place() {
-    let mut small = Small::default();
-    let changed = State {
-        stages: Stages::COMPUTE_SHADER,
-        accesses: Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE,
-        layout: Layout::Undefined,
-    };
-    let own = small.buffer_with("own", 3, Lifetime::Imported { before: changed, after: Some(changed) });
-    small.pass(dispatch("increase", ONE).block("Words", own, (true, true)));
     on_each_driver(|device| {
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
-            | vk::BufferUsageFlags::TRANSFER_SRC
-            | vk::BufferUsageFlags::TRANSFER_DST;
-        let info = vk::BufferCreateInfo::default().size(12).usage(usage);
-        let raw = device.raw();
-        // SAFETY: the device lives, and the buffer is new.
-        let (buffer, memory) = unsafe {
-            let buffer = raw.create_buffer(&info, None).expect("a buffer");
-            let memory = memory(device, raw.get_buffer_memory_requirements(buffer));
-            raw.bind_buffer_memory(buffer, memory, 0).expect("it fits");
-            (buffer, memory)
-        };
-        let mut executor = executor(device, &small.frame);
+        let (buffer, memory) = own_buffer(device);
+        let mut executor = executor(device, &increased());
         // SAFETY: it is made as the Plan says and outlives the executor; nothing else touches it.
         unsafe { executor.import_buffer("own", buffer) }.expect("it is external");
         executor.write_buffer("own", &to_bytes(&[1, 10, 100])).expect("it fits");
@@ -226,11 +327,8 @@ fn the_program_s_own_buffer_is_changed_in_place() {
             assert_eq!(words(&mut executor, "own"), [1 + frames, 10 + frames, 100 + frames]);
         }
         drop(executor);
-        // SAFETY: nothing uses them any more.
-        unsafe {
-            raw.destroy_buffer(buffer, None);
-            raw.free_memory(memory, None);
-        }
+        // SAFETY: the executor was dropped.
+        unsafe { destroy_buffer(device, (buffer, memory)) };
     });
 }
 

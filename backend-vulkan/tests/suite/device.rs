@@ -5,7 +5,17 @@ use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
 use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use framewright_vulkan::{
-    BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Resource, SamplerDescriptor, minimum_features,
+    BindGroup, BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Executor, Resource, SamplerDescriptor, Texture,
+    minimum_features,
+};
+
+/// A program may draw in a thread of its own and upload in others.
+const _: () = {
+    const fn goes_to_threads<T: Send + Sync>() {}
+    goes_to_threads::<Device>();
+    goes_to_threads::<Executor>();
+    goes_to_threads::<Texture>();
+    goes_to_threads::<BindGroup>();
 };
 
 #[test]

@@ -1,4 +1,4 @@
-//! Plans that differ in values alone: whatever was made to execute one serves for the other.
+//! Plans that differ in values alone: the memory and the shaders of one serve for the other.
 
 use super::{Attachment, Cause, Fill, Pass, Plan, RenderScope, Side, Transfer, Work};
 use crate::frame::{Groups, ParamValue};
@@ -6,7 +6,7 @@ use crate::vulkan::FillValue;
 
 impl Plan {
     /// What tells `other` from this Plan beside values, in words; `None`: an executor of this one can go on with the other one,
-    /// with the memory, images, buffers and pipelines that it has.
+    /// with the memory, images, buffers and shaders that it has.
     ///
     /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, which part of an
     /// image is in use where that may change, and all that explains.

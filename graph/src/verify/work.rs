@@ -14,7 +14,7 @@ use crate::plan::names::Shown;
 use crate::plan::{
     Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
 };
-use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, Subresources, name_of};
+use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Shape, Stages, StoreOp, Subresources, name_of};
 use std::collections::HashSet;
 
 /// Reports what is malformed in the steps; the steps in dense form, if they can be followed.
@@ -147,6 +147,7 @@ impl<'p> Check<'_, 'p> {
 
     /// What attachments and targets of resolves have in common.
     fn target(&mut self, scope: &RenderScope, image: &Image, range: Subresources, plane: Aspects) {
+        self.demand(image.shape != Shape::D3, image.id, "is three-dimensional and can't be an attachment");
         self.demand(image.format.aspects().contains(plane), image.id, "has a format that doesn't fit its attachment");
         self.demand(range.mips == 1, image.id, "is attached with more than one mip level");
         self.demand(range.layers == scope.layers, image.id, "is attached with another number of layers than its scope");

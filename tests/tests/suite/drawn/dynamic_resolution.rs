@@ -1,10 +1,12 @@
 //! Images that change their size from frame to frame are used in part, and show what images of that size would (IQ-1).
 
 use framewright_graph::compile::Options;
-use framewright_passes::draw::SceneDrawSource;
+use framewright_graph::frame::Stereo;
+use framewright_graph::vulkan::Rotation;
+use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::{AlphaMode, Material, Scene};
-use framewright_tests::render::{Setup, device, draw, library, own_device, plan, silent};
-use framewright_tests::shapes::{material, scene, sphere, square};
+use framewright_tests::render::{Setup, Ways, device, draw, library, own_device, plan, plan_for, silent};
+use framewright_tests::shapes::{empty_scene, material, scene, sphere, square};
 use framewright_tests::sweep;
 use framewright_vulkan::{Device, Error as Failed, Executor, ExecutorOptions, ShaderLibrary};
 use glam::{Mat4, Vec3};
@@ -177,5 +179,32 @@ fn parameters_change_between_frames_in_flight_and_more_than_values_is_refused() 
     }
     executor.frame(&mut draws)?;
     assert!(shown(&mut executor)? == alone(device, &yard, &[("white_point", "40")])?, "it stays with what it had");
+    silent(device)
+}
+
+/// The right eye's half begins at another texel for each scale, which shaders are told by constants of their pipelines.
+#[test]
+fn places_in_an_eyes_half_follow_the_scale() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let (scene, mut shaders) = (empty_scene(), library());
+    let ways = Ways { stereo: Stereo::DoubleWide, rotation: Rotation::Identity };
+    let planned = |scale| {
+        let set = &[("scale", scale)];
+        let setup = Setup { pipeline: "tests/pipelines/eyes_dynamic.ron", set, scene: &scene, extent: EXTENT };
+        plan_for(device, &setup, ways, &mut shaders, &poisoned())
+    };
+    let plans = SCALES.map(planned);
+    let plans = plans.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut draws = SceneDrawSource::for_eyes(device, &scene, EXTENT, &plans[0], &Eyes::default())?;
+    let how = ExecutorOptions { poison: true, frames_in_flight: 2, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plans[0], &mut shaders, &how)?;
+    for (plan, scale) in plans.iter().zip(SCALES) {
+        executor.change(plan)?;
+        executor.submit(&mut draws)?;
+        executor.submit(&mut draws)?;
+        let mut anew = Executor::new(device, plan, &mut shaders, &how)?;
+        anew.frame(&mut draws)?;
+        assert!(executor.read(0)?.bytes == anew.read(0)?.bytes, "{scale}: other places");
+    }
     silent(device)
 }
