@@ -52,7 +52,7 @@ impl Context<'_> {
             if index.value >= of.value {
                 let beyond = format!("there is no cascade {} of {}", index.value, of.value);
                 let help = format!("write a number from 0 to {}", of.value - 1);
-                return Err(Diagnostic::new(index.span, beyond).label(of.span, "so many").help(help));
+                return Err(Diagnostic::new(index.span, beyond).label(of.span, "the number of cascades").help(help));
             }
             Ok(Cascade { list, index: index.value, of: of.value, reach: reach.flatten() })
         })

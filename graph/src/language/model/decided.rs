@@ -26,7 +26,7 @@ impl<T> Decided<T> {
         Decided { value: make(self.value), span: self.span, because: self.because }
     }
 
-    /// What is made of two values; what decided either decided it. The place is that of the first.
+    /// A value that is computed from two. Its causes are those of both, and its place is that of the first.
     pub(crate) fn and<U, V>(self, other: Decided<U>, make: impl FnOnce(T, U) -> V) -> Decided<V> {
         let because = match (self.because, other.because) {
             (Some(one), Some(other)) => Some(format!("{one}, {other}").into()),
