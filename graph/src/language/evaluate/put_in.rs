@@ -71,7 +71,6 @@ impl Evaluation<'_> {
         let inside = reader.errors.len();
         self.level(reader, &mut inner);
         self.path.pop();
-        let is_whole = reader.errors.len() == inside;
         self.used_here(reader, inside, name);
 
         let written =
@@ -85,7 +84,8 @@ impl Evaluation<'_> {
         };
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
         let pass = Pass { off, work, otherwise, view, instance: level.instance, ..Pass::idle(whole) };
-        // A pass that is wrong isn't among those that write.
+        // A pass that is wrong may write anything.
+        let is_whole = self.flat.passes[start.passes..].iter().all(Option::is_some);
         if let Some(otherwise) = entry.otherwise.as_ref().filter(|_| is_whole) {
             stand_ins::stand_ins_make_sense(reader, otherwise, Of::Use, &pass);
         }
