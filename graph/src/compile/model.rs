@@ -147,7 +147,6 @@ pub(super) struct Adapted {
     pub(super) subresources: u32,
     /// The frame's outputs, in its order.
     pub(super) outputs: Vec<PhysicalIndex>,
-    pub(super) notes: Vec<Note>,
     /// The allocated width and height of images whose size may change.
     pub(super) allocated: HashMap<PhysicalIndex, [u32; 2]>,
     /// How images hold both eyes' parts, and how they are turned.

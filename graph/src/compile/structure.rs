@@ -20,7 +20,7 @@ use crate::plan::Note;
 #[derive(Debug)]
 pub(super) struct Structure {
     pub(super) live: Live,
-    /// Notes of the stages before `adapt`.
+    /// Notes of the stages from `fit` on, in their order.
     pub(super) notes: Vec<Note>,
     pub(super) adapted: Adapted,
     /// Uses as `adapt` left them, if the order can be found again only from those.
@@ -79,30 +79,22 @@ impl Structure {
         options: &Options,
         keeps: bool,
     ) -> Result<Structure, Vec<Diagnostic>> {
-        let mut negotiated = fit::negotiate(frame, &live.passes, formats)?;
-        let notes = std::mem::take(&mut negotiated.notes);
+        let negotiated = fit::negotiate(frame, &live.passes, formats)?;
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
-        let mut adapted = adapt::adapt(input)?;
+        let (adapted, of_adapt) = adapt::adapt(input)?;
         let scheduled = schedule::schedule(&adapted, options.order, keeps);
         let areas = || scope::same_areas(&adapted, &scheduled.order, device).collect();
         let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
-        let mut scoped = scope::scope(frame, &adapted, &scheduled.order, device);
-        adapted.notes.append(&mut scoped.notes);
-        scope::read_locally(&mut adapted.uses, &scoped.local);
+        let (scoped, adapted, of_scope) = scope::scope(frame, adapted, &scheduled.order, device);
         let Assigned { scoped, queues, notes: of_queues, sharing } =
             queues::assign(frame, &adapted, scoped, device, options);
-        adapted.notes.extend(of_queues);
-        sharing.into_iter().for_each(|(resource, sharing)| adapted.resources[resource as usize].set_sharing(sharing));
         let load_store = retain::retain(frame, &adapted, &scoped);
         let timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
-        for (used, layout) in &timeline.layouts {
-            adapted.uses[*used as usize].layout = *layout;
-        }
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
-        let usages = usage::usages(&adapted, &timeline, &load_store, &scoped, options);
-        adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
+        let adapted = usage::settle(adapted, &sharing, &timeline, &load_store, &scoped, options);
         fit::check_support(frame, &adapted, &scoped, device)?;
+        let notes = [negotiated.notes, of_adapt, of_scope, of_queues].into_iter().flatten().collect();
         Ok(Structure { live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })
     }
 

@@ -1,5 +1,5 @@
-//! Usage flags of each image and buffer: those that its steps take, and those that follow from its lifetime and from its
-//! states before and after the frame.
+//! `usage`: how each image and buffer is made and used. Its usage flags are those that its steps take, and those that follow
+//! from its lifetime and from its states before and after the frame.
 
 use super::history_ring::last_of_ring;
 use super::model::{Adapted, Kind, MemorySource, PhysicalIndex};
@@ -8,12 +8,28 @@ use super::retain::{AttachmentOps, LoadStoreOps};
 use super::scope::{Scoped, Step};
 use super::sync::AccessTimeline;
 use crate::vulkan::states::usage_for;
-use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
+use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
+
+/// Gives each physical resource its sharing and its usage flags, and each use the layout that it has in its step.
+pub(super) fn settle(
+    mut adapted: Adapted,
+    sharing: &[(PhysicalIndex, Sharing)],
+    timeline: &AccessTimeline,
+    load_store: &LoadStoreOps,
+    scoped: &Scoped,
+    options: &Options,
+) -> Adapted {
+    let usages = usages(&adapted, timeline, load_store, scoped, options);
+    adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
+    sharing.iter().for_each(|(resource, sharing)| adapted.resources[*resource as usize].set_sharing(*sharing));
+    timeline.layouts.iter().for_each(|(used, layout)| adapted.uses[*used as usize].layout = *layout);
+    adapted
+}
 
 /// For each physical resource its usage flags, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`. Outputs and all
 /// that outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only
 /// scope become transient attachments.
-pub(super) fn usages(
+fn usages(
     adapted: &Adapted,
     timeline: &AccessTimeline,
     load_store: &LoadStoreOps,

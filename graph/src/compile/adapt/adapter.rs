@@ -45,6 +45,7 @@ pub(super) struct Adapter<'a> {
     pub(super) adapted: Adapted,
     /// For each physical image whether a draw wrote it last.
     pub(super) drawn: Vec<bool>,
+    pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
     /// Uses of the current pass.
     pub(super) scratch: Vec<Use>,
@@ -73,6 +74,7 @@ impl<'a> Adapter<'a> {
             buffers: 0,
             adapted: Adapted::default(),
             drawn: Vec::with_capacity(frame.images.len()),
+            notes: Vec::new(),
             errors: Vec::new(),
             scratch: Vec::new(),
             copies: Vec::new(),
@@ -126,6 +128,6 @@ impl<'a> Adapter<'a> {
 
     pub(super) fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {
         let at = self.place(span);
-        self.adapted.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
+        self.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
     }
 }

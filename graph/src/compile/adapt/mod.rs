@@ -21,10 +21,12 @@ pub(super) use input::Input;
 use super::model::Adapted;
 use crate::base::Diagnostic;
 use crate::frame::{Resource, Work};
+use crate::plan::Note;
 use adapter::Adapter;
 use later::LastAccesses;
 
-pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
+/// The physical resources and operations of a frame, with notes of what was decided.
+pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagnostic>> {
     let Input { frame, live, .. } = input;
     let mut adapter = Adapter::new(input);
     for output in &frame.outputs {
@@ -35,7 +37,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
     if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
         adapter.later = LastAccesses::of(frame, live);
     }
-    adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
+    adapter.demotions = demote::find(&input, &mut adapter.notes);
     adapter.adapted.resources.reserve(frame.images.len());
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4 + frame.images.len());
@@ -49,5 +51,5 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         resources::distinct_names(frame, &mut adapter.adapted.resources);
     }
     access::settle_depth(&mut adapter.adapted);
-    if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
+    if adapter.errors.is_empty() { Ok((adapter.adapted, adapter.notes)) } else { Err(adapter.errors) }
 }

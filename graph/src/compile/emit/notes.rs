@@ -27,9 +27,5 @@ pub(super) fn notes(parts: &Parts<'_>) -> Vec<Note> {
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),
     });
-    off.chain(remarks)
-        .chain(culled)
-        .chain(parts.structure.notes.iter().cloned())
-        .chain(parts.adapted.notes.iter().cloned())
-        .collect()
+    off.chain(remarks).chain(culled).chain(parts.structure.notes.iter().cloned()).collect()
 }

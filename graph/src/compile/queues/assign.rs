@@ -7,7 +7,7 @@
 
 use super::crossing::Crossing;
 use super::eligible::{Eligible, GraphicsOnly};
-use super::layout_changes;
+use super::layout_changes::{self, WithChanges};
 use super::number::QUEUES;
 use super::state::Queues;
 use super::step_uses::uses_of;
@@ -44,7 +44,7 @@ pub(in crate::compile) struct Assigned {
 pub(in crate::compile) fn assign(
     frame: &Frame,
     adapted: &Adapted,
-    mut scoped: Scoped,
+    scoped: Scoped,
     device: &Profile,
     options: &Options,
 ) -> Assigned {
@@ -84,7 +84,7 @@ pub(in crate::compile) fn assign(
         return one_queue(scoped, notes);
     }
     let (crossings, sharing) = share(adapted, &scoped, device, &queues);
-    let changes = layout_changes::insert(adapted, &mut scoped, &mut queues, &crossings);
+    let WithChanges { scoped, queues, changes } = layout_changes::insert(adapted, scoped, &queues, &crossings);
     Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
 }
 

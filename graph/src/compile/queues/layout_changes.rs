@@ -28,31 +28,48 @@ struct Candidate {
     readers: [bool; QUEUES],
 }
 
-/// Inserts steps behind writes. Returns each with what it changes.
-pub(super) fn insert(
-    adapted: &Adapted,
-    scoped: &mut Scoped,
-    queues: &mut Vec<Queue>,
-    crossings: &[Option<Crossing>],
-) -> Vec<(u32, LayoutChange)> {
-    let mut candidates = candidates(adapted, scoped, queues, crossings);
-    candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
-    candidates.sort_by_key(|it| (it.behind, it.change.subresource));
-    let mut changes = Vec::with_capacity(candidates.len());
-    for (same, inserted) in candidates.chunk_by(|one, other| one.behind == other.behind).zip(1..) {
-        let at = same[0].behind + inserted;
-        scoped.steps.insert(at as usize, Step::BarriersOnly);
-        queues.insert(at as usize, queues[at as usize - 1]);
-        changes.extend(same.iter().map(|it| (at, it.change)));
-    }
-    changes
+/// Steps with the queue of each, and steps among them that only change layouts.
+pub(super) struct WithChanges {
+    pub(super) scoped: Scoped,
+    pub(super) queues: Vec<Queue>,
+    /// Each change, and the step that makes it.
+    pub(super) changes: Vec<(u32, LayoutChange)>,
 }
 
-fn candidates(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], crossings: &[Option<Crossing>]) -> Vec<Candidate> {
+/// Inserts steps that change layouts behind writes.
+pub(super) fn insert(
+    adapted: &Adapted,
+    mut scoped: Scoped,
+    queues: &[Queue],
+    crossings: &[Option<Crossing>],
+) -> WithChanges {
+    let mut candidates = candidates(adapted, &scoped.steps, queues, crossings);
+    candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
+    candidates.sort_by_key(|it| (it.behind, it.change.subresource));
+    let mut candidates = candidates.iter().peekable();
+    let before = std::mem::take(&mut scoped.steps);
+    let mut queues_with = Vec::with_capacity(before.len() + candidates.len());
+    let mut changes = Vec::with_capacity(candidates.len());
+    for ((step, queue), number) in before.into_iter().zip(queues).zip(0..) {
+        scoped.steps.push(step);
+        queues_with.push(*queue);
+        let at = scoped.steps.len() as u32;
+        while let Some(it) = candidates.next_if(|it| it.behind == number) {
+            changes.push((at, it.change));
+        }
+        if changes.last().is_some_and(|(last, _)| *last == at) {
+            scoped.steps.push(Step::BarriersOnly);
+            queues_with.push(*queue);
+        }
+    }
+    WithChanges { scoped, queues: queues_with, changes }
+}
+
+fn candidates(adapted: &Adapted, steps: &[Step], queues: &[Queue], crossings: &[Option<Crossing>]) -> Vec<Candidate> {
     let mut subresources =
         vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.subresources as usize];
     let mut candidates: Vec<Candidate> = Vec::new();
-    for ((step, at), queue) in scoped.steps.iter().zip(0..).zip(queues) {
+    for ((step, at), queue) in steps.iter().zip(0..).zip(queues) {
         for used in uses_of(adapted, step) {
             if crossings[used.resource as usize] != Some(Crossing::Image) {
                 continue;

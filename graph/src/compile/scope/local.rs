@@ -50,7 +50,7 @@ pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Opti
 }
 
 /// Turns uses, by index, into local reads.
-pub(in crate::compile) fn read_locally(uses: &mut [Use], local: &[u32]) {
+pub(super) fn read_locally(uses: &mut [Use], local: &[u32]) {
     for index in local {
         let used = &mut uses[*index as usize];
         used.role = Role::Input;

@@ -16,7 +16,6 @@ use builder::Builder;
 use gain::Gain;
 
 pub(super) use can_join::same_areas;
-pub(super) use local::read_locally;
 pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 
 /// Steps in execution order.
@@ -25,9 +24,6 @@ pub(super) struct Scoped {
     pub(super) steps: Vec<Step>,
     /// What a pass gains that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
     gains: Vec<Option<Gain>>,
-    pub(super) notes: Vec<Note>,
-    /// Uses, by index, that become local reads.
-    pub(super) local: Vec<u32>,
 }
 
 impl Scoped {
@@ -37,16 +33,24 @@ impl Scoped {
     }
 }
 
-pub(super) fn scope(frame: &Frame, adapted: &Adapted, order: &[u32], device: &Profile) -> Scoped {
+/// The steps that `order` becomes, the operations with the local reads that this makes possible, and notes of what was
+/// decided.
+pub(super) fn scope(
+    frame: &Frame,
+    mut adapted: Adapted,
+    order: &[u32],
+    device: &Profile,
+) -> (Scoped, Adapted, Vec<Note>) {
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
-        return Scoped { steps, gains: Vec::new(), notes: Vec::new(), local: Vec::new() };
+        return (Scoped { steps, gains: Vec::new() }, adapted, Vec::new());
     }
-    let mut builder = Builder::new(frame, adapted, device);
+    let mut builder = Builder::new(frame, &adapted, device);
     for op in order {
         builder.op(*op);
     }
     let Builder { steps, gains, notes, local, .. } = builder;
-    Scoped { steps, gains, notes, local }
+    local::read_locally(&mut adapted.uses, &local);
+    (Scoped { steps, gains }, adapted, notes)
 }
