@@ -155,7 +155,7 @@ const SHADERS: &[(&str, &str)] = &[
     ("plain.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n"),
 ];
 
-/// What comes of a shader with this helper.
+/// The problem of a sound shader that is compiled with this helper.
 fn compiled(program: &Path) -> ShaderProblem {
     let limits = Limits { time: Duration::from_secs(2), ..Limits::default() };
     let library = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());

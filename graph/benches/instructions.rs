@@ -172,7 +172,7 @@ fn tools() -> Result<String, Box<dyn Error>> {
     Ok(format!("{compiler}, {library}, {}, {}", said("valgrind", "--version")?, std::env::consts::ARCH))
 }
 
-/// What `instructions.txt` holds.
+/// The contents of `instructions.txt`.
 struct Figures {
     tools: String,
     counts: Vec<(String, u64)>,

@@ -1,9 +1,9 @@
 //! `cargo bench --package framewright-passes`: what it takes the processor to record a frame for two eyes, in each way that the
 //! device can draw it, as shares of what one eye after the other takes in the same run.
 //!
-//! A scene of so many cubes is drawn through `forward`. Where nothing moves a frame is only recorded; where the camera does, all that
-//! depends on it is prepared again in every frame. Ways take turns from frame to frame, and of each the least time counts: other work
-//! on the machine only adds. `-- --short` draws every frame twice, to see that it runs.
+//! A scene of a number of cubes is drawn through `forward`. Where nothing moves a frame is only recorded; where the camera
+//! does, all that depends on it is prepared again in every frame. Ways take turns from frame to frame, and the least time of
+//! each counts: other work on the machine only adds. `-- --short` draws every frame twice, to see that it runs.
 
 use framewright_graph::base::{Root, Sources};
 use framewright_graph::frame::Stereo;
@@ -99,7 +99,7 @@ impl Drawn {
     }
 }
 
-/// So many cubes in a square before the camera, of four materials in turn.
+/// A number of cubes in a square before the camera, of four materials in turn.
 fn scene(objects: usize, moving: bool) -> Scene {
     let side = objects.isqrt().max(1);
     let velocity = if moving { ", velocity: (0.01, 0, 0)" } else { "" };

@@ -67,12 +67,12 @@ impl Builder {
 pub struct Added<'f>(pub &'f mut Pass);
 
 impl Added<'_> {
-    /// It draws on a cleared image.
+    /// A draw into a cleared image.
     pub fn clear(self, image: ImageIndex) -> Self {
         self.target(image, Some([0.0; 4]), Blend::Replace)
     }
 
-    /// It draws into an image.
+    /// A draw into an image.
     pub fn color(self, image: ImageIndex, blend: Blend) -> Self {
         self.target(image, None, blend)
     }

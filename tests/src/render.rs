@@ -68,7 +68,7 @@ pub fn in_repository(path: &str) -> PathBuf {
 /// The Plan for `setup` on `device`, found right by the checker.
 ///
 /// # Errors
-/// Whatever keeps the pipeline file from becoming a Plan, or the checker's findings.
+/// Any error that keeps the pipeline file from becoming a Plan, or the checker's findings.
 pub fn plan(
     device: &Device,
     setup: &Setup<'_>,
@@ -129,7 +129,7 @@ pub fn plan_for(
 /// Draws frames by the Plan of `options`, and leaves them to be read back.
 ///
 /// # Errors
-/// Whatever keeps a frame from being drawn, or the validation layer's findings.
+/// Any error that keeps a frame from being drawn, or the validation layer's findings.
 pub fn draw(
     device: &Device,
     setup: &Setup<'_>,
@@ -170,7 +170,7 @@ pub fn draw_rotated(
 /// The executor and draw source of the Plan of `options`, before the first frame.
 ///
 /// # Errors
-/// Whatever keeps frames from being drawn.
+/// Any error that keeps frames from being drawn.
 pub fn ready(
     device: &Device,
     setup: &Setup<'_>,

@@ -7,12 +7,12 @@ use std::time::Duration;
 /// How often a wait asks whether it is to be given up.
 pub(crate) const SLICE: Duration = Duration::from_millis(50);
 
-/// What says that waits are to be given up, if anything does.
+/// The function that says whether waits are to be given up, if there is one.
 #[derive(Default)]
 pub(crate) struct Cancel(OnceLock<Box<dyn Fn() -> bool + Send + Sync>>);
 
 impl Cancel {
-    /// Has `asked` say it. What was set first stays.
+    /// Sets the function that says so. The first one set stays.
     pub(crate) fn when(&self, asked: impl Fn() -> bool + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(asked));
     }

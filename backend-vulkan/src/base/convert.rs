@@ -144,7 +144,7 @@ pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValu
     }
 }
 
-/// What a clear by transfer writes.
+/// The value of a clear by transfer.
 #[derive(Clone, Copy)]
 pub(crate) enum Clear {
     /// Into an image of colours.
@@ -155,8 +155,8 @@ pub(crate) enum Clear {
     Word(u32),
 }
 
-/// What `value` is to an image of `format`, or (`None`) to a buffer. A value of another kind than the format counts by its
-/// components: the checker has refused it before.
+/// The clear that writes `value` into an image of `format`, or (`None`) into a buffer. A value of another kind than the format
+/// counts by its components: the checker has refused it before.
 pub(crate) fn clear(format: Option<Format>, value: FillValue) -> Clear {
     match (format, value) {
         (None, FillValue::Bits([word, ..])) => Clear::Word(word),

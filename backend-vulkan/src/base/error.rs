@@ -11,7 +11,7 @@ use framewright_graph::verify::Violation;
 pub const INSTALL: &str =
     "apt-get install --no-install-recommends libvulkan1 mesa-vulkan-drivers vulkan-validationlayers chromium-common";
 
-/// What went wrong. Names that come from files stand in it unescaped; [`std::fmt::Display`] escapes them.
+/// An error of this crate. Names that come from files stand in it unescaped; [`std::fmt::Display`] escapes them.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -40,7 +40,7 @@ pub enum Error {
     /// No device fits the name or number that was asked for.
     #[error("no device {}{}; there are: {}", escape(wanted), did_you_mean(near), list(known))]
     UnknownDevice {
-        /// What was asked for.
+        /// The name or number that was asked for.
         wanted: String,
         /// The nearest name.
         near: Option<String>,
@@ -70,7 +70,7 @@ pub enum Error {
     LayerIsBlind {
         /// The layer.
         layer: String,
-        /// What was planted.
+        /// The planted mistake.
         planted: &'static str,
     },
     /// A file of this crate's own can't be written (the layer's manifest).
@@ -80,7 +80,7 @@ pub enum Error {
         escape(path)
     )]
     CantWrite {
-        /// Which file.
+        /// The file.
         path: String,
         /// The system's words.
         reason: String,
@@ -88,7 +88,7 @@ pub enum Error {
     /// A Vulkan call failed.
     #[error("{doing} failed: {result:?}")]
     Vulkan {
-        /// What was being done.
+        /// The operation that failed.
         doing: &'static str,
         /// Vulkan's own result.
         result: vk::Result,
@@ -96,13 +96,13 @@ pub enum Error {
     /// The device is lost.
     #[error("the device was lost while {doing}: the driver gave up; the system's log may say why")]
     DeviceLost {
-        /// What was being done.
+        /// The operation that was under way.
         doing: &'static str,
     },
     /// The device didn't finish in time.
     #[error("the device did not finish {doing} within {seconds} s")]
     Timeout {
-        /// What was being done.
+        /// The operation that was under way.
         doing: &'static str,
         /// How long it was waited for.
         seconds: u64,
@@ -110,17 +110,17 @@ pub enum Error {
     /// The program asked for the wait to be given up ([`Device::cancel_when`](crate::Device::cancel_when)).
     #[error("{doing} was cancelled before the device was done")]
     Cancelled {
-        /// What was being done.
+        /// The operation that was under way.
         doing: &'static str,
     },
     /// There is not enough memory, or none of the right kind.
     #[error("no memory for {}, {}{}: {reason}", escape(what), amount::bytes(*bytes), among(parts))]
     OutOfMemory {
-        /// For what.
+        /// The thing that the memory is for.
         what: String,
-        /// How much.
+        /// The number of bytes.
         bytes: u64,
-        /// What was to lie there, if that is more than one thing: names of images or buffers, and their bytes.
+        /// Images or buffers that were to share the memory, if there is more than one: names and bytes.
         parts: Vec<(String, u64)>,
         /// The allocator's words.
         reason: String,
@@ -128,7 +128,7 @@ pub enum Error {
     /// A resource can't be made of what was given.
     #[error("{}", escape(what))]
     BadResource {
-        /// Which and why.
+        /// The resource, and why it can't be made.
         what: String,
     },
     /// An image's file gives no texture.
@@ -154,7 +154,7 @@ pub enum Error {
     Mismatch {
         /// The pass.
         pass: String,
-        /// What doesn't fit.
+        /// The part that doesn't fit, and why.
         what: String,
     },
     /// A Plan can't be executed as it is.
@@ -183,9 +183,9 @@ pub enum Error {
         device: String,
         /// The device that the Plan was made for.
         planned_for: String,
-        /// What it needs here.
+        /// The memory that it needs here.
         actual: MemoryNeeds,
-        /// What the Plan gives it.
+        /// The memory that the Plan gives it.
         planned: MemoryNeeds,
     },
     /// The code that draws a pass misused the recorder.
@@ -193,7 +193,7 @@ pub enum Error {
     Recording {
         /// The pass.
         pass: String,
-        /// What was wrong.
+        /// The misuse, in words.
         what: String,
     },
     /// The draw source gave up.

@@ -1,4 +1,4 @@
-//! What everything else rests on: errors, Vulkan's enumerants, cancelling, files in the cache folder.
+//! Foundation of the other modules: errors, Vulkan's enumerants, cancelling, files in the cache folder.
 
 mod cache_files;
 mod cancel;

@@ -1,4 +1,4 @@
-//! Copies, resolves, blits and fills, whatever asks for them.
+//! Copies, resolves, blits and fills, for steps of a Plan as for uploads and readbacks.
 
 use crate::base::convert::{self, Clear};
 use crate::gpu::Gpu;

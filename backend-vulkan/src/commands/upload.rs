@@ -30,7 +30,7 @@ pub(crate) const UNUSED: State =
     State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
 
 /// Records the copy of a new image's first level from `staging`, which must live as long as the commands, and of each smaller
-/// one from the level before; all of it is in the layout `ready` then, for whatever comes next on the queue.
+/// one from the level before; all of it is in the layout `ready` then, for the next commands on the queue.
 pub(crate) fn record_upload(gpu: &Gpu, commands: vk::CommandBuffer, image: &Image, staging: &RawBuffer, ready: Layout) {
     let accesses = Accesses::MEMORY_READ.union(Accesses::MEMORY_WRITE);
     let ready = State { stages: Stages::ALL_COMMANDS, accesses, layout: ready };

@@ -1,4 +1,4 @@
-//! What goes in and out between frames: reading and writing what outlives them, and importing what is the program's own.
+//! Exchange between frames: reading and writing images and buffers that outlive them, and importing the program's own.
 
 use super::executor::Executor;
 use crate::base::Error;
@@ -63,8 +63,8 @@ impl Executor {
         readback.texels(&image.descriptor, self.plan.image(id).rotation)
     }
 
-    /// What frame `frame` left in the output number `output`, an image. The frame must have been waited for, no later one
-    /// may have taken its place, and [`crate::ExecutorOptions::readback`] must be set.
+    /// The texels that frame `frame` left in the output number `output`, an image. The frame must have been waited for, no
+    /// later one may have taken its place, and [`crate::ExecutorOptions::readback`] must be set.
     ///
     /// # Errors
     /// [`Error::BadResource`] if one of these isn't so.
@@ -79,7 +79,7 @@ impl Executor {
         self.frames.readback(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
     }
 
-    /// The same of an output that is a buffer.
+    /// The bytes that frame `frame` left in the output number `output`, a buffer; else as [`Executor::read_back_image`].
     ///
     /// # Errors
     /// Those of [`Executor::read_back_image`].

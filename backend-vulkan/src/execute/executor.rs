@@ -141,8 +141,8 @@ impl Executor {
     /// for the oldest first.
     ///
     /// # Errors
-    /// What `source` returns, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`],
-    /// [`Error::DeviceLost`], [`Error::Timeout`].
+    /// The errors of `source`, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`], [`Error::DeviceLost`],
+    /// [`Error::Timeout`].
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         self.frames.make_room()?;
         self.ready()?;

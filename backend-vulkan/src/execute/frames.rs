@@ -12,7 +12,7 @@ use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What waiting for a frame is called in messages.
+/// The name in messages of the wait for a frame.
 const DRAWING: &str = "drawing a frame";
 
 /// The frames in flight of one Plan.
@@ -28,11 +28,11 @@ pub(crate) struct Frames {
     submitted: u64,
     /// Memory for the waits of a batch.
     waits: Vec<vk::SemaphoreSubmitInfo<'static>>,
-    /// What is waited for: every timeline, with the values of [`Frames::expect`].
+    /// The values that every timeline is waited for to reach: those of [`Frames::expect`].
     pending: PendingWork,
 }
 
-/// What one frame in flight has to itself.
+/// The objects of one frame in flight.
 struct FrameSlot {
     /// By batch.
     commands: Vec<(CommandPool, vk::CommandBuffer)>,
@@ -44,7 +44,7 @@ struct FrameSlot {
     finished: bool,
 }
 
-/// What a frame is submitted with, beside what the Plan says.
+/// The imports and readbacks of a frame, which the Plan doesn't hold.
 pub(crate) struct FrameExtras<'b> {
     pub(crate) imports: &'b [Import],
     /// By output, if they are kept.
@@ -106,7 +106,7 @@ impl Frames {
     ) -> Result<(), Error> {
         let at = self.slot_of(frame.number);
         let slot = &mut self.slots[at];
-        // What the frame before the last recorded is no longer in use.
+        // Resources of the slot's frame before are no longer in use.
         slot.recorded.clear();
         slot.frame = None;
         if slot.outputs.is_empty() {
@@ -219,7 +219,7 @@ impl Frames {
             .then(|| slot.timing.report(plan, &self.batches, &slot.recorded.counts, slot.recorded.took))
     }
 
-    /// What was kept of an output of a frame that was waited for.
+    /// The kept contents of an output of a frame that was waited for.
     pub(crate) fn readback(&self, frame: u64, output: usize) -> Option<&Readback> {
         let slot = &self.slots[self.slot_of(frame)];
         if slot.frame == Some(frame) { slot.outputs.get(output) } else { None }

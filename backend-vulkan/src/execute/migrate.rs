@@ -63,7 +63,7 @@ impl Executor {
         Ok(migrated.iter().map(|it| name_and_role(&self.plan, it.to).0.to_owned()).collect())
     }
 
-    /// What goes on, cycle by cycle.
+    /// Migrations of the images and buffers whose contents are carried over, cycle by cycle.
     fn migrations_from(&self, before: &Executor) -> Vec<Migration> {
         let mut migrated = Vec::new();
         for first in persistent(&self.plan) {
@@ -79,7 +79,7 @@ impl Executor {
     /// How an image or buffer goes on; `None` if it doesn't.
     fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
         let (name, role) = name_and_role(&self.plan, to);
-        // What comes from a file was read anew, and may have changed.
+        // Contents from a file were read anew, and may have changed.
         let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
         let from = persistent(&before.plan).find(|it| name_and_role(&before.plan, *it).0 == name)?;
         let Role::Persistent { before: left, .. } = name_and_role(&before.plan, from).1 else { return None };
@@ -133,7 +133,7 @@ fn persistent(plan: &Plan) -> impl Iterator<Item = Resource> {
     images.chain(plan.buffers.iter().filter(move |it| persists(&it.role)).map(|it| Resource::Buffer(it.id)))
 }
 
-/// What becomes each other, from one of them on.
+/// The images or buffers that become each other, from `first` on.
 fn members(plan: &Plan, first: Resource) -> Vec<Resource> {
     match first {
         Resource::Image(ImageId(id)) => {

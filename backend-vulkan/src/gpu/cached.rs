@@ -72,7 +72,7 @@ pub struct SamplerDescriptor {
     pub minify: Filter,
     /// Filter between mip levels.
     pub mip: Filter,
-    /// What lies beyond the edges, horizontally, vertically and in depth.
+    /// Address modes beyond the edges, horizontally, vertically and in depth.
     pub address: [AddressMode; 3],
 }
 

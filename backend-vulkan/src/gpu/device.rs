@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 /// How to open a device.
 #[derive(Debug, Clone, Default)]
 pub struct DeviceOptions {
-    /// Which one.
+    /// The device to open.
     pub choice: DeviceChoice,
     /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
     pub validation: bool,
@@ -26,17 +26,17 @@ pub struct DeviceOptions {
 #[derive(Clone)]
 pub struct Device {
     pub(crate) gpu: Arc<Gpu>,
-    /// Where it is tested, if not in this process.
+    /// The helper process that tests the device; `None`: this process does.
     pub(crate) helper: Option<Helper>,
-    /// What it really can do, once it was tested.
+    /// The results of the device's self-tests, once it was tested.
     pub(crate) tested: Arc<OnceLock<TestedDevice>>,
 }
 
-/// What a device can do, after its self-tests.
+/// Capabilities of a device after its self-tests.
 pub(crate) struct TestedDevice {
-    /// Less what it failed.
+    /// The claimed profile, less what failed its test.
     pub(crate) profile: Profile,
-    /// What it says it can do and is used without, and why.
+    /// Features that the device claims and is used without, and why.
     pub(crate) used_without: Vec<String>,
 }
 
@@ -65,14 +65,14 @@ impl Device {
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 
-    /// Which device this is.
+    /// The name, properties and identity of the device.
     #[must_use]
     pub fn summary(&self) -> &DeviceSummary {
         &self.gpu.summary
     }
 
-    /// What the validation layer said so far; empty without validation. The list stays readable after the device is
-    /// gone, when it also holds what closing it brought up.
+    /// Messages of the validation layer so far; empty without validation. The list stays readable after the device is gone,
+    /// when it also holds what closing it brought up.
     #[must_use]
     pub fn messages(&self) -> Messages {
         self.gpu.instance.validation.as_ref().map_or_else(Messages::default, |it| it.messages.clone())

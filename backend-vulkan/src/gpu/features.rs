@@ -37,7 +37,7 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     ("hostQueryReset", |it| &mut it.v1_2.host_query_reset),
     // Depth and stencil are tracked apart.
     ("separateDepthStencilLayouts", |it| &mut it.v1_2.separate_depth_stencil_layouts),
-    // What a model file says about vertices can't reach beyond their buffer.
+    // Indices of a model file can't reach beyond their vertex buffer.
     ("robustBufferAccess", |it| &mut it.core.robust_buffer_access),
     // Another blend for each attachment.
     ("independentBlend", |it| &mut it.core.independent_blend),
@@ -48,7 +48,7 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 ];
 
 impl Features {
-    /// What `physical` has. `local_read`: whether its extension is there.
+    /// The features of `physical`. `local_read`: whether its extension is there.
     pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice, local_read: bool) -> Features {
         let mut v1_1 = vk::PhysicalDeviceVulkan11Features::default();
         let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default();
@@ -84,7 +84,7 @@ impl Features {
         features
     }
 
-    /// What it lacks of the minimum, by Vulkan's names.
+    /// Features of the minimum that the device lacks, by Vulkan's names.
     pub(crate) fn missing(&mut self) -> Vec<&'static str> {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
     }

@@ -24,7 +24,7 @@ pub(crate) struct Gpu {
     pub(crate) labels: Option<ext::debug_utils::Device>,
     /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
-    /// Those that are switched on.
+    /// The features that are switched on.
     pub(crate) features: Features,
     /// `maxMultiviewViewCount`: how many views a rendering scope can draw at once.
     pub(crate) max_views: u32,
@@ -35,7 +35,7 @@ pub(crate) struct Gpu {
     pub(crate) caches: Caches,
     allocator: ManuallyDrop<Mutex<Allocator>>,
     abandoned: OnceLock<PendingWork>,
-    /// What gives up waits for it.
+    /// Cancels waits for the device.
     pub(crate) cancel: Cancel,
     pub(crate) instance: ManuallyDrop<Instance>,
 }
@@ -130,7 +130,7 @@ impl Gpu {
         self.abandoned.get().is_some()
     }
 
-    /// What images of a format can do.
+    /// Features of images of a format.
     pub(crate) fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
         let format = convert::format(format);
         // SAFETY: the physical device belongs to the instance.
@@ -182,7 +182,7 @@ impl Drop for Gpu {
             }
             // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.
             let wait = vk::SemaphoreWaitInfo::default().semaphores(semaphores).values(values);
-            // SAFETY: neither semaphores nor device were destroyed. Whatever comes of the wait, nothing more is done.
+            // SAFETY: neither semaphores nor device were destroyed. The result of the wait changes nothing.
             let _ = unsafe { self.raw.wait_semaphores(&wait, LAST_CHANCE_NANOSECONDS) };
             return;
         }

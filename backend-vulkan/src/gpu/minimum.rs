@@ -42,7 +42,7 @@ pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
     missing
 }
 
-/// How many views a rendering scope of `physical`, which has these features, can draw at once, as it says.
+/// The number of views that a rendering scope of `physical`, which has these features, can draw at once, as the device claims.
 pub(crate) fn max_views(instance: &ash::Instance, physical: vk::PhysicalDevice, features: &Features) -> u32 {
     let mut views = vk::PhysicalDeviceVulkan11Properties::default();
     let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut views);

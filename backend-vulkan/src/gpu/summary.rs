@@ -39,7 +39,7 @@ pub struct DeviceSummary {
     pub queues: Vec<&'static str>,
     /// Whether passes can read what was drawn at their own position without leaving the rendering scope.
     pub local_read: bool,
-    /// What it lacks of the minimum; empty if it can be opened.
+    /// Features of the minimum that the device lacks; empty if it can be opened.
     pub missing: Vec<String>,
     driver_id: vk::DriverId,
     /// All that tells it from other devices and its driver from other drivers and versions.

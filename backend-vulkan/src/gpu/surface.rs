@@ -1,4 +1,4 @@
-//! What a surface wants of the pictures that it is given.
+//! The rotation that a surface wants of its pictures.
 
 use ash::vk;
 use framewright_graph::vulkan::Rotation;

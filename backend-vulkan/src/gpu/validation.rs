@@ -1,4 +1,4 @@
-//! What the validation layer says: messages collected as data, and the settings that make it look closely.
+//! The validation layer: its messages, collected as data, and the settings that make it look closely.
 
 use super::words::{text, version};
 use ash::ext::{self, validation_features};
@@ -22,7 +22,7 @@ pub enum Severity {
     Error,
 }
 
-/// What a message is about.
+/// The subject of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MessageKind {
     /// The loader's or a driver's own matters.

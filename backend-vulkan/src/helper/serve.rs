@@ -25,8 +25,8 @@ pub fn serve() {
         end_process(2);
     };
     process::limit_this_process((memory > 0).then_some(memory));
-    // A program that ends, however it does, closes the pipe: then this process ends too, whatever its other thread does. Drivers
-    // register functions for the end of a process, which may wait for that thread: they don't run.
+    // A program that ends, however it does, closes the pipe: then this process ends too, even if its other thread still works.
+    // Drivers register functions for the end of a process, which may wait for that thread: they don't run.
     let ended = match output() {
         Ok(output) => work(output, stack),
         Err(error) => Err(error),

@@ -14,7 +14,7 @@ pub(crate) struct MemoryBlock {
     allocation: Option<Allocation>,
 }
 
-/// What memory is for.
+/// The purpose of memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MemoryUse {
     /// Images.
@@ -52,7 +52,7 @@ impl MemoryBlock {
             parts: Vec::new(),
             reason,
         };
-        // Software drivers promise whatever they are asked for, and the system ends the program when it is touched.
+        // Software drivers promise any amount of memory, and the system ends the program when it is touched.
         let largest = gpu.largest_heap(requirements.memory_type_bits);
         if requirements.size > largest {
             return Err(failed(format!("the device has {} of such memory", amount::bytes(largest))));

@@ -17,7 +17,7 @@ pub(crate) struct RawBuffer {
     pub(crate) usage: vk::BufferUsageFlags,
 }
 
-/// Whose a buffer's memory is.
+/// The owner of a buffer's memory.
 enum BackingMemory {
     /// The buffer's own.
     Own(MemoryBlock),
@@ -40,7 +40,7 @@ pub(crate) fn create_info<'f>(descriptor: &BufferDescriptor, families: &'f [u32]
     }
 }
 
-/// What a buffer that is created so needs of memory.
+/// Memory requirements of a buffer that is created so.
 pub(crate) fn needs(gpu: &Gpu, info: &vk::BufferCreateInfo<'_>) -> vk::MemoryRequirements {
     let info = vk::DeviceBufferMemoryRequirements::default().create_info(info);
     let mut needs = vk::MemoryRequirements2::default();

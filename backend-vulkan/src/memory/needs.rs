@@ -39,13 +39,13 @@ pub struct MemoryInUse {
 }
 
 impl Device {
-    /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].
+    /// Memory requirements of images and buffers on this device, for [`framewright_graph::compile`].
     #[must_use]
     pub fn memory(&self) -> LiveMemory {
         LiveMemory { gpu: self.gpu.clone() }
     }
 
-    /// What is made from this device takes of its memory: executors, buffers, textures.
+    /// Memory of this device that everything made from it takes: executors, buffers, textures.
     #[must_use]
     pub fn memory_in_use(&self) -> MemoryInUse {
         let report = self.gpu.allocator().generate_report();
@@ -111,7 +111,7 @@ impl Gpu {
         (1..=v1_3.max_buffer_size.saturating_sub(3)).contains(&descriptor.bytes) && !descriptor.usage.is_empty()
     }
 
-    /// What an image of this description needs of memory.
+    /// Memory requirements of an image of this description.
     pub(crate) fn memory_needs(&self, descriptor: &ImageDescriptor) -> MemoryNeeds {
         let create = image::create_info(descriptor, &self.queues.families.indices);
         let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
@@ -121,7 +121,7 @@ impl Gpu {
         memory_needs(needs.memory_requirements)
     }
 
-    /// What a buffer of this description needs of memory.
+    /// Memory requirements of a buffer of this description.
     pub(crate) fn buffer_memory_needs(&self, descriptor: &BufferDescriptor) -> MemoryNeeds {
         memory_needs(buffer::needs(self, &buffer::create_info(descriptor, &self.queues.families.indices)))
     }

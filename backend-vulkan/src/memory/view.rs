@@ -43,7 +43,7 @@ impl Image {
             .format(convert::format(self.descriptor.format))
             .subresource_range(convert::range(range));
         // SAFETY: the image lives. `verify` checked the range against it, and refuses attachments that are three-dimensional;
-        // what shaders sample and store has the shape that they declare.
+        // sampled and storage images have the shape that shaders declare.
         let made =
             unsafe { self.gpu.raw.create_image_view(&info, None) }.map_err(Error::vulkan("creating an image view"))?;
         views.push((range, shape, made));

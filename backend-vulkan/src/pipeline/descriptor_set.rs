@@ -13,7 +13,7 @@ pub(crate) struct DescriptorSet {
     pub(crate) layout: vk::DescriptorSetLayout,
 }
 
-/// What a descriptor points to.
+/// The buffer or image view that a descriptor points to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum DescriptorTarget {
     /// A whole buffer.

@@ -103,11 +103,11 @@ pub(crate) fn check_outputs(
     Ok(())
 }
 
-/// What an image is that the draw source provides.
+/// The shape of an image that the draw source provides.
 const PLAIN: ImageShape =
     ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
 
-/// What the draw source provides must be something that Vulkan can bind.
+/// Checks that Vulkan can bind the vertices and bindings that the draw source provides.
 pub(crate) fn check_brought(gpu: &Gpu, brought: &DrawInterface) -> Result<(), String> {
     let limits = &gpu.limits;
     let stride = brought.vertex_stride;

@@ -183,8 +183,8 @@ fn create(
     only(unsafe { gpu.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) })
 }
 
-/// What belongs to each colour attachment of a scope or its pipelines: where there is none, one that is unused, without image
-/// or format. After a pipeline of no colour attachment lavapipe 25 blends all attachments like the first, until the end of the
+/// Items of the colour attachments of a scope or its pipelines; where there is none, one that is unused, without image or
+/// format. After a pipeline of no colour attachment lavapipe 25 blends all attachments like the first, until the end of the
 /// command buffer.
 pub(crate) fn or_unused<T: Default>(attachments: impl Iterator<Item = T>) -> Vec<T> {
     let attachments: Vec<T> = attachments.collect();

@@ -11,12 +11,12 @@ use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, R
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, Usage};
 
-/// Which of the Plan's own mistakes are refused.
+/// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Refuse {
-    /// All.
+    /// All mistakes.
     Violations,
-    /// Those of form; hazards pass.
+    /// Mistakes of form; hazards pass.
     Malformed,
 }
 

@@ -5,7 +5,7 @@ use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BufferId, Plan, Resource, Role};
 use framewright_graph::vulkan::{BufferUsage, Subresources, Usage};
 
-/// The description of a Plan's image on this device. What outlives the frame can be read back, whatever the Plan says.
+/// The description of a Plan's image on this device. Images that outlive the frame can always be read back.
 pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {
     let usage = match image.role {
         Role::Transient(_) => image.usage,
@@ -40,8 +40,8 @@ pub(crate) fn part(image: &plan::Image, range: Subresources) -> Subresources {
     }
 }
 
-/// What the image or buffer `first` becomes, one frame after the other, until it is itself again. What they become must be
-/// a permutation.
+/// The images or buffers that `first` becomes, one frame after the other, until it is itself again. The role's `becomes` must
+/// be a permutation.
 pub(crate) fn cycle<'p>(first: u32, role: impl Fn(u32) -> &'p Role) -> impl Iterator<Item = u32> {
     let next = move |at: &u32| match role(*at) {
         Role::Persistent { becomes, .. } => Some(*becomes).filter(|next| *next != first),

@@ -17,17 +17,17 @@ pub(crate) struct Frame<'f> {
     pub(crate) gpu: &'f Arc<Gpu>,
     pub(crate) plan: &'f Plan,
     pub(crate) physical: &'f PhysicalResources,
-    /// Which frame it is, from 0.
+    /// The number of the frame, from 0.
     pub(crate) number: u64,
 }
 
 impl Frame<'_> {
-    /// What stands for an image.
+    /// The image on the device that stands for a Plan's image.
     pub(crate) fn image(&self, image: ImageId) -> &Arc<Image> {
         self.physical.image(image, self.number)
     }
 
-    /// What stands for a buffer.
+    /// The buffer on the device that stands for a Plan's buffer.
     pub(crate) fn buffer(&self, buffer: BufferId) -> &Arc<RawBuffer> {
         self.physical.buffer(buffer, self.number)
     }

@@ -96,12 +96,12 @@ impl<T> RingCache<T> {
         RingCache { period: period.max(1), made: Vec::new() }
     }
 
-    /// What was made for frame `frame`.
+    /// The objects that were made for frame `frame`.
     pub(crate) fn at(&self, frame: u64) -> Option<&T> {
         self.made.get(self.slot(frame))?.as_ref()
     }
 
-    /// What frame `frame` needs, which is made unless it is there.
+    /// The objects for frame `frame`, which are made unless they are there.
     pub(crate) fn prepare(&mut self, frame: u64, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
         let slot = self.slot(frame);
         if self.made.len() <= slot {

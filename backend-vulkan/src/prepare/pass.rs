@@ -19,13 +19,13 @@ use std::ffi::CString;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
-    /// What debuggers call it.
+    /// The label that debuggers show.
     pub(crate) label: CString,
     pub(crate) draw: Draw,
     pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
-    /// What the pipeline is made of, if the size of the scope is a constant of it.
+    /// The description of the pipeline, if the size of the scope is a constant of it.
     sized: Option<PipelineDescriptor>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
     pub(crate) local: Option<LocalRead>,
@@ -36,7 +36,7 @@ pub(crate) struct PreparedDraw {
     indirect: Option<BufferId>,
 }
 
-/// What a pass of a rendering scope records in a frame.
+/// The commands of a pass of a rendering scope in a frame.
 pub(crate) struct DrawCommands {
     pub(crate) set: vk::DescriptorSet,
     /// Push constants: which parts of images are in use.
@@ -49,7 +49,7 @@ pub(crate) struct DrawCommands {
     pub(crate) counts: Option<vk::Buffer>,
 }
 
-/// What a recorder must know of the pass's pipeline.
+/// State of the pass's pipeline that a recorder must know.
 #[derive(Default)]
 pub(crate) struct PassState {
     pub(crate) layout: vk::PipelineLayout,
@@ -77,7 +77,7 @@ pub(crate) struct PreparedDispatch {
     size: [u32; 3],
 }
 
-/// What a dispatch records in a frame.
+/// The commands of a dispatch in a frame.
 pub(crate) struct DispatchCommands {
     pub(crate) set: vk::DescriptorSet,
     /// As in [`DrawCommands`].
@@ -85,11 +85,11 @@ pub(crate) struct DispatchCommands {
     pub(crate) groups: WorkgroupCount<vk::Buffer>,
 }
 
-/// How many workgroups.
+/// The number of workgroups.
 pub(crate) enum WorkgroupCount<B> {
-    /// So many.
+    /// A known number, along each axis.
     Direct([u32; 3]),
-    /// As many as that buffer says at that offset.
+    /// The number that the buffer holds at the offset.
     Indirect(B, u64),
 }
 
@@ -101,7 +101,7 @@ impl PreparedDraw {
         gpu.pipeline(name, PipelineDescriptor { turned, ..descriptor.clone() }).map(Some)
     }
 
-    /// What the pass records in a frame.
+    /// The commands of the pass in a frame.
     pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
         let buffer = |id: BufferId| frame.buffer(id).raw;
         Ok(DrawCommands {
@@ -116,7 +116,7 @@ impl PreparedDraw {
 }
 
 impl PreparedDispatch {
-    /// What the dispatch records in a frame.
+    /// The commands of the dispatch in a frame.
     pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DispatchCommands, Error> {
         let groups = match self.groups(frame.gpu, pass)? {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
@@ -148,7 +148,7 @@ impl PreparedDispatch {
     }
 }
 
-/// What the pass's shaders are told of the parts of images that are in use.
+/// Push constants of the pass's shaders: the parts of images that are in use.
 fn parts(plan: &Plan, pass: &plan::Pass) -> Vec<u8> {
     plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten().collect()
 }

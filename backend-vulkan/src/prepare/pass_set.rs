@@ -14,7 +14,7 @@ use framewright_graph::shader::{self, Block, PASS_SET};
 use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources};
 use std::sync::Arc;
 
-/// A pass's own sets, and what they are filled with, whatever stands for its images and buffers.
+/// A pass's own descriptor sets with their bindings. Each frame's set points to the images and buffers of that frame.
 pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
     bindings: Vec<(LayoutBinding, BoundResource)>,
@@ -22,7 +22,7 @@ pub(crate) struct PassSets {
     made: RingCache<PassSet>,
 }
 
-/// What is bound to one name.
+/// The block, buffer or image that is bound to one name.
 enum BoundResource {
     Params,
     Buffer(BufferId),

@@ -17,7 +17,7 @@ pub(crate) struct PhysicalResources {
     images: Vec<Arc<Image>>,
     buffers: Vec<Arc<RawBuffer>>,
     rings: HistoryRings,
-    /// What has its contents from another Plan's executor.
+    /// Images and buffers that were taken over from another Plan's executor.
     migrated: HashSet<Resource>,
 }
 
@@ -53,12 +53,12 @@ impl PhysicalResources {
         Ok(PhysicalResources { images, buffers, rings, migrated: HashSet::new() })
     }
 
-    /// What stands for an image in frame `frame`.
+    /// The image on the device that stands for a Plan's image in frame `frame`.
     pub(crate) fn image(&self, image: ImageId, frame: u64) -> &Arc<Image> {
         &self.images[self.rings.image(image.0, frame)]
     }
 
-    /// What stands for a buffer in frame `frame`.
+    /// The buffer on the device that stands for a Plan's buffer in frame `frame`.
     pub(crate) fn buffer(&self, buffer: BufferId, frame: u64) -> &Arc<RawBuffer> {
         &self.buffers[self.rings.buffer(buffer.0, frame)]
     }

@@ -23,7 +23,7 @@ const CLEAR_STAGE: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::CLEAR;
 const CLEAR_ACCESS: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_WRITE;
 const CLEAR_LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
 
-/// What a buffer is filled with.
+/// The word that poisons a buffer.
 const WORD: u32 = 0xDEAD_BEEF;
 
 /// The barriers of the step number `index` with the poison between their scopes.
@@ -85,7 +85,7 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
 /// Stages and accesses.
 type SyncScope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
-/// What the first step of a buffer's lifetime does with it.
+/// Stages and accesses of the first step of a buffer's lifetime.
 fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
     match &step.work {
         Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) => {}

@@ -1,4 +1,4 @@
-//! What a rendering scope records.
+//! The commands of a rendering scope.
 
 use super::descriptions::part;
 use super::frame::Frame;
@@ -14,7 +14,7 @@ use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan::{Attachment, ImageId, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
 
-/// What a rendering scope records.
+/// The commands of a rendering scope in a frame.
 pub(crate) struct ScopeCommands {
     pub(crate) color: Vec<vk::RenderingAttachmentInfo<'static>>,
     pub(crate) depth: Option<vk::RenderingAttachmentInfo<'static>>,
@@ -26,7 +26,7 @@ pub(crate) struct ScopeCommands {
     pub(crate) passes: Vec<DrawCommands>,
 }
 
-/// What a pass draws into.
+/// The picture that a pass draws into.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DrawTarget {
     /// Width and height, those of the turned picture; of two eyes one's.
@@ -45,7 +45,7 @@ pub(super) fn prepare_scope(
     let passes = scope.passes.iter().map(|pass| prepare_draw(frame, scope, pass, shaders));
     let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
     if passes.iter().any(|pass| pass.local.is_some()) {
-        // What a pass says of its attachments holds for the rest of the scope: the others set it back.
+        // A pass's locations and inputs of attachments hold for the rest of the scope: the others set them back.
         let straight: Vec<u32> = (0..).take(scope.color.len()).collect();
         for pass in &mut passes {
             let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
@@ -56,7 +56,7 @@ pub(super) fn prepare_scope(
 }
 
 impl ScopeCommands {
-    /// What a scope with the passes `made` records in a frame.
+    /// The commands in a frame of a scope with the passes `made`.
     pub(super) fn new(
         frame: &Frame<'_>,
         scope: &RenderScope,

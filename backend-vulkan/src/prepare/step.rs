@@ -18,7 +18,7 @@ use std::ffi::CString;
 
 /// A step, with its objects.
 pub(crate) struct PreparedStep {
-    /// What debuggers call it.
+    /// The label that debuggers show.
     pub(crate) label: CString,
     pub(crate) work: PreparedWork,
     pub(crate) commands: RingCache<StepCommands>,
@@ -26,15 +26,15 @@ pub(crate) struct PreparedStep {
 
 /// The objects of a step's work.
 pub(crate) enum PreparedWork {
-    /// Of the passes of a rendering scope.
+    /// The objects of a rendering scope's passes.
     Render(Vec<PreparedDraw>),
-    /// Of a dispatch.
+    /// The objects of a dispatch.
     Dispatch(PreparedDispatch),
-    /// Of anything else: none.
+    /// Other work, which has no objects.
     Plain,
 }
 
-/// What a step records in a frame, as Vulkan's own structures.
+/// The commands of a step in a frame, as Vulkan's own structures.
 pub(crate) struct StepCommands {
     /// The barriers, and the step's work where that is a transfer.
     pub(crate) before: Vec<Command>,
@@ -42,13 +42,13 @@ pub(crate) struct StepCommands {
     pub(crate) releases: Barriers,
 }
 
-/// What a step's work records.
+/// The commands of a step's work.
 pub(crate) enum WorkCommands {
     /// A rendering scope.
     Render(ScopeCommands),
     /// A dispatch.
     Dispatch(DispatchCommands),
-    /// Nothing of its own.
+    /// Other work, which records nothing here.
     Plain,
 }
 
@@ -149,7 +149,7 @@ fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Command> {
     })
 }
 
-/// What a debugger shows for a step.
+/// The label of a step in a debugger.
 fn title(plan: &Plan, step: &Step) -> String {
     let name = |resource: Resource| name_and_role(plan, resource).0;
     match &step.work {

@@ -17,7 +17,7 @@ pub(crate) struct ResourceUses {
 }
 
 impl ResourceUses {
-    /// Those of `plan`.
+    /// The uses of `plan`.
     pub(crate) fn new(plan: &Plan) -> ResourceUses {
         let mut uses = ResourceUses { images: vec![None; plan.images.len()], buffers: vec![None; plan.buffers.len()] };
         for (id, step) in (0..).map(StepId).zip(&plan.steps) {

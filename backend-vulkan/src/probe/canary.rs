@@ -12,7 +12,7 @@ use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::Queue;
 use framewright_graph::vulkan::{Format, Shape, Sharing, Subresources, Usage};
 
-/// What the layer proved that it sees.
+/// The result of the canary: the validation layer, and its messages about the planted mistakes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Canary {
     /// The layer, in words.

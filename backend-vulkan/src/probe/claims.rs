@@ -1,4 +1,4 @@
-//! What a device says it can do.
+//! Capabilities that a device claims.
 
 use crate::base::convert;
 use crate::gpu::{Device, Gpu};
@@ -62,7 +62,7 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
     }
 }
 
-/// What one format can be; `None` if nothing.
+/// The support that the device claims for one format; `None` if there is none.
 fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Format) -> Option<FormatSupport> {
     let vk_format = convert::format(format);
     // SAFETY: `physical` belongs to `instance`.

@@ -61,10 +61,10 @@ const SHADERS: &[(&str, &str)] = &[
 /// How far a resolve may be from what the samples say: a hundredth of the distance from sample to sample.
 const TOLERANCE: f32 = 0.001;
 
-/// What `device` does of what it says. `draws_views`: whether it draws several views at once, if it says that.
+/// The result of trying `device`'s depth resolves. `draws_views`: whether it draws several views at once, if it claims to.
 ///
 /// # Errors
-/// If that can't be tried.
+/// If the resolves can't be tried.
 pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<DepthResolve, Error> {
     let mut claimed = claimed_profile(device);
     if !draws_views {

@@ -1,4 +1,4 @@
-//! What only trying tells of a device: whether it draws as it says, and whether its validation layer is awake.
+//! Facts about a device that only a trial tells: whether it draws as it claims, and whether its validation layer is awake.
 
 mod canary;
 mod claims;

@@ -1,4 +1,4 @@
-//! What a device really can do: what it says, less what its self-tests refute.
+//! Capabilities of a device: its own claims, less those that its self-tests refute.
 
 use super::claims::claimed_profile;
 use super::self_tests::SelfTests;
@@ -7,16 +7,16 @@ use crate::gpu::{Device, DeviceChoice, DeviceOptions, TestedDevice};
 use framewright_graph::device::Profile;
 
 impl Device {
-    /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, and
-    /// whether it draws several views at once, which takes small frames: in a helper process, if [`DeviceOptions::helper`] names
-    /// one.
+    /// Capabilities of the device, as far as Plans depend on them. The first call tries how the device resolves depth and
+    /// whether it draws several views at once, which takes small frames: in a helper process, if [`DeviceOptions::helper`]
+    /// names one.
     #[must_use]
     pub fn profile(&self) -> Profile {
         self.tested().profile.clone()
     }
 
-    /// What the device says it can do and is used without, and why: it failed the self-test, or the test gave no answer.
-    /// The first time the device is tested.
+    /// Features that the device claims and is used without, and why: it failed the self-test, or the test gave no answer. The
+    /// first call tests the device.
     #[must_use]
     pub fn used_without(&self) -> Vec<String> {
         self.tested().used_without.clone()

@@ -1,7 +1,7 @@
 //! Self-tests of drivers: what a device says it can do is tried before it is used, in a helper process if there is one.
 //!
-//! What a test found is kept for the device and the version of its driver. A device whose test ends the process is used
-//! without the feature.
+//! Findings are kept for the device and the version of its driver. A device whose test ends the process is used without the
+//! feature.
 
 use super::claims::depth_resolve_modes;
 use crate::base::replace_file;
@@ -16,18 +16,18 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-/// What the self-tests of a device found.
+/// The findings of a device's self-tests.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SelfTests {
-    /// How it resolves depth.
+    /// How the device resolves depth.
     pub(crate) depth_resolve: DepthResolve,
-    /// Why the test of that gave no answer.
+    /// Why the self-test of depth resolves gave no answer.
     depth_resolve_unknown: Option<String>,
-    /// Whether it draws several views at once, if it says so.
+    /// Whether the device draws several views at once, if it claims to.
     pub(crate) draws_views: bool,
-    /// Why the test of that gave no answer.
+    /// Why the self-test of views gave no answer.
     draws_views_unknown: Option<String>,
-    /// Whether that test couldn't be done, which says nothing of the device.
+    /// Whether the self-test of views couldn't be done, which says nothing of the device.
     pub(crate) draws_views_untested: bool,
 }
 
@@ -40,7 +40,7 @@ struct CachedFindings {
 }
 
 impl SelfTests {
-    /// What the self-tests of `device` find, or found before.
+    /// The findings of `device`'s self-tests, from the file that keeps them or from new tests.
     pub(crate) fn of(device: &Device, helper: Option<&Helper>) -> SelfTests {
         let Some(helper) = helper else { return SelfTestRuns::test(device, None).found(device, None) };
         let (key, file) = (key(device, helper), file(device, helper));
@@ -69,7 +69,7 @@ impl SelfTests {
         }
     }
 
-    /// What the device says it can do and is used without, and why. `multiview`: it says that it draws several views.
+    /// Features that the device claims and is used without, and why. `multiview`: the device claims to draw several views.
     pub(crate) fn used_without(&self, multiview: bool) -> Vec<String> {
         let resolves = |of: &str, unused: &[ResolveMode]| {
             let modes: Vec<String> = unused.iter().map(|mode| format!("{mode:?}")).collect();
@@ -89,7 +89,7 @@ impl SelfTests {
     }
 }
 
-/// What came of both self-tests.
+/// The results of both self-tests.
 struct SelfTestRuns {
     views: SelfTestRun<bool>,
     depth: SelfTestRun<DepthResolve>,
@@ -118,7 +118,7 @@ impl SelfTestRuns {
         [self.views.end, self.depth.end].iter().all(|end| *end != Outcome::NotDone)
     }
 
-    /// What they found, kept in a file if there is one.
+    /// The findings of both tests, which the file `kept` keeps if it is there.
     fn found(&self, device: &Device, kept: Option<&Path>) -> SelfTests {
         let depth = self.depth.found.clone();
         let fails = self.depth.end == Outcome::Finding;
@@ -139,29 +139,29 @@ fn without_answer(device: &Device, fails: bool) -> DepthResolve {
     DepthResolve { refuted, untested, ..DepthResolve::default() }
 }
 
-/// What the end of a self-test says.
+/// The meaning of a self-test's end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
-    /// Something of the device: it would end so again.
+    /// A finding about the device: the test would end so again.
     Finding,
-    /// That it takes too long, at least now.
+    /// The test takes too long, at least now.
     TooLong,
-    /// Nothing: it couldn't be done.
+    /// Nothing about the device: the test couldn't be done.
     NotDone,
 }
 
-/// What came of a self-test.
+/// The result of a self-test.
 struct SelfTestRun<T> {
-    /// What it found.
+    /// The finding of the test.
     found: Option<T>,
-    /// Why it found nothing.
+    /// Why the test found nothing.
     why: Option<String>,
-    /// What its end says.
+    /// The meaning of the test's end.
     end: Outcome,
 }
 
 impl<T> SelfTestRun<T> {
-    /// By the answer of a helper process, or the same of this process.
+    /// From the answer of a helper process, or of a test in this process.
     fn of(answer: Result<Result<T, String>, NoAnswer>) -> SelfTestRun<T> {
         let (found, why, end) = match answer {
             Ok(Ok(found)) => (Some(found), None, Outcome::Finding),
@@ -182,8 +182,8 @@ impl<T> SelfTestRun<T> {
     }
 }
 
-/// What it says that a helper process gave no answer. A helper that can't be started now may be there later, and these signals come
-/// from others: the user, or a system that is short of memory.
+/// The meaning of a helper process that gave no answer. A helper that can't be started now may be there later, and these
+/// signals come from others: the user, or a system that is short of memory.
 fn outcome_of(end: &NoAnswer) -> Outcome {
     match end {
         NoAnswer::Died(how) if ["SIGHUP", "SIGINT", "SIGKILL", "SIGTERM"].contains(&how.as_str()) => Outcome::NotDone,
@@ -204,20 +204,20 @@ fn key(device: &Device, helper: &Helper) -> String {
     format!("{identity}; framewright {version}; {path}, {bytes} bytes, written {written}")
 }
 
-/// Where it is kept: one file for each device and program, whatever their versions.
+/// The file of the findings: one for each device and program, which all versions of them share.
 fn file(device: &Device, helper: &Helper) -> Option<PathBuf> {
     let mut hasher = DefaultHasher::new();
     (&device.summary().name, helper.path()).hash(&mut hasher);
     helper.cache().map(|cache| cache.join(format!("{:016x}.json", hasher.finish())))
 }
 
-/// What a file says, if it can be read and is about this.
+/// The findings of a file, if it can be read and `key` is its own.
 fn known(file: &Path, key: &str) -> Option<SelfTests> {
     let kept: CachedFindings = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
     (kept.key == key).then_some(kept.found)
 }
 
-/// Keeps what was found, and says whether that was possible. Where it isn't it is found anew each time.
+/// Keeps the findings in a file, and says whether that was possible. Where it isn't, each run tests anew.
 fn keep(file: &Path, kept: &CachedFindings) -> bool {
     match (file.parent(), serde_json::to_vec_pretty(kept)) {
         (Some(folder), Ok(text)) => replace_file(folder, file, &text).is_ok(),

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 use std::{fmt, io};
 
-/// What is told of a device whose self-tests take long.
+/// The function that hears of self-tests that take long.
 type Tell = dyn Fn(&LongTest) + Send + Sync;
 
 /// A self-test that takes long.
@@ -30,13 +30,13 @@ pub struct Helper {
     cache: Option<PathBuf>,
     /// The process that compiles, once one was started and as long as it lives.
     compiler: Arc<Mutex<Option<Running>>>,
-    /// What gives up waits for it.
+    /// Cancels waits for the helper process.
     cancel: Arc<Cancel>,
-    /// Whom it is told that a self-test takes long.
+    /// Hears of self-tests that take long.
     tell: Arc<LongTestListener>,
 }
 
-/// Whom something is told, if anyone.
+/// The listener for self-tests that take long, if one was set.
 #[derive(Default)]
 struct LongTestListener(OnceLock<Box<Tell>>);
 
@@ -58,7 +58,7 @@ pub(crate) struct DeviceName<'d> {
 impl Helper {
     /// The program at `program`, whose `main` calls [`serve`](crate::helper::serve).
     ///
-    /// What the self-tests of drivers find is kept in the user's cache folder (`$XDG_CACHE_HOME/framewright` or
+    /// Findings of the drivers' self-tests are kept in the user's cache folder (`$XDG_CACHE_HOME/framewright` or
     /// `~/.cache/framewright`).
     #[must_use]
     pub fn program(program: impl Into<PathBuf>, limits: Limits) -> Helper {

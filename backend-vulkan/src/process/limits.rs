@@ -1,4 +1,4 @@
-//! What a helper process may use.
+//! Limits on a helper process: time, memory and stack.
 
 use std::time::Duration;
 

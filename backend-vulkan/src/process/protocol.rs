@@ -1,4 +1,4 @@
-//! What a program and its helper process say to each other: frames of bytes, each behind its length, mostly of JSON.
+//! The protocol between a program and its helper process: frames of bytes, each behind its length, mostly of JSON.
 
 use framewright_graph::vulkan::ResolveMode;
 use serde::de::DeserializeOwned;
@@ -19,25 +19,25 @@ pub(crate) const LARGEST_SPIRV: usize = 16 << 20;
 /// Longer frames are no frames of ours.
 pub(crate) const LARGEST_FRAME: usize = 1 << 28;
 
-/// What the program says.
+/// Frames from the program.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Request {
-    /// Compile this.
+    /// A stage to compile.
     Compile(CompileJob),
     /// The file that was asked for, or why there is none.
     Included(Result<IncludedFile, String>),
-    /// Test this device.
+    /// A device to test.
     SelfTest { test: SelfTest, device: String },
 }
 
-/// What the helper says.
+/// Frames from the helper.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Answer {
     /// The file `from` includes `name`.
     Include { from: String, name: String },
-    /// It compiles: the next frame is SPIR-V.
+    /// The stage compiles: the next frame is SPIR-V.
     Spirv,
-    /// It doesn't compile.
+    /// The stage doesn't compile.
     CompileFailure(CompileFailure),
     /// How the device resolves depth.
     DepthResolve(DepthResolve),
@@ -50,9 +50,9 @@ pub(crate) enum Answer {
 /// A self-test of a driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum SelfTest {
-    /// How it resolves depth, for several views at once too if it draws them.
+    /// Depth resolves, for several views at once too if the device draws them.
     DepthResolve { draws_views: bool },
-    /// Whether it draws several views at once.
+    /// Drawing of several views at once.
     Multiview,
 }
 
@@ -70,7 +70,7 @@ pub(crate) enum ShaderStage {
 /// One stage to compile.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct CompileJob {
-    /// Which stage.
+    /// The stage.
     pub(crate) stage: ShaderStage,
     /// The name of its file that messages show.
     pub(crate) shown: String,
@@ -105,13 +105,13 @@ pub(crate) enum CompileFailure {
 /// The modes in which depth can be resolved.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct DepthResolve {
-    /// Those that the device has.
+    /// Modes that the device has.
     pub(crate) has: Vec<ResolveMode>,
-    /// Those that it says it has, and doesn't.
+    /// Modes that the device claims, and doesn't have.
     pub(crate) refuted: Vec<ResolveMode>,
-    /// Those that it has for one layer, and not for several.
+    /// Modes that the device has for one layer, and not for several.
     pub(crate) refuted_layered: Vec<ResolveMode>,
-    /// Those that it says it has, where that couldn't be tested.
+    /// Modes that the device claims, where no test could be done.
     pub(crate) untested: Vec<ResolveMode>,
 }
 
@@ -141,7 +141,7 @@ pub(crate) fn write(to: &mut impl Write, what: &impl Serialize) -> io::Result<()
     write_frame(to, &serde_json::to_vec(what)?)
 }
 
-/// What a frame of JSON says.
+/// The value of a frame of JSON.
 pub(crate) fn parse<T: DeserializeOwned>(frame: &[u8]) -> io::Result<T> {
     Ok(serde_json::from_slice(frame)?)
 }

@@ -24,22 +24,22 @@ const LAST_WORDS: usize = 4096;
 /// Why a helper process gave no answer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NoAnswer {
-    /// It took too long.
+    /// The process took too long.
     #[error("took longer than {} s, which is its limit", .0.as_secs_f64())]
     TooLong(Duration),
     /// Its stack overflowed.
     #[error("needed a stack of more than {} MiB, which is its limit", .0 >> 20)]
     Stack(usize),
-    /// It ran out of memory.
+    /// The process ran out of memory.
     #[error("needed more memory than {} MiB, which is its limit", .0 >> 20)]
     Memory(u64),
-    /// It died of something else.
+    /// The process died of something else.
     #[error("crashed ({0})")]
     Died(String),
     /// The program asked for the wait to be given up.
     #[error("was cancelled")]
     Cancelled,
-    /// It can't be started, or isn't a helper.
+    /// The program can't be started, or isn't a helper.
     #[error("can't be started: {0}")]
     Unusable(String),
 }
@@ -49,7 +49,7 @@ pub(crate) enum NoAnswer {
 pub(super) struct Running {
     child: Mutex<Child>,
     streams: Streams,
-    /// What it said last when it died: a few lines.
+    /// The last lines that the process wrote to its error stream before it died.
     said: Receiver<Vec<u8>>,
     limits: Limits,
 }
@@ -198,7 +198,7 @@ fn last_words(mut stream: ChildStderr) -> io::Result<Receiver<Vec<u8>>> {
                     last.drain(..last.len().saturating_sub(LAST_WORDS));
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                // What can't be read says nothing.
+                // A stream that can't be read ends here.
                 Err(_) => break,
             }
         }

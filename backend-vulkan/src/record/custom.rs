@@ -35,11 +35,11 @@ pub struct CustomImage {
     pub rotation: Rotation,
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
-    /// What the pass may do with it.
+    /// Allowed accesses of the pass.
     pub accesses: Accesses,
 }
 
-/// What a name stands for.
+/// The image or buffer that a name stands for, as the pass accesses it.
 enum NamedResource<'f> {
     Image(&'f Access),
     Buffer(&'f BufferAccess),
@@ -168,7 +168,7 @@ impl<'f> CustomRecorder<'f> {
         self.commands
     }
 
-    /// What the pass may access so under this name; a misuse if there is nothing.
+    /// The image or buffer that the pass declares by this name and for these accesses; a misuse if there is none.
     fn find(&mut self, name: &str, accesses: Accesses) -> Option<NamedResource<'f>> {
         if self.misuse.is_some() {
             return None;

@@ -1,4 +1,4 @@
-//! What the embedding program implements to record the draws of objects, the sky and custom passes.
+//! The trait that the embedding program implements to record the draws of objects, the sky and custom passes.
 
 use super::custom::CustomRecorder;
 use super::recorder::Recorder;
@@ -16,7 +16,7 @@ pub trait DrawSource {
     /// flight the frame before may still be drawn from what it was drawn from.
     ///
     /// # Errors
-    /// Whatever keeps it from drawing; [`Error::DrawSource`] is for its own reasons.
+    /// Any error that keeps the source from drawing; [`Error::DrawSource`] is for its own reasons.
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error>;
 
     /// Records the custom pass that the pipeline knows as `callback`, outside of rendering scopes. It must do what the
@@ -24,7 +24,7 @@ pub trait DrawSource {
     /// nothing.
     ///
     /// # Errors
-    /// Whatever keeps it from recording. Unless it is overridden, that it knows no custom passes.
+    /// Any error that keeps the source from recording. Unless this is overridden, that it knows no custom passes.
     fn custom(&mut self, callback: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
         let pass = recorder.pass();
         let what = format!("nobody records `{callback}`, which the custom pass `{pass}` asks for");

@@ -1,4 +1,4 @@
-//! What was prepared for a frame, recorded as commands.
+//! Recording of a prepared frame's commands.
 
 mod custom;
 mod draw_source;

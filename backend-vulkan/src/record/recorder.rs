@@ -10,14 +10,14 @@ use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
 
-/// Which faces are left out.
+/// The faces that are left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum CullMode {
     /// None.
     None,
-    /// Those seen from the front.
+    /// Faces seen from the front.
     Front,
-    /// Those seen from behind.
+    /// Faces seen from behind.
     Back,
 }
 
@@ -30,7 +30,7 @@ pub enum FrontFace {
     Clockwise,
 }
 
-/// What an index takes.
+/// The type of an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum IndexType {
     /// Two bytes.
@@ -61,7 +61,7 @@ pub struct Recorder<'f> {
     misuse: Option<String>,
 }
 
-/// What a frame's commands use: it is kept until the device is done with them, whatever the draw source drops.
+/// Resources of a frame's commands, kept until the device is done with them even if the draw source drops them.
 #[derive(Default)]
 pub(crate) struct HeldResources {
     groups: Vec<BindGroup>,

@@ -8,7 +8,7 @@ use framewright_graph::plan::{Plan, Queue, Work};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What a frame took.
+/// Times of a frame and its steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameReport {
     /// Time on the device from the first step's barriers to the end of the last step, in milliseconds; with several queues,
@@ -20,7 +20,7 @@ pub struct FrameReport {
     pub steps: Vec<StepReport>,
 }
 
-/// What a step took.
+/// Time of a step, and its passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepReport {
     /// From the end of the step before to the end of this one, its barriers included, but no wait for other queues. 0 on
@@ -30,7 +30,7 @@ pub struct StepReport {
     pub passes: Vec<PassReport>,
 }
 
-/// What a pass took.
+/// Time and draws of a pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassReport {
     /// Its name.
@@ -44,7 +44,7 @@ pub struct PassReport {
     pub milliseconds: f64,
 }
 
-/// What was recorded for a pass.
+/// Draws and culled objects that were recorded for a pass.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
     /// As in [`PassReport`].
@@ -189,7 +189,7 @@ impl Timing {
         Clock { mask, period: f64::from(self.gpu.limits.timestamp_period) }
     }
 
-    /// What each query of the timestamps holds, and whether it was written.
+    /// The value of each timestamp query, and whether it was written.
     fn values(&self) -> Result<Vec<[u64; 2]>, Error> {
         let mut values = vec![[0_u64; 2]; self.queries.first(self.queries.stamps) as usize];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WITH_AVAILABILITY;
@@ -257,7 +257,7 @@ mod tests {
 
     #[test]
     fn timestamps_of_every_view_everywhere_stay_inside_the_query_pool() {
-        // What an earlier scope of someone else's left behind may be wider than any scope of the Plan.
+        // The view mask that an earlier scope of someone else left behind may be wider than any of the Plan.
         for (own, left_behind) in [(1, 1), (1, 2), (1, 6), (2, 2), (2, 6), (6, 6)] {
             let queries = queries(own);
             let last = (0..queries.stamps).map(|stamp| written(queries, stamp, left_behind).end).max();

@@ -1,4 +1,4 @@
-//! What a draw source brings along: buffers, textures and bind groups.
+//! Resources of a draw source: buffers, textures and bind groups.
 
 mod bind_group;
 mod texture;

@@ -1,4 +1,4 @@
-//! What the draw source provides: buffers and textures.
+//! Buffers and textures that the draw source provides.
 
 use crate::base::Error;
 use crate::commands::{record_upload, staged};
@@ -10,7 +10,7 @@ use framewright_graph::plan::Queue;
 use framewright_graph::vulkan::{Format, Layout, Shape, Sharing, Subresources, Usage};
 use std::sync::Arc;
 
-/// What a buffer is for.
+/// The purpose of a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BufferUsage {
     /// Vertex attributes.

@@ -125,7 +125,7 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
     }
 }
 
-/// What no pass can give, and what to declare instead.
+/// A binding that no pass can give, and the declaration to write instead.
 fn other(what: &str, instead: &str) -> BindingKind {
     BindingKind::Other(Unbindable { what: what.to_owned(), instead: instead.to_owned(), place: None })
 }
@@ -181,7 +181,7 @@ fn image_shape(module: &IndexedModule<'_>, image: &Instruction) -> Option<ImageS
     })
 }
 
-/// What a scalar or vector with the GLSL name `ty` is made of.
+/// The component of a scalar or vector with the GLSL name `ty`.
 pub(super) fn component_of(ty: &str) -> Component {
     match ty.as_bytes().first() {
         Some(b'i') => Component::Int,

@@ -6,7 +6,7 @@ use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
-/// What every stage may need: the minimum device has no more, but for what is said here.
+/// Capabilities that every stage may need: those of the minimum device, and the ones with a remark below.
 const EVERYWHERE: [Capability; 15] = [
     Capability::Matrix,
     Capability::Shader,
@@ -29,14 +29,14 @@ const EVERYWHERE: [Capability; 15] = [
     Capability::StorageImageExtendedFormats,
 ];
 
-/// What compute shaders may need besides: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
+/// Capabilities that only compute shaders may need: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
 const COMPUTE: [Capability; 1] = [Capability::GroupNonUniform];
 
-/// What shaders need besides that draw for both eyes at once.
+/// More capabilities, of shaders that draw for both eyes at once.
 const FOR_BOTH_EYES: [Capability; 4] =
     [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
 
-/// What isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
+/// A feature that isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
 type UnsupportedFeature = (&'static [Capability], &'static [&'static str], &'static str);
 
 const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];

@@ -20,7 +20,7 @@ pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, Str
 /// would strip the names that binding by name needs.
 ///
 /// # Errors
-/// What the compiler says.
+/// The compiler's messages, or that it failed itself.
 pub(crate) fn compile(
     compiler: &Compiler,
     CompileJob { stage, shown, text, macros }: &CompileJob,

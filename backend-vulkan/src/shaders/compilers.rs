@@ -76,8 +76,7 @@ fn no_answer(source: &SourceFile, end: &NoAnswer) -> ShaderProblem {
     of_file(source, &end.to_string(), limit)
 }
 
-/// What the GLSL compiler met on the way through a file. It had no time to say on which line: the file's first one stands for the
-/// file.
+/// The problem of a file as a whole. The GLSL compiler had no time to name a line: the file's first one stands for the file.
 fn of_file(source: &SourceFile, what: &str, limit: Option<OutsideChoice>) -> ShaderProblem {
     let words = format!("the GLSL compiler {what}");
     let quote = Quote {

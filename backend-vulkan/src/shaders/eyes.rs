@@ -13,18 +13,18 @@ use rspirv::spirv::{AddressingModel, Capability, ExecutionMode, ExecutionModel, 
 /// The variable that says which eye is drawn for: 0 the left one, 1 the right one.
 pub(super) const EYE: &str = "framewright_eye";
 
-/// What hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
+/// The varying that hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
 pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 
-/// Where. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this is the last, so that a
-/// shader fits every way to draw for both eyes.
+/// The location of that varying. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this
+/// is the last, so that a shader fits every way to draw for both eyes.
 pub(super) const LOCATION: u32 = 14;
 
 /// How a stage draws for both eyes at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct BothEyes {
     pub(super) source: EyeSource,
-    /// What it draws into.
+    /// Whether the eyes' pictures lie in layers or in halves of the image.
     pub(super) form: EyeForm,
 }
 
@@ -161,7 +161,7 @@ const ACROSS: &str = "#ifdef FRAMEWRIGHT_ROTATION
     const float framewright_side = framewright_eye == 0 ? -1.0 : 1.0;
 ";
 
-/// What lies to the right of the left eye's picture, or to the left of the right one's, is cut off.
+/// Clip distance at the seam: cuts off all to the right of the left eye's picture, or to the left of the right one's.
 const CUT_AT_SEAM: &str = "    gl_ClipDistance[0] = gl_Position.w + framewright_side * framewright_across;
 ";
 

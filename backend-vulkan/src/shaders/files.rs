@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Larger files are no shaders.
 const MAX_SOURCE_BYTES: usize = 1 << 20;
 
-/// What messages call the place of what is shipped.
+/// The name in messages of the place of shipped shaders.
 const SHIPPED: &str = "the shipped shaders";
 
 /// Where shaders and what they include are looked for.
@@ -21,7 +21,7 @@ pub(super) struct ShaderFiles {
 /// A source text.
 #[derive(Debug)]
 pub(super) struct SourceFile {
-    /// Which file it is.
+    /// The file's path.
     pub(super) path: FilePath,
     /// The name that messages show.
     pub(super) shown: String,

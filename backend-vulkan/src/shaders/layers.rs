@@ -1,4 +1,4 @@
-//! What a shader samples as flat and is two layers of one image, one an eye: every look-up is given its layer.
+//! Images that a shader samples as flat and that are two layers of one image, one an eye: every look-up is given its layer.
 //!
 //! It is done to SPIR-V, so that shaders are written for one eye. Images become arrays where they are declared, handed on and
 //! looked up; functions that are handed such an image, and one that stays as it is elsewhere, are there twice afterwards.
@@ -79,7 +79,7 @@ struct Layers {
     originals: HashMap<u32, Function>,
     /// By function and by which of its parameters are in layers, what it is then.
     lifted: HashMap<(u32, Vec<Option<u32>>), u32>,
-    /// Those that are to be made.
+    /// Functions that are to be made.
     wanted: Vec<(u32, Vec<Option<Arrayed>>, u32)>,
 }
 

@@ -25,7 +25,7 @@ pub struct CompiledShader {
     pub vertex: Spirv,
     /// Fragment stage; `None` where nothing but depth is drawn and it would change nothing.
     pub fragment: Option<Spirv>,
-    /// What all stages use.
+    /// The interface of all stages.
     pub interface: ShaderInterface,
     /// Whether the vertex stage is the shipped one of its kind of draw.
     pub usual_vertices: bool,
@@ -38,7 +38,7 @@ pub struct CompiledShader {
 pub struct CompiledCompute {
     /// Its stage.
     pub compute: Spirv,
-    /// What it uses.
+    /// The interface of the stage.
     pub interface: ShaderInterface,
 }
 
@@ -72,7 +72,7 @@ pub struct ShaderLibrary {
 /// A stage's own file.
 struct StageSource {
     found: SourceFile,
-    /// What `NAME` stands for in the macros `TEXTURE_NAME` that it mentions, each once.
+    /// The names in the file that decide how it is compiled for a pass.
     mentioned: Mentioned,
 }
 
@@ -207,7 +207,7 @@ impl ShaderLibrary {
         let (compilers, files) = (&mut self.compilers, &self.files);
         let unsupported = |refused: Refused| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         let spirv = compilers.compile(&job, found, files).map_err(|problem| {
-            // What the text takes of the library's own is told as in the modes in which it compiles.
+            // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
@@ -291,7 +291,7 @@ fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), Refused> {
     Err(Refused::named("main", what.to_owned()))
 }
 
-/// What a variant samples in the layer of the eye that is drawn for.
+/// Images that a variant samples in the layer of the eye that is drawn for.
 fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
     if stage == ShaderStage::Compute {
         return Vec::new();

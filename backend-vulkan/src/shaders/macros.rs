@@ -9,13 +9,13 @@ use framewright_graph::shader::{EyeSource, Variant};
 /// Macros and what they stand for.
 pub(super) type Macros = Vec<(String, String)>;
 
-/// As many as a format can have.
+/// The most components that a format can have.
 const MOST_COMPONENTS: u32 = 4;
 
-/// What they stand for where all of it is used.
+/// The value of part macros where the whole image is used.
 const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
 
-/// And for the left eye where both eyes' parts lie side by side.
+/// The value of part macros for the left eye where both eyes' parts lie side by side.
 const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
 
 /// The macro that says how many parts push constants tell of, if they tell of any.
@@ -26,7 +26,7 @@ pub(super) fn both_eyes(variant: &Variant) -> Option<BothEyes> {
     Some(BothEyes { source: variant.eye?, form: variant.form? })
 }
 
-/// What the macros that depend on a pass stand for in a stage whose file mentions such names.
+/// The macros that depend on a pass, with their values, in a stage whose file mentions such names.
 pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStage) -> Macros {
     let textures = mentioned.adapting.iter().map(|name| {
         let given = variant.textures.iter().find(|(given, _)| **given == **name);

@@ -5,31 +5,31 @@ use super::text;
 use framewright_graph::base::FilePath;
 use std::collections::BTreeSet;
 
-/// Macros of this beginning stand for the types of what a pass samples.
+/// Beginning of macros that stand for the type of a sampled image.
 pub(super) const TEXTURE: &str = "TEXTURE_";
 
-/// Macros of this beginning are there if a pass samples what they name.
+/// Beginning of macros that are there if a pass samples the image that they name.
 pub(super) const HAS: &str = "HAS_";
 
-/// Macros of this beginning stand for how many components the format of what a pass samples has.
+/// Beginning of macros that stand for the number of components of a sampled image's format.
 pub(super) const COMPONENTS: &str = "COMPONENTS_";
 
-/// Macros of this ending stand for the part in use of what is sampled.
+/// Ending of macros that stand for the part in use of a sampled image.
 pub(super) const PART: &str = "_st";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and of the samplers that it declares those before [`PART`],
-/// outside comments, each once, in order.
+/// Names that a GLSL text mentions outside comments, each once, in order: those behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`],
+/// and those of its samplers before [`PART`].
 pub(super) struct Mentioned {
     pub(super) adapting: Vec<String>,
     pub(super) optional: Vec<String>,
     pub(super) counted: Vec<String>,
     pub(super) parts: Vec<String>,
-    /// Whether it asks which eye it draws for.
+    /// Whether the text asks which eye it draws for.
     pub(super) eye: bool,
 }
 
 impl Mentioned {
-    /// Those of `text`.
+    /// The names that `text` mentions.
     pub(super) fn by(text: &str) -> Mentioned {
         let text = text::without_comments(text);
         let in_order: Vec<&str> = text::words(&text).collect();

@@ -1,4 +1,4 @@
-//! What the GLSL compiler says, with the lines that it speaks of.
+//! Messages of the GLSL compiler, with the lines that they speak of.
 
 use framewright_graph::base::Quote;
 use framewright_graph::shader::ShaderMessage;
@@ -34,7 +34,7 @@ fn quote<'t>(message: &str, text: &impl Fn(&str) -> Option<&'t str>) -> Option<Q
     })
 }
 
-/// What of a line a message is about: the token that it names first, or the whole line without the space around it.
+/// The part of a line that a message is about: the token that it names first, or the whole line without the space around it.
 fn underlined(line: &str, words: &str) -> std::ops::Range<usize> {
     let named = words.strip_prefix('\'').and_then(|rest| rest.split_once('\'')).map(|(token, _)| token);
     let token = named.filter(|token| !token.is_empty()).and_then(|token| {

@@ -9,7 +9,7 @@ pub(super) struct IndexedModule<'m> {
     /// The module itself.
     pub(super) module: &'m Module,
     globals: HashMap<u32, &'m Instruction>,
-    /// Of each type and constant.
+    /// The sizes of each type and constant.
     sizes: HashMap<u32, Sizes>,
     names: HashMap<u32, &'m str>,
     member_names: HashMap<(u32, u32), &'m str>,
@@ -18,12 +18,12 @@ pub(super) struct IndexedModule<'m> {
     member_decorations: HashMap<(u32, u32, Decoration), Option<&'m Operand>>,
 }
 
-/// What a type takes.
+/// Sizes of a type.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sizes {
-    /// Bytes of a variable of it, with each scalar in four.
+    /// Bytes of a variable of the type, with each scalar in four.
     own_bytes: u64,
-    /// Locations of a value of it.
+    /// Locations of a value of the type.
     locations: u32,
     /// Of a struct the bytes as a block, rounded up to 16 as std140 does.
     block_bytes: u32,

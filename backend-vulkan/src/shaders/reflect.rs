@@ -1,4 +1,4 @@
-//! What one shader stage uses, read off its SPIR-V.
+//! Reflection of one shader stage: the interface that its SPIR-V tells.
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
@@ -12,7 +12,7 @@ use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
-/// What a stage uses, and what it takes from or hands to the other stage.
+/// The interface of a stage: its bindings and constants, its inputs and its outputs.
 #[derive(Debug)]
 pub(super) struct StageInterface {
     /// Its share of the shader's interface.

@@ -1,4 +1,4 @@
-//! What of a shader stage goes wrong where the picture that it draws is turned.
+//! Parts of a shader stage that go wrong where its picture is turned.
 //!
 //! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function that reads where the
 //! fragment lies, or differentiates to one side, and looks at that constant too is taken to know what it does; so is a vertex
@@ -15,7 +15,7 @@ use std::collections::HashSet;
 /// The number of the constant that says by how much the picture is turned.
 const ROTATION: u32 = 100;
 
-/// What goes wrong.
+/// The parts that go wrong.
 pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Unturned> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();

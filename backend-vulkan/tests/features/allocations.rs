@@ -84,7 +84,7 @@ fn every_kind_of_step() -> Frame {
     small.frame
 }
 
-/// Those kinds.
+/// The kinds of work in the frame.
 const KINDS: [fn(&plan::Work) -> bool; 7] = [
     |it| matches!(it, plan::Work::Render(scope) if scope.color[0].resolve.is_some()),
     |it| matches!(it, plan::Work::Dispatch(_)),

@@ -108,7 +108,7 @@ impl Small {
         ImageIndex(index(&self.frame.images))
     }
 
-    /// A transient buffer of so many words.
+    /// A transient buffer of `words` words.
     pub(crate) fn buffer(&mut self, name: &str, words: u64) -> BufferIndex {
         self.buffer_with(name, words, Lifetime::Transient)
     }
@@ -182,7 +182,7 @@ pub(crate) fn copy(name: &str, from: (Resource, Subresources), to: (Resource, Su
 /// Adds what a pass uses, by the shader's names.
 pub(crate) trait Uses {
     fn samples(self, binding: &str, image: ImageIndex, range: Subresources) -> Pass;
-    /// The image of so many frames ago.
+    /// The image as it was `frames_ago` frames before.
     fn samples_earlier(self, binding: &str, image: ImageIndex, frames_ago: u32) -> Pass;
     fn stores(self, binding: &str, image: ImageIndex, range: Subresources) -> Pass;
     fn loads(self, binding: &str, image: ImageIndex, range: Subresources) -> Pass;
@@ -306,7 +306,7 @@ pub(crate) fn in_each_way(device: &Device, frame: &Frame, shaders: Shaders, test
     }
 }
 
-/// The same on each driver.
+/// Executes a frame as [`in_each_way`] does, on each driver.
 pub(crate) fn everywhere(frame: &Frame, shaders: Shaders, test: impl Fn(&mut Executor)) {
     on_each_driver(|device| in_each_way(device, frame, shaders, &test));
 }

@@ -124,7 +124,7 @@ fn what_is_handed_over_and_back_is_followed_through_barriers_of_other_images() {
     });
 }
 
-/// What each barrier of an image waits for.
+/// The stages that each barrier of an image waits for.
 fn sources(plan: &Plan, name: &str) -> Vec<Stages> {
     let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
     barriers.filter(|it| *plan.image(it.image).name == *name).map(|it| it.src_stages).collect()

@@ -1,4 +1,4 @@
-//! What belongs to the embedding program: imported before the frame, found after it, in the states that the frame says.
+//! The embedding program's own resources: imported before the frame, found after it, in the states that the frame says.
 
 use crate::frames::{
     Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,

@@ -50,7 +50,7 @@ fn in_two_scopes(device: &Device) -> Plan {
     planned(device, &small.frame, &Options::default())
 }
 
-/// The same in one scope.
+/// The Plan of [`in_two_scopes`] with both passes in one scope.
 fn in_one_scope(device: &Device) -> Plan {
     let mut plan = in_two_scopes(device);
     let scopes = plan.steps.iter().filter(|step| matches!(step.work, Work::Render(_))).count();

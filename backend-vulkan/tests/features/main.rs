@@ -1,5 +1,5 @@
-//! What a frame can hold, feature by feature: small frames compiled and executed on each software driver under the
-//! validation layer, and exactly what they leave.
+//! Features of frames, one by one: small frames compiled and executed on each software driver under the validation layer, and
+//! exactly what they leave.
 
 mod frames;
 #[path = "../testing/mod.rs"]

@@ -1,4 +1,4 @@
-//! What outlives the frame: history, what persists, several frames on their way, and another size.
+//! Resources that outlive the frame: history, persistent ones, several frames in flight, and another size.
 
 use crate::frames::{
     Small, Uses, copy, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, to_words,
@@ -59,7 +59,7 @@ const fn bits(word: u32) -> FillValue {
     FillValue::Bits([word, 0, 0, 0])
 }
 
-/// What [`SHADERS`]' `follow` makes of one frame after the other, if all frames before the first held `initial`.
+/// The values that [`SHADERS`]' `follow` leaves, frame after frame, if all frames before the first held `initial`.
 fn sequence(initial: u32) -> impl Iterator<Item = u32> {
     let mut held = [initial; 2];
     std::iter::repeat_with(move || {

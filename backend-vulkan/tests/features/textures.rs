@@ -49,7 +49,7 @@ fn executor(device: &Device, frame: &Frame, shaders: Shaders, texels: &[u8]) -> 
     Executor::with_textures(device, &plan, &mut library(shaders), &mut table, &ExecutorOptions::default())
 }
 
-/// What `show` makes of the picture with these texels, in each of three frames, on each driver.
+/// Holds the texels that `show` makes of the picture in each of three frames, on each driver, against `expected`.
 fn everywhere(picture: Image, shaders: Shaders, bytes: &[u8], expected: &[u32]) {
     let frame = shown(picture);
     on_each_driver(|device| {

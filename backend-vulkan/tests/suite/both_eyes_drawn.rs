@@ -161,7 +161,7 @@ fn viewports_and_scissors_are_those_of_each_eyes_own_picture() {
         assert_eq!(viewport, both([".........", "..xxxx...", "..xxxx...", "........."]), "{mode:?}");
         let scissor = drawn(|recorder| recorder.set_scissor([6, 0], [3, 3]));
         assert_eq!(scissor, both(["......xxx", "......xxx", "......xxx", "........."]), "{mode:?}");
-        // What lies outside the picture is left out, and never the other eye's.
+        // The part of a rectangle outside the picture is left out, and never the other eye's.
         let beyond = drawn(|recorder| recorder.set_scissor([7, 1], [100, 100]));
         assert_eq!(beyond, both([".........", ".......xx", ".......xx", ".......xx"]), "{mode:?}");
         let across = drawn(|recorder| recorder.set_viewport([6.0, 0.0], [9.0, 4.0]));

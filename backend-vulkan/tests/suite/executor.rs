@@ -81,7 +81,7 @@ fn picture(device: &Device, plan: &Plan, options: &ExecutorOptions) -> Vec<[u8; 
     texels.bytes.as_chunks().0.to_vec()
 }
 
-/// What [`plan`] shows: the inverted clear colour on the left, a quarter of white, inverted, on the right.
+/// The picture of [`plan`]: the inverted clear colour on the left, a quarter of white, inverted, on the right.
 fn expected() -> Vec<[u8; 4]> {
     let row = [[255, 255, 0, 255]; 8].into_iter().chain([[191, 191, 191, 255]; 8]);
     row.collect::<Vec<_>>().repeat(EXTENT[1] as usize)

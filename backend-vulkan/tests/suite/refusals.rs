@@ -1,4 +1,4 @@
-//! What Vulkan or a device has no way to do is refused before the driver is asked.
+//! Plans that Vulkan or a device has no way to execute are refused before the driver is asked.
 
 use crate::testing;
 use crate::testing::plans::{EXTENT, FORMAT, add_up, resolve_then_sample};

@@ -1,4 +1,4 @@
-//! What the tests share: one validated device for each test binary.
+//! Helpers that the tests share: one validated device for each test binary.
 
 #![allow(dead_code, reason = "each test binary uses its part of this")]
 

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Parser)]
 #[command(name = "framewright", version, about, after_help = EXIT_CODES, disable_help_subcommand = true)]
 pub(crate) struct CommandLine {
-    /// What to do.
+    /// The subcommand.
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -217,7 +217,7 @@ pub(crate) struct PipelineArguments {
     pub(crate) limits: ShaderLimits,
 }
 
-/// What compiling one stage of a shader may take. It happens in a process of its own, which ends where it needs more: that is a
+/// Limits on compiling one stage of a shader. It happens in a process of its own, which ends where it needs more: that is a
 /// mistake of the shader.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Limits of shaders")]
@@ -300,7 +300,7 @@ pub(crate) enum PlanFormat {
 /// Reads the command line.
 ///
 /// # Errors
-/// What clap says, with what the user typed escaped. Help and version are such "errors" too.
+/// clap's message, with what the user typed escaped. Help and version are such "errors" too.
 pub(crate) fn parse(arguments: impl Iterator<Item = OsString>) -> Result<CommandLine, clap::Error> {
     let arguments: Vec<OsString> = arguments.collect();
     let result = CommandLine::try_parse_from(&arguments).and_then(agree);

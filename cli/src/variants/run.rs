@@ -39,18 +39,18 @@ pub(crate) type MistakeKey = (String, Option<Span>);
 /// A variant that stands for others: the one with the fewest departures from the defaults, of those the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Example {
-    /// On how many axes it departs from the default.
+    /// The number of axes on which the variant departs from the default.
     pub(crate) departures: usize,
-    /// Its number.
+    /// The number of the variant.
     pub(crate) number: usize,
 }
 
 /// A Plan that variants have in common.
 #[derive(Debug)]
 pub(crate) struct DistinctPlan {
-    /// How many have it.
+    /// The number of these variants.
     pub(crate) variants: usize,
-    /// One of them.
+    /// One of these variants.
     pub(crate) example: Example,
     /// The Plan's sums.
     pub(crate) totals: Totals,
@@ -59,13 +59,13 @@ pub(crate) struct DistinctPlan {
 /// A mistake that variants have in common.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// How many have it.
+    /// The number of these variants.
     pub(crate) variants: usize,
-    /// One of them.
+    /// One of these variants.
     pub(crate) example: Example,
     /// The mistake in that one.
     pub(crate) diagnostic: Diagnostic,
-    /// On which devices, by their numbers.
+    /// The devices with the mistake, by their numbers.
     pub(crate) devices: BTreeSet<usize>,
 }
 
@@ -180,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
+    fn what_stands_for_others_is_nearest_to_the_defaults_in_whichever_half_it_was_found() {
         let diagnostic = Diagnostic::nowhere("wrong");
         let identity = Identity { plan: 7, shape: 1 };
         let fine = VerifiedPlan { identity, totals: Totals::default() };

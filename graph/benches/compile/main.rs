@@ -19,7 +19,7 @@ mod timing;
 
 use timing::Timing;
 
-/// What glibc is told, with the mark that it was.
+/// Environment variables for glibc's memory. The first one also marks a process that was started with them.
 const MEMORY: [(&str, &str); 3] = [
     ("MALLOC_TRIM_THRESHOLD_", "4000000000"),
     ("MALLOC_MMAP_THRESHOLD_", "4000000000"),

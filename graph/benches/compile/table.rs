@@ -19,7 +19,7 @@ struct Row {
     plan: Plan,
 }
 
-/// What the project wants, where it has said so: microseconds a pass, image barriers, calls.
+/// Goals of the project, where it has set them: microseconds a pass, image barriers, calls.
 #[derive(Clone, Copy, Default)]
 struct Goals {
     compile: Option<f64>,

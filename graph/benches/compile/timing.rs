@@ -16,8 +16,8 @@ impl Timing {
 
     /// The least time of one run, over at least five and about half a second. Freeing what came out is not part of it.
     ///
-    /// Runs of many milliseconds are interrupted by whatever else the machine does; of those it is the mean time on the
-    /// processor, where the system tells, if that is less.
+    /// Runs of many milliseconds are interrupted by other work on the machine. For them the mean time on the processor counts,
+    /// where the system tells, if that is less.
     pub(crate) fn least<T>(&self, mut run: impl FnMut() -> T) -> Duration {
         const LONG: Duration = Duration::from_millis(5);
         let (fewest, while_below) = if self.short { (2, Duration::ZERO) } else { (8, Duration::from_millis(500)) };

@@ -1,10 +1,10 @@
-//! What is wrong with a file, where, and what to do about it.
+//! Mistakes in a file: the message, its places, and the help.
 
 use super::Span;
 use super::shorten::bounded;
 use std::ops::Range;
 
-/// At most this many mistakes are kept of what is read or made at once; the first ones say what is wrong with most files.
+/// The largest number of mistakes that one reading or making keeps: with most files the first mistakes explain the rest.
 pub(crate) const MOST_KEPT: usize = 256;
 
 /// Adds a mistake, unless [`MOST_KEPT`] are kept already.
@@ -17,15 +17,15 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 /// One mistake.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What is wrong and what was expected, in one sentence without final stop. Not yet escaped.
+    /// The mistake, and what was expected, in one sentence without final stop. Not yet escaped.
     pub message: String,
     /// Where: the first is the primary place. May be empty when no file is involved.
     pub labels: Vec<Label>,
-    /// Lines of other files that it is about.
+    /// Lines of other files that the mistake is about.
     pub quotes: Vec<Quote>,
-    /// What to do.
+    /// A way to mend the mistake.
     pub help: Option<String>,
-    /// What can be chosen otherwise outside of all files.
+    /// The choice outside of all files that may mend the mistake.
     pub choice: Option<OutsideChoice>,
 }
 
@@ -41,9 +41,9 @@ pub enum OutsideChoice {
     OutputSize,
     /// How long compiling a stage of a shader may take.
     ShaderTime,
-    /// How much memory that may take.
+    /// How much memory compiling a stage of a shader may take.
     ShaderMemory,
-    /// How much stack that may take.
+    /// How much stack compiling a stage of a shader may take.
     ShaderStack,
 }
 
@@ -56,7 +56,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// A line of a file that is no part of the pipeline's own text, with a remark: what a shader's compiler complains of.
+/// A line of a file that is no part of the pipeline's own text, with a remark: a complaint of a shader's compiler.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Quote {
     /// The file's name, as it is shown.
@@ -100,14 +100,14 @@ impl Diagnostic {
         self
     }
 
-    /// With what can be chosen otherwise outside of all files.
+    /// With a choice outside of all files that may mend the mistake.
     #[must_use]
     pub fn choice(mut self, choice: OutsideChoice) -> Diagnostic {
         self.choice = Some(choice);
         self
     }
 
-    /// With what to do.
+    /// With a way to mend the mistake.
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
         self.help = Some(short(text.into()));
@@ -115,7 +115,7 @@ impl Diagnostic {
     }
 }
 
-/// A text as it is kept: what it repeats of a file is bounded.
+/// A text as it is kept: its quotes from a file are bounded.
 fn short(text: String) -> String {
     match bounded(&text) {
         std::borrow::Cow::Borrowed(_) => text,

@@ -11,16 +11,16 @@ use std::sync::Arc;
 /// look so have `./` before them.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FilePath {
-    /// One of the user's own, counted from the pipeline's own folder. Names are divided by `/`.
+    /// A file of the user's own, counted from the pipeline's own folder. Names are divided by `/`.
     Own(Arc<str>),
-    /// One that is shipped, counted from the folder of all that are.
+    /// A shipped file, counted from the folder of all shipped files.
     Shipped(Arc<str>),
 }
 
-/// What stands before the path of a shipped file.
+/// The prefix of the path of a shipped file.
 const SHIPPED: &str = "shipped:";
 
-/// What stands before the path of an own file that looks like a shipped one's.
+/// The prefix of the path of a user's own file that would otherwise look like a shipped file's.
 const HERE: &str = "./";
 
 impl FilePath {
@@ -47,7 +47,7 @@ impl FilePath {
         self.path().rfind('/').map_or("", |end| &self.path()[..end])
     }
 
-    /// The file that `path` is where it stands in this one, in the shortest form. An absolute path stays what it is.
+    /// The file that `path` names inside this file, in the shortest form. An absolute path stays as it is.
     ///
     /// # Errors
     /// [`NoFile::NoPath`] if that is written in a way that no path is.

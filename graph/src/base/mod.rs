@@ -1,4 +1,4 @@
-//! What everything else is written with: places in source text, mistakes and how they are shown, near names, numbers, paths.
+//! Tools for everything else: places in source text, mistakes and how they are shown, near names, numbers, paths.
 
 pub mod amount;
 mod diagnostic;

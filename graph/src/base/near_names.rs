@@ -24,15 +24,15 @@ pub fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .map(|(_, known)| known)
 }
 
-/// What to say about a name that is unknown and near to none, where `words` may stand without quotes: "a number". `names`: the names
-/// that there are, as [`suggestion`] lists them.
+/// The help for an unknown name that is near to none, where `words` may stand without quotes: "a number". `names`: the known
+/// names, as [`suggestion`] lists them.
 #[must_use]
 pub(crate) fn without_quotes(words: &str, names: Option<String>) -> String {
     let names = names.map_or_else(String::new, |names| format!(", or a name: {names}"));
     format!("write {words} without quotes{names}")
 }
 
-/// What to say about an unknown name: the near one, or the few that there are.
+/// The help for an unknown name: the near known name, or the first few known names.
 #[must_use]
 pub fn suggestion<'k>(name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
     if let Some(near) = nearest(name, known.clone()) {

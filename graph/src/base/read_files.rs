@@ -8,7 +8,7 @@ use std::{fs, io};
 
 /// A record of files that were read. Clones share it.
 ///
-/// A file is told by what it is on disk, not by its name: links and hard links to it lead to the same file. Only regular
+/// A file is told by its identity on disk, not by its name: links and hard links to it lead to the same file. Only regular
 /// files are recorded, since writing to a device or a pipe loses nothing.
 #[derive(Debug, Clone, Default)]
 pub struct ReadFiles {
@@ -36,14 +36,14 @@ impl ReadFiles {
         Ok(file)
     }
 
-    /// Records a file that is going to be read, if there is one. What it was first recorded as stays.
+    /// Records a file that is going to be read, if there is one. The kind of its first record stays.
     pub fn expect(&self, what: &'static str, path: &Path) {
         if let Ok(metadata) = fs::metadata(path) {
             self.record(what, path, &metadata);
         }
     }
 
-    /// What the file at `path` was read as; `None` if it was not read, or there is none.
+    /// The kind that the file at `path` was read as; `None` if it was not read, or there is none.
     #[must_use]
     pub fn read_as(&self, path: &Path) -> Option<&'static str> {
         let metadata = fs::metadata(path).ok()?;

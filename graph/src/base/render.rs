@@ -1,4 +1,4 @@
-//! Mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do.
+//! Mistakes as text: `error: …`, `file:line:column`, the offending text underlined, the help.
 
 use super::shorten::bounded;
 use super::{Diagnostic, MOST_KEPT, Quote, Sources};
@@ -12,8 +12,8 @@ const MOST_SHOWN: usize = 20;
 /// Labels further apart than this many bytes are shown apart; the text of a longer line is not shown.
 const LARGEST_WINDOW: usize = 8192;
 
-/// Text from a file, fit to be shown: control characters and others that are invisible or turn the direction of what
-/// follows are escaped, all others stay.
+/// Text from a file, fit to be shown: control characters, and others that are invisible or turn the direction of the text
+/// behind them, are escaped. All others stay.
 #[must_use]
 pub fn escape(text: &str) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut escaped, c| {
@@ -58,8 +58,8 @@ pub(super) fn shown_lines(text: &str) -> String {
     bounded(text).lines().map(escape).collect::<Vec<_>>().join("\n")
 }
 
-/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do. The first 20 are
-/// shown, and the others counted. Ends with a line break unless there is nothing to say.
+/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, the help. The first 20 are
+/// shown, and the others counted. Ends with a line break unless there are no mistakes.
 #[must_use]
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     let mut text = String::new();
@@ -119,7 +119,7 @@ fn quoted<'g>(group: Group<'g>, quote: &Quote) -> Group<'g> {
     group.element(Snippet::source(veil(text)).line_start(line).path(file).annotation(label))
 }
 
-/// Whole lines of one file, and what is said about them.
+/// Whole lines of one file, with their labels.
 struct Window<'s> {
     path: String,
     /// Number of the first line, from 1.

@@ -8,16 +8,16 @@ use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
-/// Where files are read from that a pipeline names: shaders, pictures, other pipelines and fragments. Paths are counted
-/// from one folder, and must not leave another, which is the same unless [`Root::within`] says so.
+/// The folder of the files that a pipeline names: shaders, pictures, other pipelines and fragments. Paths are counted
+/// from this folder. They must not leave a second folder, which is the same one unless [`Root::within`] sets another.
 ///
-/// What a path leads to is found out before it is opened; nothing is promised where somebody changes links in between.
+/// The target of a path is found before it is opened; nothing is promised if links change in between.
 #[derive(Debug, Clone)]
 pub struct Root {
     folder: PathBuf,
     within: PathBuf,
     outside: bool,
-    /// Where files that are read are recorded, and as what.
+    /// The record of files that are read, and the kind that they are recorded as.
     record: (ReadFiles, &'static str),
 }
 
@@ -97,7 +97,7 @@ impl Root {
         Root { outside: true, ..self }
     }
 
-    /// What is read from here is recorded in `files` as `what`, such as `a texture`.
+    /// Files that are read from here are recorded in `files` as `what`, such as `a texture`.
     #[must_use]
     pub fn recorded(self, files: &ReadFiles, what: &'static str) -> Root {
         Root { record: (files.clone(), what), ..self }
@@ -137,7 +137,7 @@ impl Root {
         files.open(what, found)
     }
 
-    /// What stands in the file that [`locate`](Root::locate) found: at most `limit` bytes.
+    /// The contents of the file that [`locate`](Root::locate) found: at most `limit` bytes.
     ///
     /// # Errors
     /// [`NoFile`] says why it is not to be read.
@@ -161,7 +161,7 @@ impl Root {
     /// # Errors
     /// [`NoFile`] if there is none.
     pub fn relative(&self, file: &Path) -> Result<String, NoFile> {
-        // Of the file only the folder: it is the link that is named, and what it names is counted from there.
+        // Only the folder is resolved: the result names the link itself, and paths in its file are counted from there.
         let name = file.file_name().ok_or(NoFile::NotRegular)?;
         let beside = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let (folder, file) = (self.folder.canonicalize()?, beside.canonicalize()?.join(name));

@@ -6,7 +6,7 @@ use std::fmt::Display;
 /// A text of at most this many bytes is never shortened.
 const SHORT: usize = 1024;
 
-/// What stands in backticks in a longer text has at most this many characters.
+/// A quote in backticks in a longer text has at most this many characters.
 const LONGEST_QUOTE: usize = 160;
 
 /// How many characters a shortened text keeps of its end.
@@ -18,7 +18,7 @@ const LONGEST: usize = 8192;
 /// A list names at most this many of its entries.
 pub(crate) const MOST_LISTED: usize = 12;
 
-/// A message, remark or help of bounded length: what it quotes in backticks is shortened first, in the middle.
+/// A message, remark or help of bounded length: its quotes in backticks are shortened first, in the middle.
 pub(crate) fn bounded(text: &str) -> Cow<'_, str> {
     if text.len() <= SHORT {
         return Cow::Borrowed(text);

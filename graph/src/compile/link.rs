@@ -23,12 +23,12 @@ impl PartUse {
         (self.0 >> 2) as usize
     }
 
-    /// Whether it needs what was there before: it is sampled, loaded or kept.
+    /// Whether the use needs the earlier contents: the part is sampled, loaded or kept.
     pub(super) fn reads(self) -> bool {
         self.0 & PartUse::READS != 0
     }
 
-    /// Whether it changes it.
+    /// Whether the use changes the contents.
     pub(super) fn writes(self) -> bool {
         self.0 & PartUse::WRITES != 0
     }
@@ -177,7 +177,7 @@ impl Linker<'_> {
         }
     }
 
-    /// Makes what a pass wrote current, once all its reads are known.
+    /// Makes the parts that a pass wrote current, once all its reads are known.
     fn commit(&mut self, pass: &Pass, number: u32, first: usize) {
         for at in first..self.uses.len() {
             let used = self.uses[at];

@@ -6,7 +6,7 @@
 //!       ─► place ─► aliasing ─► barriers ─► emit
 //! ```
 //!
-//! `structure` runs the stages. `incremental` keeps what they decided from frame to frame.
+//! `structure` runs the stages. `incremental` keeps their decisions from frame to frame.
 
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};

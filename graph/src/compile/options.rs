@@ -1,6 +1,6 @@
 //! Switches of the compiler.
 
-/// Switches of the compiler that never change what a frame means.
+/// Switches of the compiler that never change the meaning of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// Whether transient images share memory.

@@ -1,4 +1,4 @@
-//! `retain`: load and store operations of attachments. Contents are kept only where somebody needs them.
+//! `retain`: load and store operations of attachments. Contents are kept only where a later use needs them.
 
 use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
 use super::scope::{Scope, Scoped, Step, Target};
@@ -109,7 +109,7 @@ struct Walk<'w> {
     frame: &'w Frame,
     adapted: &'w Adapted,
     ops: Vec<AttachmentOps>,
-    /// For each subresource the attachment that holds what it contains.
+    /// For each subresource the attachment that holds its contents.
     last: Vec<u32>,
 }
 

@@ -3,7 +3,7 @@
 use super::{BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, MemoryNeeds, MemoryProvider, Profile};
 use crate::vulkan::{Aspects, BufferUsage, Format, Shape, Sharing, Usage};
 
-/// A profile estimates: what it has read from a device, else what its model says.
+/// Memory needs as a profile estimates them: values that were read from the device, else values of its model.
 pub struct Estimated<'p>(pub &'p Profile);
 
 impl MemoryProvider for Estimated<'_> {
@@ -21,7 +21,7 @@ impl MemoryProvider for Estimated<'_> {
 }
 
 impl Profile {
-    /// What was read from the device.
+    /// The memory needs of an image, if they were read from the device.
     fn known(&self, image: &ImageDescriptor) -> Option<MemoryNeeds> {
         let [width, height, depth] = image.extent;
         let usual = image.shape == Shape::D2
@@ -40,27 +40,27 @@ impl Profile {
 }
 
 impl MemoryModel {
-    /// What an image takes.
+    /// The memory needs of an image.
     #[must_use]
     pub fn image(&self, image: &ImageDescriptor) -> MemoryNeeds {
         let apart = self.separate_stencil && image.format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL);
         let bytes = match (apart, image.format) {
             (false, format) => self.plane(image, format.texel_bytes()),
-            // The depth is what its own format would be.
+            // The depth takes as much as a format of depth alone.
             (true, _) => self.plane(image, 4).saturating_add(self.plane(image, 1)),
         };
         let bytes = bytes.saturating_mul(u64::from(image.layers)).saturating_mul(u64::from(image.samples));
         MemoryNeeds { bytes, alignment: power_of_two(self.alignment), type_bits: self.type_bits }
     }
 
-    /// What a buffer takes. Buffers are made of whole words, since fills write words.
+    /// The memory needs of a buffer. Buffers are made of whole words, since fills write words.
     #[must_use]
     pub fn buffer(&self, buffer: &BufferDescriptor) -> MemoryNeeds {
         let alignment = power_of_two(self.buffer_alignment);
         MemoryNeeds { bytes: padded(buffer.bytes, 4), alignment, type_bits: self.type_bits }
     }
 
-    /// What one sample of one layer of one plane takes.
+    /// The bytes of one sample of one layer of one plane.
     fn plane(&self, image: &ImageDescriptor, texel_bytes: u64) -> u64 {
         let level = |mip: u32| {
             let [width, height, depth] = image.extent_at(mip).map(u64::from);

@@ -19,7 +19,7 @@ pub struct ImageDescriptor {
     pub layers: u32,
     /// Samples a texel.
     pub samples: u32,
-    /// What it is used for.
+    /// The usages of the image.
     pub usage: Usage,
     /// Which queues may use it.
     pub sharing: Sharing,
@@ -37,13 +37,13 @@ impl ImageDescriptor {
 pub struct BufferDescriptor {
     /// Bytes.
     pub bytes: u64,
-    /// What it is used for.
+    /// The usages of the buffer.
     pub usage: BufferUsage,
     /// Which queues may use it.
     pub sharing: Sharing,
 }
 
-/// What an image or buffer needs of memory (`VkMemoryRequirements`).
+/// The memory needs of an image or buffer (`VkMemoryRequirements`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryNeeds {

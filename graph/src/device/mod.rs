@@ -1,4 +1,4 @@
-//! What a device can do, as data: read from a live device by a backend, or from a saved profile.
+//! The abilities of a device as data: read from a live device by a backend, or from a saved profile.
 
 mod estimate;
 mod memory;

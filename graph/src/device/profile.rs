@@ -33,7 +33,7 @@ pub struct Profile {
     /// Queues beside the one that does everything.
     #[serde(default)]
     pub queues: Queues,
-    /// Whether fragment shaders can read what earlier passes of their rendering scope drew at the same position
+    /// Whether fragment shaders can read colours that earlier passes of their rendering scope drew at the same position
     /// (`VK_KHR_dynamic_rendering_local_read`).
     #[serde(default)]
     pub local_read: bool,
@@ -44,7 +44,7 @@ pub struct Profile {
     /// `max_multiview_views` is 1.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub refuted_multiview: bool,
-    /// Whether the device says that it draws several views at once, and that couldn't be tested: then `max_multiview_views` is 1.
+    /// Whether the device claims to draw several views at once, and that couldn't be tested: then `max_multiview_views` is 1.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub untested_multiview: bool,
     /// Whether vertex shaders can choose the layer that they draw into (`shaderOutputLayer`).
@@ -58,20 +58,20 @@ pub struct Profile {
         deserialize_with = "sound::clip_distances"
     )]
     pub max_clip_distances: Option<u32>,
-    /// How depth can be resolved by the rendering scope that draws it, as far as the device does what it says.
+    /// Modes in which the rendering scope that draws depth can resolve it, without those that a test refuted.
     #[serde(default = "least_depth_resolve")]
     pub depth_resolve: Vec<ResolveMode>,
-    /// How the device says that it resolves depth, and a test showed that it doesn't.
+    /// Modes in which the device claims to resolve depth, and a test showed that it doesn't.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refuted_depth_resolve: Vec<ResolveMode>,
-    /// Modes of `depth_resolve` that a test showed to be right for one layer and wrong for several: for what has a layer for
-    /// each eye.
+    /// Modes of `depth_resolve` that a test showed to be right for one layer and wrong for several layers, as of images with
+    /// a layer for each eye.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refuted_layered_depth_resolve: Vec<ResolveMode>,
-    /// How the device says that it resolves depth, where that couldn't be tested.
+    /// Modes in which the device claims to resolve depth, where that couldn't be tested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub untested_depth_resolve: Vec<ResolveMode>,
-    /// What each format can be, each once; formats that are absent can be nothing.
+    /// The support for each format, each format once; absent formats have no support.
     #[serde(deserialize_with = "sound::formats")]
     pub formats: Vec<FormatSupport>,
     /// How much memory images and buffers take.
@@ -80,7 +80,7 @@ pub struct Profile {
     /// by the model.
     #[serde(default, deserialize_with = "sound::known_needs")]
     pub known_needs: Vec<KnownNeeds>,
-    /// Values above that no public source states, and what was assumed.
+    /// Values above that no public source states, and the assumptions in their place.
     #[serde(default)]
     pub unknown: Vec<String>,
 }
@@ -125,13 +125,13 @@ pub struct KnownNeeds {
     pub format: Format,
     /// Samples a texel.
     pub samples: u32,
-    /// What the images are used for: any one of these sets; what they need is the same.
+    /// Usages of the images: any one of these sets; the memory needs are the same for each.
     pub usages: Vec<Usage>,
-    /// Width and height in texels, rising, and what such an image needs.
+    /// Width and height in texels, rising, and the memory needs of such an image.
     pub sizes: Vec<([u32; 2], MemoryNeeds)>,
 }
 
-/// What one format can be on a device (optimal tiling).
+/// The support of a device for one format (optimal tiling).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FormatSupport {
@@ -155,7 +155,7 @@ pub struct FormatSupport {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryModel {
-    /// Alignment of an image's offset and of what a mip level takes, in bytes: a power of two.
+    /// Alignment of an image's offset and of a mip level's size, in bytes: a power of two.
     #[serde(deserialize_with = "sound::alignment")]
     pub alignment: u64,
     /// Rows are padded to a multiple of this many texels: a power of two.
@@ -186,7 +186,7 @@ pub struct MemoryModel {
     pub heap_bytes: Option<u64>,
 }
 
-/// Rows and heights are what they are.
+/// Rows and heights without padding.
 const fn no_padding() -> u32 {
     1
 }
@@ -202,7 +202,7 @@ const fn first_type() -> u32 {
 }
 
 impl Profile {
-    /// What `format` can be; `None` if nothing.
+    /// The support for `format`; `None` if there is none.
     #[must_use]
     pub fn format(&self, format: Format) -> Option<&FormatSupport> {
         self.formats.iter().find(|support| support.format == format)

@@ -8,9 +8,9 @@ macro_rules! shipped {
     };
 }
 
-/// The profiles that the library carries, by name: what lavapipe of Debian 12 says of itself comes first and is the one to
-/// take where nothing else is said. The first two were read from the drivers; the others were put together from public
-/// sources, which each of them names, with what they don't tell.
+/// The profiles that the library carries, by name. That of lavapipe in Debian 12 comes first and is the default.
+/// The first two were read from the drivers; the others were put together from public sources. Each of those names its
+/// sources, and the values that they don't tell.
 pub const SHIPPED_PROFILES: &[(&str, &str)] = shipped!(
     "lavapipe",
     "swiftshader",
@@ -21,7 +21,7 @@ pub const SHIPPED_PROFILES: &[(&str, &str)] = shipped!(
     "meta-quest-3",
 );
 
-/// What is wrong with a profile's text.
+/// A mistake in a profile's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{line}:{column}: {problem}")]
 pub struct ProfileError {
@@ -29,7 +29,7 @@ pub struct ProfileError {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What was found and expected. Not escaped.
+    /// The mistake: the text that was found, and what was expected. Not escaped.
     pub problem: String,
 }
 

@@ -5,7 +5,7 @@ use crate::vulkan::{Aspects, Usage};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Largest extent or number of layers that is taken, four times what any device has today.
+/// Largest extent or number of layers that is taken, four times the largest of any device today.
 const LARGEST_EXTENT: u32 = 1 << 16;
 /// Largest alignment that is taken, in bytes.
 const LARGEST_ALIGNMENT: u64 = 1 << 30;
@@ -45,7 +45,7 @@ pub(super) fn alignment<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u6
     power_of_two(u64::deserialize(deserializer)?, LARGEST_ALIGNMENT)
 }
 
-/// What rows or heights are padded to.
+/// The multiple that rows or heights are padded to.
 pub(super) fn padding<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let value = u32::deserialize(deserializer)?;
     power_of_two(u64::from(value), u64::from(LARGEST_EXTENT)).map(|_: u64| value)
@@ -96,7 +96,7 @@ pub(super) fn type_bits<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u3
     }
 }
 
-/// What formats can be, each format once.
+/// The support for formats, each format once.
 pub(super) fn formats<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<FormatSupport>, D::Error> {
     let formats: Vec<FormatSupport> = list(deserializer)?;
     for (at, support) in formats.iter().enumerate() {
@@ -120,9 +120,9 @@ pub(super) fn known_needs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
     }
 }
 
-/// What can be wrong with an entry of a list, beyond its single fields.
+/// Checks of an entry of a list, beyond its single fields.
 trait Check {
-    /// What is wrong, in words.
+    /// The mistake, in words.
     fn check(&self) -> Result<(), String>;
 }
 
@@ -142,7 +142,7 @@ fn list<'de, D: Deserializer<'de>, T: Deserialize<'de> + Check>(deserializer: D)
     Vec::<Sound<T>>::deserialize(deserializer).map(|list| list.into_iter().map(|entry| entry.0).collect())
 }
 
-/// Says what is wrong unless `sound`.
+/// Returns the mistake unless `sound`.
 fn demand(sound: bool, otherwise: impl FnOnce() -> String) -> Result<(), String> {
     if sound { Ok(()) } else { Err(otherwise()) }
 }

@@ -16,8 +16,8 @@ const SIZES: [[u32; 2]; 9] = [
     [4096, 4096],
 ];
 
-/// What frames make of images: drawn and sampled, drawn and read back, drawn and forgotten within a rendering scope,
-/// written by compute passes, filled and sampled.
+/// Usages that frames usually give images: drawn and sampled, drawn and read back, drawn and forgotten within a rendering
+/// scope, written by compute passes, filled and sampled.
 const USAGES: [Usage; 13] = [
     Usage::COLOR_ATTACHMENT,
     Usage::COLOR_ATTACHMENT.union(Usage::SAMPLED),
@@ -34,7 +34,7 @@ const USAGES: [Usage; 13] = [
     Usage::SAMPLED.union(Usage::TRANSFER_DST),
 ];
 
-/// What they need, as `memory` says it; what the device can't make is left out.
+/// Memory needs of the usual images, as `memory` says them; images that the device can't make are left out.
 fn needs(formats: &[FormatSupport], largest: u32, memory: &mut dyn MemoryProvider) -> Vec<KnownNeeds> {
     let mut all = Vec::new();
     for support in formats {
@@ -89,8 +89,8 @@ fn sizes(
 }
 
 impl Profile {
-    /// The profile with the memory needs of the usual images added, as `memory` says them: what it takes to plan for the
-    /// device where it is not.
+    /// The profile with the memory needs of the usual images added, as `memory` says them. Such a profile is enough to plan
+    /// for the device without the device at hand.
     #[must_use]
     pub fn with_usual_needs(mut self, memory: &mut dyn MemoryProvider) -> Profile {
         self.known_needs = needs(&self.formats, self.max_attachment_extent, memory);

@@ -19,7 +19,7 @@ pub(super) struct Write {
     pub(super) resource: Resource,
     pub(super) cells: Cells,
     pub(super) span: Span,
-    /// How to clear it, if it may leave texels untouched: then it adds to what is there.
+    /// How to clear the target, if the write may leave texels untouched: then it adds to the earlier contents.
     pub(super) continues: Option<&'static str>,
 }
 
@@ -43,7 +43,7 @@ fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> 
     }
 }
 
-/// What `pass` reads. What it only adds to stands among its writes.
+/// The reads of `pass`. A target that the pass only adds to stands among its writes.
 pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
     let mut reads = Vec::new();
     for access in pass.accesses().filter(|access| !access.attaches()) {
@@ -59,7 +59,7 @@ pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
     reads
 }
 
-/// What `pass` writes, and all that it draws into.
+/// The writes of `pass`, and all targets that it draws into.
 pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
     let mut writes = Vec::new();
     for access in pass.accesses() {

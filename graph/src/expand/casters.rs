@@ -48,7 +48,7 @@ pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diag
     }
 }
 
-/// What keeps a pass's cascade from being looked up with the first one's.
+/// The difference that keeps a pass's cascade from being looked up with the first pass's.
 fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     let (name, before) = (&other.pass.name, &first.pass.name);
     if (first.cascade.of, first.cascade.reach) != (other.cascade.of, other.cascade.reach) {

@@ -1,5 +1,5 @@
-//! Whether what draws multisampled depth can draw it alone, where one value a texel of that depth may be wanted: then it is
-//! drawn again with one sample, by what the macro `DEPTH_ONLY` leaves of its shader.
+//! Whether passes that draw multisampled depth can draw depth alone, where one value a texel of that depth may be wanted: then
+//! they draw it again with one sample, by the part of their shader that the macro `DEPTH_ONLY` leaves.
 
 use super::resources::Resources;
 use super::shader::{Checked, PARAMS};
@@ -77,7 +77,7 @@ fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String
     if let Some(read) = alone.bindings.iter().find(own) {
         return Some(format!("it still uses `{}`, which may have changed since", read.name));
     }
-    // A vertex shader that does without what isn't given would put the geometry elsewhere.
+    // A vertex shader that lacks one of its inputs would put the geometry elsewhere.
     let moving = |binding: &&Binding| own(binding) && binding.stages.contains(Stages::VERTEX_SHADER);
     let lacking = whole.bindings.iter().find(moving)?;
     Some(format!("its vertex shader would lack `{}`", lacking.name))

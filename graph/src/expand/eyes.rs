@@ -1,8 +1,8 @@
-//! A pipeline is taken apart for two eyes: what each has of its own is there twice, and so is every pass that draws into it.
+//! A pipeline is taken apart for two eyes: an image that each eye has of its own is there twice.
 //!
-//! A pass that draws into what each eye has of its own runs for each of them, and reads and writes what is that eye's. All others
-//! run once. What can't be is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one. In modes
-//! that draw both eyes at once images hold both eyes' parts where they can, and passes run once for both (`at_once`).
+//! A pass that draws into such an image runs once for each eye, and reads and writes the images of that eye. All other passes
+//! run once. An impossible mixture is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one.
+//! In modes that draw both eyes at once, images hold both eyes' parts where they can, and passes run once for both (`at_once`).
 
 mod at_once;
 
@@ -15,7 +15,7 @@ use crate::ron::{Name, Spanned};
 use at_once::Apart;
 use std::collections::HashSet;
 
-/// For whom a pass runs.
+/// The eyes that a pass runs for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum For {
     /// Once, for neither eye or for both together.
@@ -26,18 +26,18 @@ enum For {
     Each,
 }
 
-/// Where the images of both eyes are.
+/// The places of both eyes' images.
 struct Images {
     /// By image, whether each eye has its own.
     own: Vec<bool>,
-    /// By image, that of the right eye; the left eye's has kept its place. Where one image holds both eyes' parts it is the same.
+    /// By image, the right eye's image; the left eye's has kept its place. An image with both eyes' parts is its own right one.
     right: Vec<ImageIndex>,
     /// By image, whether it holds both eyes' parts.
     both: Vec<bool>,
 }
 
-/// Takes `pipeline` apart for the eyes that `stereo` asks for, and says what is allowed and probably not meant. `form` is how
-/// images hold both eyes' parts, `extent` the frame's width and height.
+/// Takes `pipeline` apart for the eyes that `stereo` asks for, and returns remarks: uses that are allowed, but probably a
+/// mistake. `form` is how images hold both eyes' parts, `extent` the frame's width and height.
 pub(super) fn split(
     mut pipeline: Pipeline,
     (stereo, form): (Stereo, Option<EyeForm>),
@@ -51,7 +51,7 @@ pub(super) fn split(
         if pass.off.is_some() && stereo != Stereo::Off {
             handed_on_once(&own, pass, &pipeline.images, errors);
         }
-        // What a pass that is off would do wrong does no harm.
+        // Mistakes of a pass that is off do no harm.
         let errors = if pass.off.is_some() { &mut none } else { &mut *errors };
         foreign_eyes(&own, pass, &pipeline.images, errors);
         if stereo != Stereo::Off || pass.off.is_some() {
@@ -107,8 +107,8 @@ fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
     images.filter_map(remark).collect()
 }
 
-/// Passes that draw what a camera sees into what both eyes share, where passes for each eye look it up: nothing forbids it, and
-/// neither eye sees it from where it is.
+/// Remarks on passes that draw a camera's picture into an image that both eyes share, where passes for each eye look it up:
+/// this is allowed, but neither eye then sees the scene from its own position.
 fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
     if !own.contains(&true) {
         return Vec::new();
@@ -171,7 +171,7 @@ fn visit<'p>(pass: &'p mut Pass, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
             reads.iter_mut().for_each(|part| of_part(part, false, see));
             writes.iter_mut().for_each(|part| of_part(part, true, see));
         }
-        // Of what workgroups are counted by only the size counts, which is the same for both eyes.
+        // Of an image that workgroups are counted by, only the size matters. It is the same for both eyes.
         Work::Dispatch { .. } | Work::Draw { .. } => {}
     }
 }
@@ -214,7 +214,7 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[language::Image], error
     });
 }
 
-/// Says where what each eye has of its own takes the place of what both share: whose it would be nobody says.
+/// Reports an image of each eye that would take the place of an image that both eyes share: the eye would be unknown.
 fn handed_on_once(own: &[bool], pass: &Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) {
     for stand_in in &pass.otherwise {
         let StandIn::Forward(Forward { from, to }) = stand_in else { continue };
@@ -228,7 +228,7 @@ fn handed_on_once(own: &[bool], pass: &Pass, images: &[language::Image], errors:
     }
 }
 
-/// For whom a pass runs. Reports what can't be so.
+/// The eyes that a pass runs for. Reports contradictions.
 fn whose(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) -> For {
     let name = pass.name.text.clone();
     let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|span| (None, span)).collect();
@@ -300,7 +300,7 @@ fn views(pipeline: &mut Pipeline, extent: [u32; 2]) -> Vec<[ViewIndex; 2]> {
     (0..count).map(|of| Eye::BOTH.map(|eye| added(of, eye))).collect()
 }
 
-/// Makes what each eye has of its own twice, or for both.
+/// Makes each image that each eye has of its own twice, or once with both eyes' parts.
 fn images(pipeline: &mut Pipeline, both: Vec<bool>, own: Vec<bool>, form: Option<EyeForm>) -> Images {
     let mut right: Vec<ImageIndex> = (0..own.len()).map(|at| ImageIndex(index(at))).collect();
     for (at, _) in own.iter().enumerate().filter(|(_, own)| **own) {
@@ -331,7 +331,7 @@ impl Images {
         }
     }
 
-    /// What leaves the frame, of each eye if each has its own.
+    /// The outputs for one declared output: one for each eye if each eye has its own.
     fn output(&self, output: Output) -> Vec<Output> {
         match output.resource.resource {
             Resource::Image(image) if self.own[image.0 as usize] && !self.both[image.0 as usize] => {

@@ -1,4 +1,4 @@
-//! Values for all texels of an image or all words of a buffer, typed by what they fill.
+//! Values for all texels of an image or all words of a buffer, typed by the image or buffer that they fill.
 
 use crate::base::shown_number;
 use crate::language::Fill;
@@ -13,7 +13,7 @@ pub(super) fn zero(format: Option<Format>) -> FillValue {
     }
 }
 
-/// The value as the format has it; `None`: a buffer. An error says why it doesn't fit, and what does.
+/// The value as the format has it; `None`: a buffer. An error says why the value doesn't fit, and which value would.
 pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (String, String)> {
     let Some(format) = format else {
         let Fill::Number(number) = fill else {

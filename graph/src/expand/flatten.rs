@@ -77,7 +77,7 @@ fn expand_so(
             Some(language::Off { span, because }) => {
                 let name = pass.name.text.clone();
                 switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
-                // What a pass that is off would do wrong does no harm.
+                // Mistakes of a pass that is off do no harm.
                 let would = passes::draft(&resources, pass, None, &mut Vec::new());
                 let stand_ins = passes::stand_ins(&resources, pass, because, &mut errors);
                 State::Off { would, stand_ins, because: because.clone() }

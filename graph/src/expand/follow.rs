@@ -1,11 +1,11 @@
-//! `Like`: what follows another takes the value of that one, or one that is made from it.
+//! `Like`: an image or buffer that follows another takes the other's value, or a value made from it.
 
-/// What is known of values so far: `Some(None)` after a mistake.
+/// The values that are known so far: `Some(None)` after a mistake.
 pub(super) type Known<T> = Vec<Option<Option<T>>>;
 
 /// The value of number `start`: its own, or made from the value of the one that it follows. Each value is found once.
 ///
-/// Walks along what is followed without recursion, since a chain may be as long as the file.
+/// Walks along the chain without recursion, since a chain may be as long as the file.
 pub(super) fn follow<N, T: Clone>(
     all: &[N],
     known: &mut Known<T>,
@@ -31,7 +31,7 @@ pub(super) fn follow<N, T: Clone>(
     known[start].clone().flatten()
 }
 
-/// The values of all of them.
+/// The values of all items.
 pub(super) fn follow_all<N, T: Clone>(
     all: &[N],
     next: impl Fn(&N) -> Option<usize>,

@@ -1,12 +1,12 @@
-//! How far back history is kept: as far as a pass that runs reads it. What no pass reads of earlier frames lives within the
-//! frame.
+//! How far back history is kept: as far as a pass that runs reads it. An image or buffer whose earlier frames no pass reads
+//! lives within the frame.
 
 use super::accesses;
 use super::resources::Resources;
 use super::state::State;
 use crate::frame::{Lifetime, Resource};
 
-/// Shortens the history of images and buffers to what is read of it.
+/// Shortens the history of images and buffers to the frames that are read.
 pub(super) fn shorten(resources: &mut Resources<'_>, states: &[State]) {
     let mut images = vec![0_u32; resources.images.len()];
     let mut buffers = vec![0_u32; resources.buffers.len()];

@@ -1,4 +1,4 @@
-//! What a pipeline is put together with.
+//! Inputs beside the file: settings, scene facts, size, device, eyes.
 
 use super::outputs::dumped;
 use super::settings;
@@ -8,32 +8,32 @@ use crate::frame::{Allowances, Stereo};
 use crate::language::{Document, Facts, LARGEST_SIZE, Surroundings};
 use crate::vulkan::Rotation;
 
-/// What a pipeline is put together with.
+/// The inputs that a pipeline is expanded with, beside its file.
 #[derive(Debug, Clone, Copy)]
 pub struct Inputs<'a> {
     /// Chosen settings, name and value as the user wrote them; of several values for one setting the last counts.
     pub set: &'a [(String, String)],
-    /// What is known about the scene.
+    /// Known facts about the scene.
     pub facts: Facts,
     /// Whether there is a scene at all; if not, [`Facts::UNKNOWN`] counts.
     pub facts_known: bool,
     /// Width and height of the frame, in texels, 1 to 16384 each.
     pub output_extent: [u32; 2],
-    /// The device that the frame is for; `None`: one that can do just what Vulkan 1.3 demands. Only pipelines that ask for
+    /// The device that the frame is for; `None`: a device with no more than Vulkan 1.3 demands. Only pipelines that ask for
     /// properties of the device depend on it, and frames of instances for both eyes: in layers or in halves.
     pub device: Option<&'a Profile>,
-    /// By how much what is shown on a screen is turned: outputs whose image has `format: Output`, or that leave the frame as
+    /// The rotation of outputs for a screen: those whose image has `format: Output`, or that leave the frame as
     /// `Hdr10`. Sizes are those of the upright picture.
     pub rotation: Rotation,
     /// Names of further images that leave the frame.
     pub dump: &'a [String],
-    /// How it is drawn for two eyes.
+    /// How the frame is drawn for two eyes.
     pub stereo: Stereo,
 }
 
-/// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
-/// that no frame has, names of no image. [`expand`](super::expand()) reports these too; a program that tells its user's command line from
-/// its user's files asks here first.
+/// Mistakes in `inputs` themselves: settings that the pipeline doesn't have, values that they don't allow, a size that no
+/// frame has, names of no image. [`expand`](super::expand()) reports these too; a program that tells its user's command
+/// line from its user's files asks here first.
 #[must_use]
 pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
     let mut errors = Vec::new();

@@ -1,4 +1,4 @@
-//! What passes read at their fragments' own position: devices with local reads let shaders read it as input attachments.
+//! Reads of images at a fragment's own position: devices with local reads let shaders read such images as input attachments.
 
 use super::resources::Resources;
 use super::shader::Checked;
@@ -7,8 +7,8 @@ use crate::frame::{Face, Pass};
 use crate::language;
 use crate::shader::{BindingKind, PASS_SET, ShaderInterface, Variant};
 
-/// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
-/// shader as it is compiled without, as `variant`; what is wrong with that was reported.
+/// Reports images that a pass reads at its own position, if its shader compiled for local reads can't read them so.
+/// `interface`: the shader compiled without local reads, as `variant`; mistakes in it are reported already.
 pub(super) fn check(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -21,7 +21,7 @@ pub(super) fn check(
     let read = |sample: &&language::Sample| {
         let name = &sample.binding.text;
         let sampled = lowered.sampled.iter().find(|sampled| sampled.binding == *name);
-        // Depth and single samples are read from memory, whatever the device.
+        // Depth and single samples are read from memory on every device.
         sampled.is_some_and(|sampled| {
             let image = resources.image(sampled.image);
             let color = image.is_some_and(|image| !image.image.format.is_depth());

@@ -1,10 +1,10 @@
-//! What is repeated, or comes with a fragment that is used several times, is written once: so each mistake in it is said
-//! once.
+//! Repeated declarations, and those of a fragment that is used several times, are written once: so each mistake in them is
+//! reported once.
 
 use crate::base::{Diagnostic, Span};
 use std::collections::HashMap;
 
-/// What was said already, by place and wording, and of which of all that come of one declaration.
+/// Mistakes that were reported already, by place and wording, each with the number of the item that it was reported for.
 #[derive(Default)]
 pub(super) struct Said {
     by: HashMap<(Span, String), u32>,
@@ -12,8 +12,8 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// Leaves out of the mistakes of one image, buffer or pass, which stand in `errors` from `start` on, those that another
-    /// of the same declaration has: they have the same place and the same words but for names and numbers.
+    /// Removes repeated mistakes of one image, buffer or pass, which stand in `errors` from `start` on: those that another item
+    /// of the same declaration has. They have the same place and the same words but for names and numbers.
     pub(super) fn once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         if errors.len() == start {
             return;
@@ -26,7 +26,7 @@ impl Said {
         }));
     }
 
-    /// The same of mistakes of which each is of another image, buffer or pass.
+    /// Removes repeated mistakes as [`Said::once`] does, where each mistake belongs to another image, buffer or pass.
     pub(super) fn each_once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         let new: Vec<Diagnostic> = errors.drain(start..).collect();
         for error in new {
@@ -37,7 +37,7 @@ impl Said {
     }
 }
 
-/// A message without what stands in backticks, and without digits.
+/// A message without its quotes in backticks, and without digits.
 fn wording(message: &str) -> String {
     let outside = message.split('`').step_by(2);
     outside.flat_map(str::chars).filter(|c| !c.is_ascii_digit()).collect()

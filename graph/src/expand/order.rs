@@ -20,7 +20,7 @@ struct Check<'a> {
     resources: &'a Resources<'a>,
     states: &'a [State],
     writers: Writers,
-    /// What holds something by now. All that was reported as holding nothing does: once is enough.
+    /// The parts written so far, by resource. A part that was reported as unwritten counts as written: one report is enough.
     written: Vec<Written>,
     errors: &'a mut Vec<Diagnostic>,
 }
@@ -96,7 +96,7 @@ impl Check<'_> {
         if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
     }
 
-    /// Demands that something holds what `reader` can read.
+    /// Demands that the part that `reader` reads was written.
     fn needs(&mut self, position: usize, read: &Read, reader: &str) {
         let of = read.resource;
         let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
@@ -166,13 +166,13 @@ impl Check<'_> {
             return waits::report(self.resources, &circle);
         }
         let below = &self.resources.pipeline.passes[writer.position].name.text;
-        // Of what is repeated none can be moved by itself.
+        // One repetition can't be moved by itself.
         if self.named_at(writer.position) == self.named_at(position) {
             let help = "a repetition can read only what repetitions with lower numbers wrote";
             return wrong.label(writer.span, format!("first written here, by `{below}`")).help(help);
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
-        // Further up it would itself read what nothing has written.
+        // Further up, the writer itself would read a part that nothing has written.
         let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.resources, pass));
         if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
@@ -188,7 +188,7 @@ impl Check<'_> {
         wrong.help(format!("move pass `{below}` up: the order of passes gives them their meaning"))
     }
 
-    /// Shows where passes were removed that may have written what is missing.
+    /// Shows where passes were removed that may have written the missing part.
     fn removed(&self, wrong: Diagnostic, name: &str) -> Diagnostic {
         let removed = &self.resources.pipeline.removed;
         let named = removed.iter().filter(|pass| pass.texts.iter().any(|text| **text == *name));
@@ -197,13 +197,13 @@ impl Check<'_> {
         })
     }
 
-    /// Demands that a target holds something that a draw can be added to.
+    /// Demands that a target has contents that a draw can be added to.
     fn continues(&mut self, position: usize, pass: &Pass, write: &Write, clear: &str) {
         let Some(cell) = self.missing(write.resource, &write.cells, 0) else { return };
         let what = self.words(write.resource, &write.cells, cell);
         let name = &self.resources.name(write.resource).text;
         let layers = write.cells.layers.clone();
-        // Shaders choose no layer, so what is drawn lands in the first.
+        // Shaders choose no layer, so draws land in the first.
         let several = layers.len() > 1;
         // Which layer is meant was asked already.
         let here = |error: &Diagnostic| error.labels.first().is_some_and(|label| label.span == write.span);

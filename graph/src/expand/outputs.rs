@@ -1,4 +1,4 @@
-//! What leaves the frame: the pipeline's outputs, and images that are dumped.
+//! Outputs of the frame: the pipeline's outputs, and images that are dumped.
 
 use super::inputs::Inputs;
 use super::resources::Resources;

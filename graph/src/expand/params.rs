@@ -60,7 +60,7 @@ pub(super) fn give(
     given
 }
 
-/// Values as the file has them, for what the embedding program records: no block says their types.
+/// Values as the file has them, for passes that the embedding program records: no block says their types.
 pub(super) fn as_written(pass: &language::Pass) -> Vec<(Arc<str>, ParamValue)> {
     pass.params.iter().map(|param| (param.name.text.clone(), param.value.value)).collect()
 }

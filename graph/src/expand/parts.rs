@@ -58,7 +58,7 @@ pub(super) fn range(resources: &Resources<'_>, part: &ImagePart, errors: &mut Ve
     Subresources { aspects, base_mip, mips, base_layer, layers }
 }
 
-/// First and count of what is selected of `all`.
+/// First and count of the selected ones of `all`.
 fn selected(
     image: &Image,
     selection: Selection,

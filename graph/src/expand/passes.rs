@@ -1,4 +1,4 @@
-//! Passes of the frame: what each does with which parts, and what its shader is given.
+//! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
 use super::resources::Resources;
 use super::shader::{self, Checked};
@@ -11,8 +11,8 @@ use crate::language::{self, StandIn, Work as Described};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
 
-/// The pass as it runs, checked against its shader. Of a shader that can't be had nothing is known: mistakes were
-/// reported then, and what it would write counts as written.
+/// The pass as it runs, checked against its shader. A shader that can't be had is unknown: mistakes were reported then,
+/// and the targets that the pass would write count as written.
 pub(super) fn lower(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -51,7 +51,7 @@ pub(super) fn lower(
     lowered
 }
 
-/// The pass without what its shader's parameters are. Stages, and what is done with storage, are the shader's.
+/// The pass without its shader's parameters. Stages, and accesses to storage, are the shader's.
 pub(super) fn draft(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -140,8 +140,8 @@ fn transferred(resources: &Resources<'_>, pass: &language::Pass, lowered: &mut P
     }
 }
 
-/// What runs in place of a pass that is off, if its targets must be filled all the same. The first has the name of the
-/// pass, others a number beside it.
+/// The passes that run in place of a pass that is off, if its targets must be filled all the same. The first has the name
+/// of the pass, others a number beside it.
 pub(super) fn stand_ins(
     resources: &Resources<'_>,
     pass: &language::Pass,

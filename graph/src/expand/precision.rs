@@ -1,8 +1,8 @@
-//! Formats by policy: what images of the formats `Color` and `Depth` become, if the pipeline says how exact they are to be.
+//! Formats by policy: the formats of `Color` and `Depth` images, if the pipeline says how exact they are to be.
 //!
-//! Only images that passes of the frame alone draw and sample: what comes in, leaves, is a storage image, or is copied to or
-//! from buffers or by custom passes has the usual format, which others may rely on. Images that follow each other, and
-//! those that are copied texel for texel, have one format. Colour keeps its alpha, unless its format has none.
+//! Policies apply only to images that passes of the frame alone draw and sample. An image that comes in, leaves, is a
+//! storage image, or is copied to or from buffers or by custom passes has the usual format: others may rely on it. Images
+//! that follow each other, or are copied texel for texel, have one format. Colour keeps its alpha, unless its format has none.
 
 use super::resources::Resources;
 use super::state::State;
@@ -12,8 +12,8 @@ use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
 
-/// What a pipeline's words make of an image of the format `usual`, if another one. `range`: how far the scene reaches that is
-/// drawn into it as depth, in near distances.
+/// The format that a pipeline's policy wants in place of `usual`. `range`: how far the scene reaches that is drawn into the
+/// image as depth, in near distances.
 fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range: f64) -> Wanted {
     let pipeline = resources.pipeline;
     let policy = match described {
@@ -39,13 +39,13 @@ fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range
     }
 }
 
-/// What a pipeline's words make of an image's format.
+/// The format that a pipeline's policy wants for an image.
 enum Wanted {
-    /// Nothing else than without them.
+    /// The usual format, as without a policy.
     Usual,
-    /// The format that they name.
+    /// The format that the policy names.
     Asked(Format, ChosenFormat),
-    /// Depth in a finer format, since the scene reaches too far for the one that they name.
+    /// Depth in a finer format, since the scene reaches too far for the format that the policy names.
     Finer { format: Format, too_coarse: Format, choice: ChosenFormat },
 }
 
@@ -64,9 +64,9 @@ fn reach(format: Format) -> f64 {
     }
 }
 
-/// Gives images the formats that the pipeline's words make of them. `states` are those of the pipeline's passes. Says of
-/// images whose colour must stay as it is, why, and of depth that takes more bits than it was asked to. `depth_range` is that of
-/// the scene's [`Facts`](crate::language::Facts).
+/// Gives images the formats of the pipeline's policies. `states` are those of the pipeline's passes. Returns remarks on
+/// images whose colour must keep its format, with the reason, and on depth that takes more bits than were asked for.
+/// `depth_range` is that of the scene's [`Facts`](crate::language::Facts).
 pub(super) fn choose(
     depth_range: Option<f64>,
     resources: &mut Resources<'_>,
@@ -102,7 +102,7 @@ pub(super) fn choose(
                 Wanted::Finer { format, too_coarse, choice } => Some((described, format, choice, Some(too_coarse))),
             }
         });
-        // All that is in one group has one format; what stands in it first decides.
+        // All images of a group have one format; the first of them decides.
         let Some((described, format, choice, too_coarse)) = of_group.into_iter().next() else { continue };
         let no_alpha = format.components() < choice.usual.components() && !format.is_depth();
         let alpha = group.iter().find_map(|at| keeps_alpha(&pipeline.images[*at as usize])).filter(|_| no_alpha);
@@ -183,7 +183,7 @@ fn keeps_alpha(described: &language::Image) -> Option<Hindrance> {
     Some(Hindrance { why, span: described.format.span })
 }
 
-/// For each image, what relies on its very format, if anything does.
+/// For each image, the use that relies on its very format, if there is one.
 fn fixed(resources: &Resources<'_>, states: &[State], outputs: &[Output]) -> Vec<Option<Hindrance>> {
     let lives = resources.images.iter().map(|image| {
         let image = &image.as_ref()?.image;

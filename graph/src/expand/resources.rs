@@ -1,4 +1,4 @@
-//! Images and buffers of the frame, each from what the file says and what it follows.
+//! Images and buffers of the frame, each from its declaration and the image or buffer that it follows.
 
 use super::follow::{follow, follow_all};
 use super::{fills, images, states};
@@ -55,7 +55,7 @@ impl<'a> Resources<'a> {
         Resources { pipeline, images, buffers }
     }
 
-    /// What the file says of an image.
+    /// The declaration of an image in the file.
     pub(super) fn declared(&self, index: ImageIndex) -> &'a language::Image {
         &self.pipeline.images[index.0 as usize]
     }
@@ -142,7 +142,7 @@ fn bytes(
     rounded
 }
 
-/// What the file says of the lifetime of each image, then of each buffer: its own, or that of the one that it follows.
+/// The lifetime in the file of each image, then of each buffer: its own, or that of the image or buffer that it follows.
 fn lifetimes(Pipeline { images, buffers, .. }: &Pipeline) -> Vec<Option<&Spanned<Described>>> {
     let of_images = images.iter().map(|image| &image.lifetime);
     let all: Vec<_> = of_images.chain(buffers.iter().map(|buffer| &buffer.lifetime)).collect();
@@ -156,7 +156,7 @@ fn lifetimes(Pipeline { images, buffers, .. }: &Pipeline) -> Vec<Option<&Spanned
     follow_all(&all, next, |own, followed| followed.or(Some(*own)))
 }
 
-/// How long contents live that are declared so at `own`; `kept` is what they follow in the end.
+/// The lifetime that is declared at `own`; `kept` is the lifetime that it follows in the end.
 fn lifetime(
     own: Span,
     kept: Option<&Spanned<Described>>,
@@ -164,7 +164,7 @@ fn lifetime(
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Lifetime> {
     let value = kept?;
-    // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
+    // A mistake in a followed lifetime is shown at the follower, too: the lifetime may mean something else there.
     let here = |span: Span| if value.span == own { span } else { own };
     let initial = |fill: Option<Spanned<language::Fill>>, errors: &mut Vec<Diagnostic>| {
         let Some(fill) = fill else { return Some(fills::zero(of.format)) };

@@ -1,4 +1,4 @@
-//! Whether what draws can draw turned pictures, as far as its shader tells.
+//! Whether passes that draw can draw turned pictures, as far as their shaders tell.
 
 use crate::frame::Work;
 use crate::shader::{ShaderInterface, Unturned};

@@ -1,4 +1,4 @@
-//! Images that a shader samples: the parts that the pass gives, against what the shader declares.
+//! Images that a shader samples: the parts that the pass gives, against the shader's declarations.
 
 use super::images::FrameImage;
 use super::parts::{self, Cells};
@@ -15,7 +15,7 @@ use crate::vulkan::{AddressMode, Aspects, Component, Dimension, Filter, ImageSha
 #[derive(Clone, Copy)]
 struct Declared {
     shape: ImageShape,
-    /// Whether the declaration is what the pass makes it.
+    /// Whether the shader leaves the declared type to the pass.
     adapts: bool,
     /// Whether it is read at the fragment's own position only, by its declaration.
     input: bool,
@@ -88,7 +88,7 @@ pub(super) fn lower(
     })
 }
 
-/// What the file chooses, else a sampler that ends at the image's edges and takes the nearest mip level.
+/// The sampler that the file chooses, else one that ends at the image's edges and takes the nearest mip level.
 fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filter) -> Sampler {
     // Where a shader that adapts reads single samples there is nothing between them.
     if texture.is_some_and(|texture| texture.multisampled) {
@@ -102,7 +102,7 @@ fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filte
     }
 }
 
-/// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
+/// Reports images that don't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -153,7 +153,7 @@ pub(super) fn check<'i>(
     misspelt
 }
 
-/// Reports what conditions leave out and the shader wouldn't sample anyway. `whole` is what it is with all of them.
+/// Reports samples that conditions leave out and that the shader wouldn't sample anyway. `whole`: the shader with all samples.
 pub(super) fn check_left_out(pass: &language::Pass, whole: Option<&ShaderInterface>, errors: &mut Vec<Diagnostic>) {
     let (Some(whole), Some(shader)) = (whole, pass.shader()) else { return };
     for language::LeftOut { binding, .. } in &pass.left_out {
@@ -198,7 +198,7 @@ impl Check<'_> {
         }
     }
 
-    /// Components are what the shader reads.
+    /// The part has the component type that the shader reads.
     fn component(&self, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let stencil = self.cells.planes == Aspects::STENCIL;
@@ -258,7 +258,7 @@ impl Check<'_> {
         }
     }
 
-    /// Only what has depth can be drawn again for it.
+    /// `DepthOnly` needs an image with depth: only depth can be drawn again.
     fn depth_only(&self, errors: &mut Vec<Diagnostic>) {
         let image = &self.image.image;
         if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.cells.planes == Aspects::STENCIL) {
@@ -321,7 +321,7 @@ impl Check<'_> {
         }
     }
 
-    /// Of what both eyes have side by side the shader must know which half.
+    /// If both eyes' parts lie side by side, the shader must ask for its half.
     fn half(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         if interface.asks_part.iter().any(|asked| **asked == **name) {

@@ -1,4 +1,4 @@
-//! Values of settings: the user's choice where it is allowed, else what a file or a preset chose, else the default.
+//! Values of settings: the user's choice where it is allowed, else the choice of a file or a preset, else the default.
 
 use crate::base::{Diagnostic, shown_number, suggestion};
 use crate::expression::Value;

@@ -1,4 +1,4 @@
-//! A pass and its shader meet: shaders are found, and what they need is given.
+//! A pass and its shader meet: shaders are found, and their needs are given.
 
 use super::work;
 use crate::base::{Diagnostic, Sources, suggestion};
@@ -66,7 +66,7 @@ impl<'s> Checked<'s> {
         self.shaders.draw_shader(shader, draw, variant)
     }
 
-    /// What was found of a shader; a problem is reported once.
+    /// The result of looking up a shader; `None` after a problem, which is reported once.
     fn known<T>(
         &mut self,
         shader: &Name,
@@ -87,8 +87,8 @@ impl<'s> Checked<'s> {
         }
     }
 
-    /// What the draw source provides (nothing, for a dispatch), the first time that a shader draws this; then it is
-    /// known to fit or not.
+    /// The interface that the draw source provides (an empty one, for a dispatch), the first time that a shader draws this.
+    /// Later it is known to fit or not.
     pub(super) fn brought_along_first(&mut self, pass: &language::Pass) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;
         let path = self.find(pass, &mut Vec::new())?;
@@ -97,7 +97,7 @@ impl<'s> Checked<'s> {
     }
 }
 
-/// The shader that a pass names, and what it draws with it; `None`: it is a compute shader.
+/// The shader that a pass names, and the draw; a draw of `None`: it is a compute shader.
 fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
     match &pass.work {
         Work::Draw { shader, draw } => Some((shader, Some(work::draw(draw)))),
@@ -120,7 +120,7 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
         }
         ShaderProblem::DoesNotCompile { messages } => {
             let quotes = messages.iter().filter_map(|message| message.quote.clone()).collect();
-            // What is said with its line needs no further words.
+            // Messages that quote their line need no further words.
             let rest = messages.iter().filter(|message| message.quote.is_none()).map(ToString::to_string);
             let rest = rest.collect::<Vec<_>>().join("\n");
             let broken = Diagnostic::new(span, format!("shader `{name}` doesn't compile"));
@@ -131,7 +131,7 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
     }
 }
 
-/// Reports what set 0 of the shader holds and the pass doesn't give, or only under a misspelt name.
+/// Reports bindings in set 0 of the shader that the pass doesn't give, or only under a misspelt name.
 pub(super) fn missing(
     pass: &language::Pass,
     interface: &ShaderInterface,
@@ -165,7 +165,7 @@ pub(super) fn missing(
     }
 }
 
-/// What a binding of the pass's own set is, what it is given, and the field of a pass that gives it. `None`: no field does.
+/// The kind of a binding in the pass's own set, the thing that it takes, and the field that gives the thing. `None`: no field.
 fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static str)> {
     match &binding.kind {
         BindingKind::UniformBlock(_) if binding.name == PARAMS => None,
@@ -178,7 +178,7 @@ fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static s
     }
 }
 
-/// Of a name that a pass gives in the wrong field: what to do, if the shader declares it as something that another field
+/// Of a name that a pass gives in the wrong field: the help, if the shader declares it as something that another field
 /// gives. `Some(None)`: no field can give it, which is reported with the shader.
 pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Option<Option<String>> {
     let mut of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name == name);
@@ -190,7 +190,7 @@ pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Opt
     Some(Some(format!("`{name}` is {kind} in the shader: give it {thing} in `{field}`")))
 }
 
-/// What components are, in words.
+/// The component type in words.
 pub(super) fn component_words(component: Component) -> &'static str {
     match component {
         Component::Float => "floating point",
@@ -199,7 +199,7 @@ pub(super) fn component_words(component: Component) -> &'static str {
     }
 }
 
-/// What an image is, in words.
+/// The image type in words.
 pub(super) fn shape_words(shape: ImageShape) -> &'static str {
     match (shape.dimension, shape.arrayed) {
         (Dimension::D1, _) => "one-dimensional",

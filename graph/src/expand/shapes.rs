@@ -1,4 +1,4 @@
-//! Shape, layers and mip levels of an image, and what can't go together.
+//! Shape, layers and mip levels of an image, and their contradictions.
 
 use crate::base::Diagnostic;
 use crate::frame::Image;
@@ -29,7 +29,7 @@ const fn full(extent: [u32; 3]) -> u32 {
     (width | height | depth).ilog2() + 1
 }
 
-/// A mistake in a property of an image, with what decided that.
+/// A mistake in a property of an image, with the decision that made the property.
 fn at<T>(property: &Decided<T>, message: String) -> Diagnostic {
     Diagnostic::new(property.span, message).remark(property.remark())
 }

@@ -4,15 +4,15 @@ use crate::frame::Pass;
 
 /// A pass as it runs in this frame, or doesn't.
 pub(super) enum State {
-    /// It runs.
+    /// The pass runs.
     On(Pass),
-    /// It is off.
+    /// The pass is off.
     Off {
-        /// What it would do.
+        /// The pass as it would run.
         would: Pass,
-        /// What runs instead.
+        /// The passes that run instead.
         stand_ins: Vec<Pass>,
-        /// Why it is off.
+        /// Why the pass is off.
         because: String,
     },
 }

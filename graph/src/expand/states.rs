@@ -1,4 +1,4 @@
-//! States in which images and buffers come in and go out: what the words mean.
+//! States in which images and buffers come in and go out: the meaning of the words.
 
 use crate::base::Diagnostic;
 use crate::language::{State as Described, StateWord};
@@ -22,7 +22,7 @@ pub(super) fn lower(
     None
 }
 
-/// What a word stands for.
+/// The state that a word stands for.
 fn meaning(word: StateWord, format: Option<Format>, when: When) -> State {
     let depth = format.is_some_and(Format::is_depth);
     let (stages, accesses, layout) = match word {

@@ -1,4 +1,4 @@
-//! Images and buffers that a shader reads and writes by itself, against what it declares.
+//! Images and buffers that a shader reads and writes by itself, against its declarations.
 
 use super::resources::Resources;
 use super::shader::{self, PARAMS, component_words, shape_words};
@@ -10,7 +10,7 @@ use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface};
 use crate::vulkan::{Component, Format, ImageShape, Numeric, Stages, Subresources};
 
-/// The stages that use the shader's resource `name`; of what the embedding program records, those that may.
+/// The stages that use the shader's resource `name`; in passes that the embedding program records, the stages that may.
 pub(super) fn stages(interface: Option<&ShaderInterface>, name: &str, raster: bool) -> Stages {
     let Some(interface) = interface else {
         let drawn = Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER;
@@ -23,7 +23,7 @@ fn of_pass<'a>(interface: &'a ShaderInterface, name: &str) -> Option<&'a Binding
     interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name == name)
 }
 
-/// Whether a shader may read and write what it declares so.
+/// Whether a shader may read, and may write, a binding of this kind.
 fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
     match kind {
         BindingKind::StorageImage { readable, writable, .. } | BindingKind::StorageBlock { readable, writable } => {
@@ -33,8 +33,8 @@ fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
     }
 }
 
-/// What is done with a storage image or buffer: what the file says, else what the shader's declaration allows. Without
-/// either, it is written. What an earlier frame left is only read.
+/// Whether a storage image or buffer is read and written: as the file says, else as the shader's declaration allows. Without
+/// either, it is written. Contents of an earlier frame are only read.
 fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
     if storage.part.previous().is_some() {
         return (true, false);
@@ -82,7 +82,7 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
     of_pass.filter(move |binding| fits(&binding.kind)).map(|binding| &*binding.name)
 }
 
-/// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
+/// Reports storage that doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
 pub(super) fn check<'i>(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -169,7 +169,7 @@ fn access_fits(
         StorageAccess::Write | StorageAccess::ReadWrite if !writable => {
             ("only reads", "remove `readonly` in the shader, or say `Read`")
         }
-        // What is written in some places keeps the others: a shader that can't read may say `ReadWrite`.
+        // A write in some places keeps the others: a shader that can't read may say `ReadWrite`.
         StorageAccess::Read | StorageAccess::Write | StorageAccess::ReadWrite => {
             if !readable && access.value == StorageAccess::Read {
                 ("doesn't read", "remove `writeonly` in the shader")

@@ -7,7 +7,7 @@ use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use crate::vulkan::{Component, Dimension, ImageShape};
 
-/// Reports what the shader wants and the draw source doesn't provide.
+/// Reports inputs that the shader wants and the draw source doesn't provide.
 pub(super) fn check(
     shaders: &mut Checked<'_>,
     pass: &language::Pass,
@@ -63,7 +63,7 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
     }
 }
 
-/// A suggestion for what the shader names, not the pipeline.
+/// A suggestion for a name in the shader, not in the pipeline.
 fn in_the_shader(help: Option<String>) -> Option<String> {
     help.map(|help| format!("in the shader: {help}"))
 }

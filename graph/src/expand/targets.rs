@@ -1,4 +1,4 @@
-//! What passes draw into: formats that fit, targets that agree, and shaders that feed them.
+//! Targets of passes: formats that fit, targets that agree, and shaders that feed them.
 
 use super::images::FrameImage;
 use super::resources::Resources;
@@ -61,7 +61,7 @@ pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut
     }
 }
 
-/// What an image holds, in words.
+/// The kind of values that an image holds, in words.
 fn kind(image: &FrameImage) -> &'static str {
     match image.image.format {
         format if format.is_depth() => "depth",

@@ -1,4 +1,4 @@
-//! Copies, blits and fills: what goes from where to where must fit.
+//! Copies, blits and fills: the source must fit the target.
 
 use super::fills;
 use super::parts::{self, Cells};

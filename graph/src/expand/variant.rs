@@ -1,4 +1,4 @@
-//! How a pass's shader is compiled: its declarations of what it samples may follow what the pass gives.
+//! How a pass's shader is compiled: its declarations of sampled images may follow the images that the pass gives.
 
 use super::parts::{self, Cells};
 use super::resources::Resources;
@@ -9,7 +9,7 @@ use crate::language::{self, Face};
 use crate::shader::Variant;
 use crate::vulkan::{Aspects, Component, ImageShape};
 
-/// The variant of its shader that a pass needs. What isn't known is left out: mistakes are reported elsewhere.
+/// The variant of its shader that a pass needs. Unknown images are left out: mistakes are reported elsewhere.
 pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
     let texture = |sample: &language::Sample| {
         let image = &resources.image(sample.part.image.index)?.image;
@@ -34,7 +34,7 @@ pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
     }
 }
 
-/// What a pass samples of which only a part is in use.
+/// Samples of a pass whose image is only partly in use.
 pub(super) fn in_part<'p>(
     resources: &'p Resources,
     pass: &'p language::Pass,
@@ -52,8 +52,8 @@ fn covers_samples(resources: &Resources<'_>, pass: &language::Pass) -> bool {
     pass.alpha_to_coverage.is_some() && pass.color.iter().any(several)
 }
 
-/// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
-/// that could tell.
+/// The variant that its shader would have if no condition left anything out; `None` where a sample that is left out has no
+/// value that could tell.
 pub(super) fn with_all(resources: &Resources<'_>, pass: &language::Pass) -> Option<Variant> {
     let left_out = pass.left_out.iter().map(|left_out| left_out.sample.clone());
     let left_out: Vec<language::Sample> = left_out.collect::<Option<_>>()?;
@@ -61,13 +61,13 @@ pub(super) fn with_all(resources: &Resources<'_>, pass: &language::Pass) -> Opti
     Some(of(resources, &whole))
 }
 
-/// As what a shader that leaves it to the pass declares a part of an image.
+/// The texture type of a part of an image, in a shader that leaves the type to the pass.
 fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
     let stencil = cells.planes == Aspects::STENCIL;
     let component = if stencil { Component::Uint } else { Component::of(image.format) };
     let single_samples = match face {
         Face::Samples => true,
-        // What shows nothing but what is there needs no draws for it.
+        // Single samples need no further draw.
         Face::Plain => image.format.is_depth(),
         Face::Resolved | Face::DepthOnly => false,
     };

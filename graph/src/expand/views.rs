@@ -4,8 +4,8 @@ use crate::frame::{Remark, ViewIndex};
 use crate::language::{Draw, Pass, Pipeline, Work};
 use std::sync::Arc;
 
-/// Passes that draw the scene for one view into an image for another view, of another size: what the camera sees is stretched
-/// over it. Nothing forbids it, and a full-screen pass that only copies means it.
+/// Remarks on passes that draw the scene for one view into an image for another view, of another size: the camera's picture
+/// is stretched over the image. This is allowed, and a full-screen pass that only copies means it.
 pub(super) fn remarks(pipeline: &Pipeline) -> Vec<Remark> {
     pipeline.passes.iter().filter(|pass| pass.off.is_none()).filter_map(|pass| remark(pipeline, pass)).collect()
 }

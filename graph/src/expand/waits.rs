@@ -11,7 +11,7 @@ use std::collections::{HashMap, VecDeque};
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;
 
-/// One pass needs what another writes.
+/// A dependency of a pass on a part that another pass writes.
 #[derive(Clone, Copy)]
 pub(super) struct Need {
     /// The pass that needs it.
@@ -22,7 +22,7 @@ pub(super) struct Need {
     pub(super) writer: usize,
 }
 
-/// The circle that `first`, a read of what a pass further below writes, is part of; `None` if that pass doesn't depend
+/// The circle that contains `first`, a read of a part that a pass further below writes; `None` if that pass doesn't depend
 /// on the reader.
 pub(super) fn circle(resources: &Resources<'_>, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
     let mut found: HashMap<usize, Need> = HashMap::new();

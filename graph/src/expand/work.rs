@@ -1,4 +1,4 @@
-//! What passes do: draws, dispatches and their groups, copies, blits, fills; and whether they can.
+//! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
 use super::resources::Resources;
 use super::{fills, parts, transfers};
@@ -9,7 +9,7 @@ use crate::ron::{Name, Spanned};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Filter};
 
-/// What `draw` comes to in the frame.
+/// The draw of the frame that `draw` becomes.
 pub(super) fn draw(draw: &language::Draw) -> Draw {
     match draw {
         language::Draw::Objects(list) => Draw::Objects(*list),
@@ -21,12 +21,12 @@ pub(super) fn draw(draw: &language::Draw) -> Draw {
     }
 }
 
-/// What the pass does. After a mistake it does something like it.
+/// The work of the pass. After a mistake it is something like it.
 pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface: Option<&ShaderInterface>) -> Work {
     let drawn = |draw, shader: &Name| Work::Draw {
         draw,
         shader: shader.text.clone(),
-        // What isn't covered stays as it is.
+        // Samples that aren't covered keep their contents.
         discards: interface.is_some_and(|interface| interface.discards) || pass.alpha_to_coverage.is_some(),
         per_sample: interface.is_some_and(|interface| interface.per_sample),
     };
@@ -76,7 +76,7 @@ fn texels(resources: &Resources<'_>, part: &language::ImagePart) -> [u32; 3] {
     [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
 }
 
-/// Reports what the pass can't do.
+/// Reports work that the pass can't do.
 pub(super) fn check(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -118,7 +118,7 @@ fn counts_fit(
     }
 }
 
-/// Reports a buffer that is too small for what is read there.
+/// Reports a buffer that is too small for the bytes that are read there.
 pub(super) fn holds(
     resources: &Resources<'_>,
     buffer: &language::BufferRef,

@@ -1,4 +1,4 @@
-//! What a pass accesses: its images and buffers, which part of each, and whether that is read and written.
+//! Accesses of a pass: its images and buffers, which part of each, and whether that part is read and written.
 
 use super::{
     BufferRole, BufferUse, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
@@ -20,19 +20,19 @@ pub(crate) enum Access<'p> {
     ForwardTarget(ImageIndex, Span),
 }
 
-/// What an access does with one part.
+/// The effect of an access on one part.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effect {
-    /// The part of an image: one plane of what is sampled or tested.
+    /// The part of an image: one plane, if it is sampled or tested.
     pub(crate) range: Subresources,
-    /// Whether it needs what was there before.
+    /// Whether the access needs the earlier contents.
     pub(crate) reads: bool,
-    /// Whether it changes it.
+    /// Whether the access changes the contents.
     pub(crate) writes: bool,
 }
 
 impl Pass {
-    /// All that it accesses: what is sampled, storage images, attachments, buffers, transfers, then what is forwarded.
+    /// All accesses of the pass: sampled images, storage images, attachments, buffers, transfers, then forwarded images.
     #[inline]
     pub(crate) fn accesses(&self) -> impl Iterator<Item = Access<'_>> {
         let images = self.sampled.iter().map(Access::Sampled).chain(self.storage.iter().map(Access::Storage));
@@ -47,8 +47,8 @@ impl Pass {
         images.chain(attachments).chain(others).chain(forwarded.into_iter().flatten())
     }
 
-    /// Whether it relies on the very format of what it accesses: a shader or a program is told the layout of the texels, or
-    /// they are copied to or from a buffer, or from one format into another. `format`: that of an image.
+    /// Whether the pass relies on the very format of an accessed image: a shader or a program is told the layout of the texels,
+    /// or they are copied to or from a buffer, or from one format into another. `format`: that of an image.
     pub(crate) fn relies_on_format(&self, access: &Access<'_>, format: impl Fn(ImageIndex) -> Option<Format>) -> bool {
         let is_buffer = |used: &TransferUse| matches!(used.resource, Resource::Buffer(_));
         let converts = || self.moved_images().is_some_and(|[from, to]| format(from) != format(to));
@@ -59,7 +59,7 @@ impl Pass {
         }
     }
 
-    /// The images of which it copies, scales or forwards the first into the second.
+    /// Two images, if the pass copies, scales or forwards the first into the second.
     pub(crate) fn moved_images(&self) -> Option<[ImageIndex; 2]> {
         match (&self.work, &self.transfers[..]) {
             (Work::Forward { from, to, .. }, _) => Some([*from, *to]),
@@ -144,7 +144,7 @@ impl Access<'_> {
         matches!(self, Access::Color(_) | Access::Depth(_))
     }
 
-    /// Calls `visit` with what `pass`, whose access it is, does with each part. `image`: the one of an access to an image.
+    /// Calls `visit` with the effect on each part. `pass`: the pass of this access. `image`: the accessed image, if it is one.
     #[inline]
     pub(crate) fn for_each_effect(&self, pass: &Pass, image: Option<&Image>, mut visit: impl FnMut(Effect)) {
         let (reads, writes) = match (*self, image) {

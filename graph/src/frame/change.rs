@@ -1,33 +1,33 @@
-//! What files did to the pipeline that they extend.
+//! Changes that files made to the pipeline that they extend.
 
 use crate::base::Span;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Something that a file did to a pipeline.
+/// A change that a file made to a pipeline.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Action {
-    /// It begins with what another pipeline says.
+    /// The file extends another pipeline.
     Extends {
         /// The path of that one's file, from the folder of the pipeline on.
         file: Arc<str>,
     },
-    /// It takes what an extension says.
+    /// The file applies an extension.
     Extension {
         /// The path of the extension's file, from the folder of the pipeline on.
         file: Arc<str>,
     },
     /// It adds to a list.
     Add {
-        /// What kind of thing.
+        /// The kind of the entries.
         of: Kind,
         /// Their names.
         names: Vec<Arc<str>>,
     },
     /// It gives fields other values, or takes fields away.
     Set {
-        /// What kind of thing.
+        /// The kind of the entry.
         of: Kind,
         /// Its name.
         name: Arc<str>,
@@ -38,7 +38,7 @@ pub enum Action {
     },
     /// It removes something.
     Remove {
-        /// What kind of thing.
+        /// The kind of the entry.
         of: Kind,
         /// Its name.
         name: Arc<str>,
@@ -57,7 +57,7 @@ pub enum Action {
     },
 }
 
-/// What a pipeline's lists hold.
+/// The kind of the entries of one of a pipeline's lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -82,7 +82,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What it is called.
+    /// The kind's name in messages.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -98,7 +98,7 @@ impl Kind {
         }
     }
 
-    /// What several are called.
+    /// The plural of the kind's name in messages.
     #[must_use]
     pub const fn plural(self) -> &'static str {
         match self {
@@ -131,12 +131,12 @@ pub enum Where {
     End,
 }
 
-/// Something that a file did to a pipeline, and where it says so.
+/// A change that a file made to a pipeline, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
-    /// Where.
+    /// The place in the file.
     pub span: Span,
-    /// What.
+    /// The change.
     pub action: Action,
 }
 

@@ -1,15 +1,15 @@
-//! Which draws keep what is in their targets, and which replace every texel, so that nothing has to be there before.
+//! Which draws keep the contents of their targets, and which replace every texel, so that earlier contents don't matter.
 
 use super::{Blend, ColorTarget, DepthTarget, Draw, Image, Pass, StencilState, Work};
 use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};
 
 impl Pass {
-    /// Whether `target`, a part of `image`, needs what was there before: it is neither cleared nor covered.
+    /// Whether `target`, a part of `image`, needs its earlier contents: it is neither cleared nor covered.
     pub(crate) fn keeps_color(&self, target: &ColorTarget, image: &Image) -> bool {
         target.clear.is_none() && !self.covers_color(target, image)
     }
 
-    /// Whether one plane of `target`, a part of `image`, needs what was there before.
+    /// Whether one plane of `target`, a part of `image`, needs its earlier contents.
     pub(crate) fn keeps_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
         let clears = match plane == Aspects::STENCIL {
             true => target.stencil.is_some_and(|stencil| stencil.clear.is_some()),
@@ -18,12 +18,12 @@ impl Pass {
         !clears && !self.covers_plane(target, plane, image)
     }
 
-    /// Whether what it draws into `target`, a part of `image`, replaces every texel.
+    /// Whether the draw into `target`, a part of `image`, replaces every texel.
     fn covers_color(&self, target: &ColorTarget, image: &Image) -> bool {
         target.blend == Blend::Replace && self.reaches_every_texel(image, target.range)
     }
 
-    /// Whether what it draws into one plane of `target`, a part of `image`, replaces every texel.
+    /// Whether the draw into one plane of `target`, a part of `image`, replaces every texel.
     fn covers_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
         let sets = |stencil: StencilState| matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
         let written = if plane == Aspects::STENCIL { target.stencil.is_some_and(sets) } else { target.write };

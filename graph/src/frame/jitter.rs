@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The most frames that [`Jitter::halton`] shifts differently.
 pub const LONGEST: u16 = 256;
 
-/// How what a view's camera sees is shifted from frame to frame.
+/// How the picture of a view's camera is shifted from frame to frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Jitter {

@@ -1,7 +1,7 @@
-//! One flat frame: what a pipeline file says once settings, conditions, facts and sizes are put in.
+//! One flat frame: the contents of a pipeline file once settings, conditions, facts and sizes are put in.
 //!
-//! This is what [`crate::compile`] reads. It still says only *what*: no barrier, layout, load or store operation, resolve
-//! or alias. It is plain data, so an embedding program may also build it without any file.
+//! A frame is the input of [`crate::compile`]. It has no barrier, layout, load or store operation, resolve or alias yet.
+//! It is plain data, so an embedding program may also build it without any file.
 
 mod access;
 pub mod change;
@@ -43,9 +43,9 @@ pub struct Frame {
     pub sources: Arc<Sources>,
     /// The settings in force, by name, as they are shown.
     pub settings: Vec<(Arc<str>, String)>,
-    /// What files did to the pipeline that they extend, in the order in which they did it.
+    /// Changes that files made to the pipeline that they extend, in their order.
     pub changes: Vec<Change>,
-    /// How it is drawn for two eyes: what passes do that draw into images that hold both eyes' parts.
+    /// How the frame is drawn for two eyes, by passes whose targets hold both eyes' parts.
     pub stereo: Stereo,
     /// The views, the main one first. None: one that is the scene's default camera's.
     pub views: Vec<View>,
@@ -57,22 +57,22 @@ pub struct Frame {
     pub passes: Vec<Pass>,
     /// Images and buffers whose last version the frame is made for.
     pub outputs: Vec<Output>,
-    /// Passes, and what they sample, that conditions switched off, and why.
+    /// Passes, and images that passes sample, that conditions switched off, and why.
     pub switched_off: Vec<SwitchedOff>,
-    /// What is allowed and probably not meant.
+    /// Warnings: allowed, but probably a mistake.
     pub remarks: Vec<Remark>,
 }
 
-/// Something about a pass or an image that is allowed and probably not meant.
+/// A warning about a pass or an image: allowed, but probably a mistake.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
     /// The name of the pass or the image.
     pub subject: Arc<str>,
-    /// Where that stands.
+    /// The place of the pass or the image.
     pub span: Span,
-    /// What it is.
+    /// The warning in words.
     pub text: String,
-    /// Whether something else is taken than what was asked for, so that the picture may differ.
+    /// Whether something else is taken than was asked for, so that the picture may differ.
     pub instead: bool,
 }
 
@@ -81,7 +81,7 @@ pub struct Remark {
 pub struct SwitchedOff {
     /// The pass's name.
     pub name: Arc<str>,
-    /// The shader's name for what isn't sampled; `None`: the pass doesn't run.
+    /// The shader's name for the image that isn't sampled; `None`: the pass doesn't run.
     pub sampled: Option<Arc<str>>,
     /// Where the condition stands.
     pub span: Span,

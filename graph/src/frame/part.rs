@@ -1,9 +1,9 @@
-//! Parts of images: what a range means for one image, and what attachments have in common.
+//! Parts of images: the meaning of a range for one image, and the properties that attachments share.
 
 use super::{EyeForm, Image};
 use crate::vulkan::{Aspects, Subresources, extent_at};
 
-/// What all attachments of a pass have in common.
+/// The properties that all attachments of a pass share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TargetShape {
     /// Width, height and depth of the mip level.
@@ -54,7 +54,7 @@ impl Image {
         self.part(a).overlaps(self.part(b))
     }
 
-    /// What `range` of it, one mip level, demands of the attachments beside it.
+    /// The shape that `range` of the image, one mip level, demands of the attachments beside it.
     pub(crate) fn target_shape(&self, range: Subresources) -> TargetShape {
         let Subresources { base_mip, layers, .. } = self.part(range);
         let Image { allocated, eyes, samples, .. } = *self;

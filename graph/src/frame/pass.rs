@@ -1,4 +1,4 @@
-//! Passes of a frame, and what they do.
+//! Passes of a frame, and their work.
 
 use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, Sampled, Storage, TransferUse, ViewIndex};
 use crate::base::Span;
@@ -19,7 +19,7 @@ pub struct Pass {
     pub span: Span,
     /// The view that it draws for.
     pub view: ViewIndex,
-    /// What it does.
+    /// The work of the pass.
     pub work: Work,
     /// Images that its shaders sample.
     pub sampled: Vec<Sampled>,
@@ -39,7 +39,7 @@ pub struct Pass {
     pub inserted: Option<Arc<str>>,
     /// Buffers that it reads or writes by anything but a copy or fill.
     pub buffers: Vec<BufferUse>,
-    /// What a copy, blit, fill or custom pass reads and writes by transfer: source before target.
+    /// Images and buffers that a copy, blit, fill or custom pass reads and writes by transfer: source before target.
     pub transfers: Vec<TransferUse>,
     /// Whether it has an effect that no image or buffer shows: it is never culled.
     pub side_effect: bool,
@@ -72,12 +72,12 @@ impl Pass {
     }
 }
 
-/// What a pass does.
+/// The work of a pass.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Work {
     /// Draws into its attachments.
     Draw {
-        /// What is drawn.
+        /// The geometry.
         draw: Draw,
         /// The shader's name.
         shader: Arc<str>,
@@ -110,7 +110,7 @@ pub enum Work {
         /// The name by which the program knows it.
         callback: Arc<str>,
     },
-    /// Stands in for a pass that is off: `to` takes what `from` holds.
+    /// Stands in for a pass that is off: `to` takes the contents of `from`.
     Forward {
         /// Source.
         from: ImageIndex,
@@ -136,18 +136,18 @@ pub enum Groups {
     },
 }
 
-/// What a raster pass draws.
+/// The geometry of a raster pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Draw {
     /// One of the scene's draw lists.
     Objects(DrawList),
-    /// What casts the sun's shadow, as the sun sees it.
+    /// Objects that cast the sun's shadow, as the sun sees them.
     Casters(Cascade),
     /// The sky, behind everything.
     Sky,
     /// One triangle that covers every pixel.
     FullScreen,
-    /// So many vertices and instances of triangles, whose vertex shader finds its data itself or in the pass's vertex
+    /// Triangles: a number of vertices and instances. The vertex shader finds its data itself or in the pass's vertex
     /// buffers.
     Vertices {
         /// Vertices, or indices if the pass has an index buffer (32 bits each).
@@ -158,11 +158,11 @@ pub enum Draw {
     /// As `Vertices`; the counts stand in the pass's buffer of the role [`BufferRole::Indirect`]: a
     /// `VkDrawIndirectCommand`, or `VkDrawIndexedIndirectCommand` if the pass has an index buffer.
     Indirect,
-    /// What the embedding program records inside the rendering scope, known to it by the pass's shader name.
+    /// Draws that the embedding program records inside the rendering scope. The program knows them by the pass's shader name.
     Custom,
 }
 
-/// One of the parts, by distance from the camera, of what the sun's shadows fall on; each has a shadow map of its own.
+/// One part of the scene that the sun's shadows fall on, by distance from the camera; each part has a shadow map of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cascade {

@@ -25,12 +25,12 @@ pub struct Image {
     /// in use begins in the upper left corner. `None`: the allocated extent is `extent`. Flat, transient images of one mip
     /// level may have one of their own.
     pub allocated: Option<[u32; 2]>,
-    /// By how much what it holds is turned; `extent` and `allocated` are those of the turned picture then. The compiler turns
-    /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given none is.
+    /// The rotation of its contents; `extent` and `allocated` are those of the turned picture then. The compiler turns
+    /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given, no image is turned.
     pub rotation: Rotation,
-    /// How it holds what both eyes have of their own; `None`: it is both eyes' together, or one's. All else that is said of it
-    /// is said of one eye's part then: a flat one of one layer and one mip level, which draws replace for both eyes and which
-    /// is sampled, copied to others of its kind, or filled.
+    /// The form in which it holds both eyes' parts; `None`: both eyes share it, or it is one eye's. Its other properties are
+    /// those of one eye's part then: flat, of one layer and one mip level. Draws replace both eyes' parts, and the image is
+    /// sampled, copied to others of its kind, or filled.
     pub eyes: Option<EyeForm>,
     /// Mip levels, at least 1.
     pub mips: u32,
@@ -42,7 +42,7 @@ pub struct Image {
     /// sample zero, and depth is drawn again for passes that sample it and sample zero where it is copied or leaves the
     /// frame.
     pub resolve: Option<Resolve>,
-    /// If the pipeline has chosen its format, out of several that its purpose allows: what it would be otherwise.
+    /// The format without the pipeline's choice, if the pipeline chose the format out of several that its purpose allows.
     pub chosen: Option<ChosenFormat>,
     /// How long its contents live.
     pub lifetime: Lifetime,
@@ -51,9 +51,9 @@ pub struct Image {
 /// A format that a pipeline has chosen by a policy.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChosenFormat {
-    /// The format without the policy, which does whatever the chosen one does.
+    /// The format without the policy. It serves every purpose of the chosen format.
     pub usual: Format,
-    /// Who says so: "`color: Smallest`".
+    /// The policy in words: "`color: Smallest`".
     pub because: Arc<str>,
 }
 
@@ -100,16 +100,16 @@ pub(crate) fn allocated_extent(part: [u32; 3], allocated: Option<[u32; 2]>) -> [
 /// How several samples of an image become one value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolve {
-    /// How.
+    /// The way.
     pub way: ResolveWay,
-    /// Who says so: "`resolve: Min`".
+    /// The reason in words: "`resolve: Min`".
     pub because: Arc<str>,
 }
 
 /// A way in which several samples become one value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResolveWay {
-    /// Of depth: whatever drew it is drawn again with one sample.
+    /// Of depth: its draws are repeated with one sample.
     DepthOnly,
     /// In one of Vulkan's modes: of colour the average, of integers sample zero, of depth any.
     By(ResolveMode),
@@ -150,16 +150,16 @@ pub enum Lifetime {
     /// Within the frame.
     #[default]
     Transient,
-    /// From frame to frame: a read before the first write finds what the frame before left.
+    /// From frame to frame: a read before the first write finds the contents of the frame before.
     Persistent {
-        /// What the first frame finds.
+        /// Contents before the first frame.
         initial: FillValue,
     },
-    /// Each frame writes it anew; what earlier frames left can be read beside it (`frames_ago`).
+    /// Each frame writes it anew; its contents of earlier frames can be read beside it (`frames_ago`).
     History {
         /// How many frames back it can be read, at least 1.
         frames: u32,
-        /// What stands for frames before the first.
+        /// Contents that stand for frames before the first.
         initial: FillValue,
     },
     /// It belongs to the embedding program, which hands it in for each frame.

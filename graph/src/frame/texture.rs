@@ -1,4 +1,4 @@
-//! Images whose texels come from a file: what a frame says of them, and where the texels come from.
+//! Images whose texels come from a file: their description in a frame, and the source of the texels.
 
 use crate::frame::{Image, Lifetime};
 use crate::vulkan::{Format, Numeric, Shape};
@@ -14,11 +14,11 @@ use std::sync::Arc;
 pub struct TextureFile {
     /// Where it lies, from the folder on in which the frame's files are looked for; parts are divided by `/`.
     pub path: Arc<str>,
-    /// What its values mean.
+    /// The colour space of its values.
     pub color_space: ColorSpace,
 }
 
-/// What the values of a picture's file mean.
+/// The colour space of a picture's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum ColorSpace {
@@ -29,7 +29,7 @@ pub enum ColorSpace {
     Linear,
 }
 
-/// What is known of a picture before its texels are read.
+/// The properties of a picture that are known before its texels are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TextureInfo {
     /// Width and height in texels.
@@ -87,14 +87,14 @@ pub enum TextureProblem {
         /// Why not.
         why: &'static str,
     },
-    /// Nobody was asked to provide textures.
+    /// No provider of textures was given.
     #[error("can't be read: no textures are provided here")]
     NotProvided,
 }
 
 /// Where textures come from: files on disk, or a table in a test.
 pub trait Textures {
-    /// What the file holds, without its texels.
+    /// The properties of the file's picture, without its texels.
     ///
     /// # Errors
     /// [`TextureProblem`] says why it holds no texture.
@@ -165,7 +165,7 @@ impl Image {
     /// An image of one mip level, which holds the picture of a file that is like `info`.
     ///
     /// # Errors
-    /// [`TextureProblem::Size`] if a three-dimensional image is wanted of what is no strip.
+    /// [`TextureProblem::Size`] if a three-dimensional image is wanted of a picture that is no strip.
     pub fn of_file(name: &str, file: TextureFile, info: &TextureInfo, shape: Shape) -> Result<Image, TextureProblem> {
         let [width, height, depth] = info.image_extent(shape)?;
         let flat = Image::new(name, info.format, width, height);

@@ -23,7 +23,7 @@ pub struct Sampled {
     /// The eye whose part is sampled, of an image that holds both eyes' parts. `None`: the pass draws for both eyes, and
     /// samples for each eye the part of that eye.
     pub eye: Option<Eye>,
-    /// What the shader reads of each texel.
+    /// The values that the shader reads of each texel.
     pub face: Face,
     /// The texture type that the shader declares, if the shader leaves the type to the pass. It is multisampled only if
     /// single samples are read. If the image gets one sample in the end, the declared type is not multisampled.
@@ -37,16 +37,16 @@ pub struct Sampled {
     pub stages: Stages,
 }
 
-/// What a shader reads of each texel of an image that it samples.
+/// The values that a shader reads of each texel of a sampled image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Face {
-    /// One value: where there are several samples, what [`Image::resolve`](super::Image::resolve) makes of them.
+    /// One value: several samples are combined by [`Image::resolve`](super::Image::resolve).
     #[default]
     Resolved,
     /// Each sample by itself.
     Samples,
-    /// One value of depth, and where there are several samples the one that drawing it again with one leaves, whatever the
-    /// image's `resolve` says.
+    /// One value of depth. Of an image with several samples it is the value that drawing it again with one sample leaves,
+    /// independent of the image's `resolve`.
     DepthOnly,
 }
 
@@ -113,7 +113,7 @@ pub struct DepthTarget {
     pub test: CompareOp,
     /// Whether passing fragments write depth.
     pub write: bool,
-    /// What happens to the stencil plane, if the pass uses it.
+    /// Stencil test and update, if the pass uses the stencil plane.
     pub stencil: Option<StencilState>,
 }
 
@@ -135,18 +135,18 @@ impl DepthTarget {
 pub struct StencilState {
     /// Clear value, if the pass starts from a cleared plane.
     pub clear: Option<u8>,
-    /// The comparison of the reference with what is there.
+    /// The comparison of the reference with the stencil value.
     pub test: CompareOp,
     /// The reference value.
     pub reference: u8,
-    /// What is done where both tests pass; what fails keeps its value.
+    /// The operation where both tests pass; where one fails, the stencil value stays.
     pub pass: StencilOp,
 }
 
 /// A buffer that a pass reads or writes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BufferUse {
-    /// The name by which the shader knows it; `None` for what no shader names (vertices, indices, indirect counts).
+    /// The name by which the shader knows it; `None` for buffers that no shader names (vertices, indices, indirect counts).
     pub binding: Option<Arc<str>>,
     /// Which buffer.
     pub buffer: BufferIndex,
@@ -154,13 +154,13 @@ pub struct BufferUse {
     pub frames_ago: u32,
     /// Where the buffer was named.
     pub span: Span,
-    /// What for.
+    /// The role of the buffer.
     pub role: BufferRole,
-    /// Shader stages that access it; empty for what no shader names.
+    /// Shader stages that access it; empty for buffers that no shader names.
     pub stages: Stages,
 }
 
-/// What a pass uses a buffer for.
+/// The role of a buffer in a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BufferRole {
@@ -181,14 +181,14 @@ pub enum BufferRole {
     Indirect,
 }
 
-/// What a copy, blit, fill or custom pass reads or writes by transfer.
+/// An image or buffer that a copy, blit, fill or custom pass reads or writes by transfer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TransferUse {
     /// Image or buffer.
     pub resource: Resource,
     /// Which part of an image. Copies and blits take one mip level.
     pub range: Subresources,
-    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for what has history, and is read.
+    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for reads of images and buffers with history.
     pub frames_ago: u32,
     /// Where it was named.
     pub span: Span,

@@ -34,7 +34,7 @@ impl Eye {
         }
     }
 
-    /// What is called this eye's of what has the name `name` and each eye has of its own.
+    /// The name of this eye's own version of something called `name`.
     #[must_use]
     pub fn named(self, name: &str) -> Arc<str> {
         format!("{name} ({})", self.name()).into()
@@ -45,10 +45,10 @@ impl Eye {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stereo {
-    /// It is drawn for one: images that each eye has of its own are there once.
+    /// It is drawn for one eye: images that each eye has of its own are there once.
     #[default]
     Off,
-    /// Whatever an eye has of its own is drawn for one eye and then for the other, into images of their own.
+    /// Images that each eye has of its own are drawn for one eye and then for the other, into separate images.
     MultiPass,
     /// Both eyes' images lie side by side in one of twice the width; each draw is recorded for the left half and then for the
     /// right one, each with its viewport and scissor.
@@ -65,7 +65,7 @@ impl Stereo {
     pub const ALL: [Stereo; 5] =
         [Stereo::Off, Stereo::MultiPass, Stereo::DoubleWide, Stereo::Instanced, Stereo::Multiview];
 
-    /// Those for two eyes, the fastest first: how often a draw is recorded, and what it costs to tell eyes apart.
+    /// The modes for two eyes, the fastest first: how often a draw is recorded, and the cost of telling eyes apart.
     pub const FASTEST_FIRST: [Stereo; 4] =
         [Stereo::Multiview, Stereo::Instanced, Stereo::DoubleWide, Stereo::MultiPass];
 
@@ -81,7 +81,7 @@ impl Stereo {
         }
     }
 
-    /// How one image holds what both eyes have of their own on `device` (`None`: one that can do just what Vulkan 1.3
+    /// The form in which one image holds both eyes' parts on `device` (`None`: a device with no more than Vulkan 1.3
     /// demands); `None`: each eye has an image of its own.
     #[must_use]
     pub fn form(self, device: Option<&Profile>) -> Option<EyeForm> {
@@ -94,7 +94,7 @@ impl Stereo {
         }
     }
 
-    /// Why `device` can't draw so, in words.
+    /// Why `device` can't draw in this mode, in words.
     #[must_use]
     pub fn lacks(self, device: &Profile) -> Option<String> {
         match self {
@@ -139,7 +139,7 @@ impl Stereo {
     }
 }
 
-/// How one image holds what both eyes have of their own. Sizes that a frame or a Plan says are those of one eye's part.
+/// The form in which one image holds both eyes' parts. Sizes in a frame or a Plan are those of one eye's part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EyeForm {
@@ -177,7 +177,7 @@ impl EyeForm {
 /// The eye that a view is seen with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ViewEye {
-    /// Which one.
+    /// The eye.
     pub eye: Eye,
     /// The view between both eyes.
     pub of: ViewIndex,
@@ -190,19 +190,19 @@ pub struct View {
     pub name: Arc<str>,
     /// Where it was declared.
     pub span: Span,
-    /// Width and height of its picture in texels, each at least 1. What draws from a camera takes the ratio from here.
+    /// Width and height of its picture in texels, each at least 1. Draws from a camera take the ratio from here.
     pub extent: [u32; 2],
     /// The scene's camera of that name; `None`: the scene's default camera.
     pub camera: Option<Arc<str>>,
-    /// What its passes may cost.
+    /// The costs that its passes may have.
     pub allows: Allowances,
-    /// How what its camera sees is shifted from frame to frame; `None`: not at all.
+    /// How its camera's picture is shifted from frame to frame; `None`: not at all.
     pub jitter: Option<Jitter>,
     /// The eye that it is seen with; `None`: it is seen from between the eyes, or there is one.
     pub eye: Option<ViewEye>,
 }
 
-/// What may be spent on a view. Conditions of a pipeline ask for it; the compiler only hands it on.
+/// The costs that a view may have. Conditions of a pipeline ask for them; the compiler only hands them on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Allowances {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Cause {
     /// The pipeline says so, there (`None`: the frame was built in memory).
     Written(Option<Place>),
-    /// The compiler inserted it. Few things are: what all the others hold is kept small.
+    /// The compiler inserted it. Inserted things are few, so their reason is boxed to keep all other causes small.
     Inserted(Box<Inserted>),
 }
 

@@ -216,7 +216,7 @@ fn attachments_and_passes(work: &Work) -> (impl Iterator<Item = &Attachment>, st
     (color.iter().chain(depth).chain(stencil), passes.iter())
 }
 
-/// What a transfer reads and writes.
+/// The sides that a transfer reads and writes.
 fn sides(work: &Work) -> Vec<Side> {
     match work {
         Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {

@@ -1,11 +1,11 @@
-//! The Plan: what the compiler decided, as plain data with a stable JSON form.
+//! The Plan: the compiler's decisions, as plain data with a stable JSON form.
 //!
 //! A Plan is self-sufficient: this process or another program can check it and replay it without the
 //! pipeline file. Names of stages, accesses, layouts, usages, formats and operations are Vulkan's, without prefix. Sets of
 //! flags are written `A | B`. Everything is in execution order; same input, same bytes. `docs/plan-format.md` describes the
 //! JSON form field by field.
 //!
-//! What a step accesses:
+//! Accesses of a step:
 //! - A [`Work::Render`] scope accesses its attachments as their load, store and resolve operations say (colour in
 //!   `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, stores in `LATE_FRAGMENT_TESTS`; *every* resolve in
 //!   `COLOR_ATTACHMENT_OUTPUT`), and each of its passes accesses what its `accesses` list.
@@ -65,7 +65,7 @@ pub use work::{
 /// The version of the JSON form that this library writes and reads.
 pub const FORMAT_VERSION: u32 = 9;
 
-/// What a frame does on a device, step by step.
+/// The work of a frame on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
@@ -75,9 +75,9 @@ pub struct Plan {
     pub device: DeviceUsed,
     /// Settings in force.
     pub settings: Vec<SettingUsed>,
-    /// What files did to the pipeline that they extend, in the order in which they did it.
+    /// Changes that files made to the pipeline that they extend, in their order.
     pub changes: Vec<Change>,
-    /// How it is drawn for two eyes: what scopes do whose attachments hold both eyes' parts ([`Image::eyes`]).
+    /// How the frame is drawn for two eyes, by scopes whose attachments hold both eyes' parts ([`Image::eyes`]).
     pub stereo: Stereo,
     /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this
     /// list.
@@ -90,9 +90,9 @@ pub struct Plan {
     pub heaps: Vec<Heap>,
     /// Steps in the order in which they are submitted.
     pub steps: Vec<Step>,
-    /// What leaves the frame, in the pipeline's order.
+    /// Images and buffers that leave the frame, in the pipeline's order.
     pub outputs: Vec<Output>,
-    /// Decisions that no step shows: what was left out, lowered, not merged or not folded, and why.
+    /// Decisions that no step shows: work that was left out, lowered, not merged or not folded, and why.
     pub notes: Vec<Note>,
     /// Sums.
     pub totals: Totals,
@@ -118,13 +118,13 @@ pub struct SettingUsed {
     pub value: String,
 }
 
-/// Something that a file did to the pipeline that it extends.
+/// A change that a file made to the pipeline that it extends.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// What.
+    /// The change.
     pub action: Action,
-    /// Where it says so.
+    /// Its place in the file.
     pub at: Option<Place>,
 }
 
@@ -138,7 +138,7 @@ impl Plan {
         &self.images[id.0 as usize]
     }
 
-    /// By how much what a rendering scope draws is turned: as its attachments are.
+    /// The rotation of a rendering scope's picture: that of its attachments.
     #[must_use]
     pub fn rotation(&self, scope: &RenderScope) -> Rotation {
         self.first_attachment(scope).map_or(Rotation::Identity, |it| it.rotation)

@@ -33,7 +33,7 @@ impl Display for Subresources {
 }
 
 impl Plan {
-    /// What people call a step: its passes' names, or what it moves. Escaped; empty if there is no such step.
+    /// The name of a step for people: its passes' names, or its source and target. Escaped; empty if there is no such step.
     pub(crate) fn step_name(&self, step: StepId) -> String {
         const MOST: usize = 3;
         let side = |side: &Side| Shown(self.resource_name(side.resource()));

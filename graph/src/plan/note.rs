@@ -1,4 +1,4 @@
-//! What the stages of the compiler have to say that no step shows.
+//! Notes of the compiler's stages: decisions that no step shows.
 
 use crate::base::{FilePath, Place};
 use serde::{Deserialize, Serialize};
@@ -10,17 +10,17 @@ use std::sync::Arc;
 pub struct Note {
     /// Which stage decided.
     pub stage: Stage,
-    /// What it is about: a pass or an image.
+    /// The subject of the decision: a pass or an image.
     pub subject: Arc<str>,
-    /// In the reader's words.
+    /// The decision in the reader's words.
     pub text: String,
-    /// The place it comes from.
+    /// The place that it comes from.
     pub at: Option<Place>,
 }
 
 impl Note {
-    /// Whether it tells which passes a shipped fragment switches off by itself: users of the fragment can do nothing
-    /// about it, and need not.
+    /// Whether the note tells which passes a shipped fragment switches off by itself: users of the fragment can do nothing
+    /// about that, and need not.
     #[must_use]
     pub fn is_of_shipped_fragment(&self) -> bool {
         let shipped =
@@ -37,7 +37,7 @@ pub enum Stage {
     Expand,
     /// Versions and dependencies.
     Link,
-    /// What reaches no output goes.
+    /// Passes that reach no output are removed.
     Cull,
     /// Sample counts and formats that the device has, and that hold what the scene and the passes need.
     Fit,

@@ -1,4 +1,4 @@
-//! What leaves the frame, as the Plan says it.
+//! Outputs of the frame, in the Plan.
 
 use super::Resource;
 use crate::frame::Eye;
@@ -9,18 +9,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Which one. It isn't transient.
+    /// The image or buffer. It isn't transient.
     pub resource: Resource,
-    /// What its numbers mean: declared, or what its format says; `None`: nothing is said of them.
+    /// The meaning of its numbers: declared, or implied by its format; `None`: unspecified.
     pub encoding: Option<Encoding>,
     /// Where the encoding happens, in the reader's words; `None` where there is none: numbers are as they are.
     pub encoded: Option<String>,
-    /// The eye whose it is; `None`: both share it, or there is one.
+    /// The eye that the output belongs to; `None`: both eyes share it, or there is one.
     pub eye: Option<Eye>,
 }
 
 impl From<Resource> for Output {
-    /// An output of whose numbers nothing is said.
+    /// An output without a stated encoding.
     fn from(resource: Resource) -> Output {
         Output { resource, encoding: None, encoded: None, eye: None }
     }

@@ -30,7 +30,7 @@ impl Image {
 }
 
 impl Plan {
-    /// What the pass samples that may be used in part: the shader's names, in the order in which push constants hold it, and
+    /// Sampled images of the pass that may be used in part: the shader's names, in the order of the push constants, and
     /// [`Image::part`] of each.
     pub fn parts<'p>(&'p self, pass: &'p Pass) -> impl Iterator<Item = (&'p Arc<str>, [f32; 4])> {
         pass.accesses.iter().filter_map(|access| {

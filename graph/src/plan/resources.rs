@@ -18,7 +18,7 @@ pub struct Image {
     pub cause: Cause,
     /// Texel format.
     pub format: Format,
-    /// What the pipeline's choice of that format comes to, if a policy of it made one.
+    /// The effect of the pipeline's choice of that format, if a policy of the pipeline made one.
     pub chosen: Option<ChosenFormat>,
     /// Flat, deep, or a cube.
     pub shape: Shape,
@@ -28,11 +28,11 @@ pub struct Image {
     /// corner on; `None`: `extent`. Shaders find the part by what they know as `NAME_st`.
     #[serde(rename = "room")]
     pub allocated: Option<[u32; 2]>,
-    /// By how much what it holds is turned: it is only drawn into, filled or left to a program that knows. `extent` and
+    /// The rotation of its contents: a turned image is only drawn into, filled or left to a program that knows. `extent` and
     /// `allocated` are those of the turned picture.
     pub rotation: Rotation,
-    /// How it holds both eyes' parts, if it does. Everything else that is said of it here, and wherever it is named, is said
-    /// of one eye's part then, and what is done to it is done to both; it is made with [`Image::made`] and
+    /// The form in which it holds both eyes' parts, if it does. Its other properties, here and wherever it is named, are then
+    /// those of one eye's part, and all work on it is done to both parts. It is made with [`Image::made`] and
     /// [`Image::made_layers`].
     pub eyes: Option<EyeForm>,
     /// Mip levels.
@@ -50,13 +50,13 @@ pub struct Image {
     pub role: Role,
 }
 
-/// What a format comes to that a policy of the pipeline chose.
+/// The effect of a format that a policy of the pipeline chose.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChosenFormat {
     /// The policy: "`color: Smallest`".
     pub because: Arc<str>,
-    /// The format without it.
+    /// The format without the policy.
     pub usual: Format,
     /// Bytes that the image takes more than it would in the usual format; below 0: fewer.
     pub more_bytes: i64,
@@ -90,8 +90,8 @@ pub enum Role {
     Transient(Placement),
     /// Memory of its own, made by the executor; contents stay from frame to frame.
     Persistent {
-        /// What it is in the next frame (index into the same list): itself, or with history the one that stands for one
-        /// frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
+        /// The image or buffer that it becomes in the next frame (index into the same list): itself, or with history the one
+        /// for one frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
         becomes: u32,
         /// Contents before the first frame, in the state `before`. The first frame waits until they are there.
         initial: Initial,
@@ -111,11 +111,11 @@ pub enum Role {
     },
 }
 
-/// What something persistent holds before the first frame.
+/// Contents of a persistent image or buffer before the first frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Initial {
-    /// This, in every texel or word.
+    /// This value, in every texel or word.
     Value(FillValue),
     /// An image: the picture of a file in its first mip level, and in each smaller one the mean of the level before. No step
     /// writes it.

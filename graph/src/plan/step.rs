@@ -114,7 +114,7 @@ pub struct ImageBarrier {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Hazard {
-    /// First use in the frame: the layout is set, and whatever used the memory before is waited for.
+    /// First use in the frame: the barrier sets the layout, and waits for the work that used the memory before.
     FirstUse,
     /// A read of what an earlier step wrote.
     ReadAfterWrite,

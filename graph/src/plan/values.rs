@@ -5,8 +5,8 @@ use crate::frame::{Groups, ParamValue};
 use crate::vulkan::FillValue;
 
 impl Plan {
-    /// What tells `other` from this Plan beside values, in words; `None`: an executor of this one can go on with the other one,
-    /// with the memory, images, buffers and shaders that it has.
+    /// The first difference of `other` from this Plan beside values, in words; `None`: an executor of this Plan can go on with
+    /// the other one, with the memory, images, buffers and shaders that it has.
     ///
     /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, which part of an
     /// image is in use where that may change, and all that explains.

@@ -15,9 +15,9 @@ pub struct View {
     pub extent: [u32; 2],
     /// The scene's camera of that name; `None`: the scene's default camera.
     pub camera: Option<Arc<str>>,
-    /// What its passes may cost.
+    /// The costs that its passes may have.
     pub allows: Allowances,
-    /// How what its camera sees is shifted from frame to frame; `None`: not at all.
+    /// How its camera's picture is shifted from frame to frame; `None`: not at all.
     pub jitter: Option<Jitter>,
     /// The eye that it is seen with; `None`: it is seen from between the eyes, or there is one.
     pub eye: Option<ViewEye>,
@@ -27,7 +27,7 @@ pub struct View {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewEye {
-    /// Which one.
+    /// The eye.
     pub eye: Eye,
     /// The view between both eyes, which is none of theirs.
     pub of: ViewId,

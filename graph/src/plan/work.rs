@@ -1,4 +1,4 @@
-//! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies, fills.
+//! The work of a Plan's steps: rendering scopes, passes, dispatches, resolves, copies, fills.
 
 use super::{BufferId, Cause, ImageId, Resource, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
@@ -9,7 +9,7 @@ use crate::vulkan::{
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What a step does.
+/// The work of a step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Work {
@@ -61,9 +61,9 @@ pub struct Attachment {
     pub range: Subresources,
     /// Layout during the scope.
     pub layout: Layout,
-    /// What happens to the contents at the beginning.
+    /// Load op: the contents when the scope begins.
     pub load: LoadOp,
-    /// What happens to the contents at the end.
+    /// Store op: the contents when the scope ends.
     pub store: StoreOp,
     /// Clear value where `load` is `CLEAR`: red, green, blue, alpha, or depth or stencil in the
     /// first.
@@ -100,9 +100,9 @@ pub struct Pass {
     pub cause: Cause,
     /// The view that it draws for; `None` if the Plan has none.
     pub view: Option<ViewId>,
-    /// What is drawn; `None` for a dispatch.
+    /// The geometry; `None` for a dispatch.
     pub draw: Option<Draw>,
-    /// How many workgroups; `None` for what is no dispatch.
+    /// How many workgroups; `None` if the pass is no dispatch.
     pub groups: Option<Groups>,
     /// The shader's name.
     pub shader: Arc<str>,
@@ -122,7 +122,7 @@ pub struct Pass {
     pub stencil: Option<StencilState>,
     /// Values for the shader's parameter block.
     pub params: Vec<Param>,
-    /// Every access to an image that it makes, attachments included, with the shader's name for what is bound; load, store
+    /// Every access to an image that it makes, attachments included, with the shader's name for a bound image; load, store
     /// and resolve operations are the scope's.
     pub accesses: Vec<Access>,
     /// Every access to a buffer that it makes.
@@ -154,7 +154,7 @@ pub struct Binding {
     pub name: Arc<str>,
     /// How it is bound.
     pub kind: BindingKind,
-    /// As what the shader is compiled to declare it (the macro `TEXTURE_NAME`); `None` where its own declaration stands.
+    /// The type that the shader is compiled to declare (the macro `TEXTURE_NAME`); `None` where its own declaration stands.
     pub texture: Option<ImageShape>,
 }
 
@@ -196,7 +196,7 @@ pub struct Access {
     pub accesses: Accesses,
     /// The layout that it needs.
     pub layout: Layout,
-    /// The shader's name for it; `None` for attachments and for what a custom pass transfers.
+    /// The shader's name for it; `None` for attachments and for images that a custom pass transfers.
     pub binding: Option<Binding>,
 }
 
@@ -206,7 +206,7 @@ pub struct Access {
 pub struct BufferAccess {
     /// Which buffer.
     pub buffer: BufferId,
-    /// What for; `None` for what a custom pass transfers.
+    /// The role of the buffer; `None` where a custom pass transfers it.
     pub role: Option<BufferRole>,
     /// Stages.
     pub stages: Stages,
@@ -224,9 +224,9 @@ pub struct Transfer {
     pub name: Option<Arc<str>>,
     /// Why it is there.
     pub cause: Cause,
-    /// What is read.
+    /// The side that is read.
     pub source: Side,
-    /// What is written.
+    /// The side that is written.
     pub target: Side,
     /// Filter between texels; of blits only.
     pub filter: Option<Filter>,
@@ -240,13 +240,13 @@ pub struct Fill {
     pub name: Option<Arc<str>>,
     /// Why it is there.
     pub cause: Cause,
-    /// What is written.
+    /// The side that is written.
     pub target: Side,
     /// The value.
     pub value: FillValue,
 }
 
-/// What a copy, blit, resolve or fill reads or writes.
+/// A part of an image or buffer that a copy, blit, resolve or fill reads or writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Side {

@@ -4,9 +4,9 @@
 //! resolve, of depth too, in `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, depth stores in
 //! `LATE_FRAGMENT_TESTS`. A `DONT_CARE` load or store is a write; a `NONE` store is nothing.
 //!
-//! Beside each access stands what it does to contents. Only some accesses are sure to set all of what they name: a `CLEAR`
-//! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and whatever
-//! writes without attachments. What was undefined stays so, in part, after any other.
+//! Beside each access stands its effect on contents. Only some accesses are sure to set all that they name: a `CLEAR`
+//! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and every
+//! write without attachments. Undefined contents stay so, in part, after any other.
 
 use super::parts::overlap;
 use super::program::Builder;
@@ -29,7 +29,7 @@ pub(super) enum Kind {
     Local,
 }
 
-/// What an access does to contents: any of these, in this order.
+/// Effects of an access on contents: any of these, in this order.
 pub(super) mod does {
     /// Needs them.
     pub(crate) const READ: u8 = 1;
@@ -41,7 +41,7 @@ pub(super) mod does {
     pub(crate) const NOT_LOAD: u8 = 8;
     /// Loses them at the end of a rendering scope.
     pub(crate) const NOT_STORE: u8 = 16;
-    /// Loses what the scope has written, and keeps what stood before it.
+    /// Loses the scope's writes, and keeps the contents before it.
     pub(crate) const STORE_NONE: u8 = 32;
 }
 
@@ -55,7 +55,7 @@ pub(super) struct ImageAccess {
     pub(super) pairs: PairSet,
     pub(super) kind: Kind,
     pub(super) contents: u8,
-    /// What the image must have been made for.
+    /// The usage that the image must have been made with.
     pub(super) usage: Usage,
 }
 
@@ -66,7 +66,7 @@ pub(super) struct BufferAccess {
     pub(super) stages: StageSet,
     pub(super) pairs: PairSet,
     pub(super) contents: u8,
-    /// What the buffer must have been made for.
+    /// The usage that the buffer must have been made with.
     pub(super) usage: BufferUsage,
 }
 
@@ -76,7 +76,7 @@ pub(super) const ATTACHMENT: Accesses = Accesses::COLOR_ATTACHMENT_READ
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_READ)
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-/// Lists what `work` accesses, in the order in which it happens.
+/// Lists the accesses of `work`, in the order in which they happen.
 pub(super) fn list(work: &Work, to: &mut Builder) {
     match work {
         Work::Render(scope) => render(scope, to),
@@ -102,7 +102,7 @@ fn both(transfer: &Transfer, stages: Stages, to: &mut Builder) {
     written(&transfer.target, stages, to);
 }
 
-/// The target of a transfer: what doesn't reach all of it leaves the rest as it was.
+/// The target of a transfer: a transfer that doesn't reach all of it leaves the rest as it was.
 fn written(target: &Side, stages: Stages, to: &mut Builder) {
     let whole = match *target {
         Side::Image { image, range, extent, .. } => extent == mip_extent(to.plan.image(image), range.base_mip),

@@ -6,7 +6,7 @@ use super::scopes::impossible;
 use crate::plan::{ImageBarrier, Plan, Queue, Step, StepId};
 use crate::vulkan::{Accesses, Aspects, Layout, Sharing, Stages, Usage, name_of};
 
-/// Reports what is malformed before and after the work of a step.
+/// Reports malformed waits and barriers before and after the work of a step.
 pub(super) fn check(plan: &Plan, id: StepId, step: &Step, found: &mut Findings) {
     check_waits(plan, id, step, found);
     for barrier in &step.memory_barriers {
@@ -43,7 +43,7 @@ fn check_waits(plan: &Plan, id: StepId, step: &Step, found: &mut Findings) {
     }
 }
 
-/// What a queue can do.
+/// The stages that a queue supports.
 pub(super) const fn possible(queue: Queue) -> Stages {
     let transfer = Stages::COPY.union(Stages::CLEAR).union(Stages::HOST).union(Stages::ALL_COMMANDS);
     match queue {
@@ -64,7 +64,7 @@ fn check_queue(id: StepId, image: Option<u32>, queue: Queue, stages: Stages, fou
 /// `own`: which of the two queues of a transfer the step must be on.
 fn check_ownership(plan: &Plan, id: StepId, queue: Queue, barrier: &ImageBarrier, own: usize, found: &mut Findings) {
     let image = Some(barrier.image.0);
-    // What happens on the other queue is for the other half to say.
+    // Stages on the other queue are checked with the other half.
     let ours = match (barrier.ownership, own) {
         (None, _) => [true, true],
         (Some(_), 0) => [true, false],
@@ -98,7 +98,7 @@ fn check_image_barrier(plan: &Plan, id: StepId, barrier: &ImageBarrier, found: &
     }
     for layout in [barrier.old_layout, barrier.new_layout] {
         let of_both = matches!(layout, Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal);
-        // What lies outside of the frame may name both planes at once.
+        // Work outside of the frame may name both planes at once.
         let both = of_both && image.format.is_depth();
         if !both && !planes(layout, image.format.aspects()).contains(barrier.range.aspects) {
             let what = format!("a barrier names {}, which not all of its planes can be in", name_of(&layout));

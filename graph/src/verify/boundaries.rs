@@ -1,10 +1,10 @@
 //! The boundary of frames: the state in which a frame finds images and buffers, and in which it leaves them.
 //!
-//! Something external is found in its stated state each time, whatever the frame before left. Something persistent is
-//! found in its stated state by the first frame; by later ones in that in which the frame before really left it, which
-//! must be the one that is stated too. After the last step of a frame a user that relies on the stated state puts a barrier
-//! behind it that names it as its source; where it names no stages, a semaphore, which waits for everything. Of the reads
-//! that it names, at least one can be made at once.
+//! An external image or buffer is found in its stated state each time, however the frame before left it. A persistent one is
+//! found in its stated state by the first frame. Later frames find it in the state in which the frame before really left it,
+//! which must be the stated one too. After the last step of a frame, a user that relies on the stated state puts a barrier
+//! behind it that names this state as its source. If the state names no stages, the user takes a semaphore, which waits for
+//! everything. Of the reads that the state names, at least one can be made at once.
 
 use super::dependencies::{before_access, before_layout_change};
 use super::findings::role;
@@ -36,8 +36,8 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 *state = SubresourceState::FRESH;
                 state.layout = before.layout;
                 state.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
-                // What is handed in was used on the queue that uses it first. What persists was prepared, and who did so
-                // waited until that was done.
+                // An external image or buffer was last used on the queue that uses it first. A persistent one was prepared,
+                // and its preparation was waited for.
                 if !persistent {
                     state.write = Write::before_frame(queue, pairs, time);
                     state.reads.insert(queue, stages, time);
@@ -102,7 +102,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
-    /// At the end of a frame everything becomes what it is in the next one.
+    /// At the end of a frame each image and buffer becomes the one that it is in the next frame.
     pub(super) fn become_next(&mut self, frames: &Frames) {
         for circle in &frames.circles {
             for pair in circle.windows(2).rev() {

@@ -1,4 +1,4 @@
-//! What is ordered after what, as clocks: constant work a barrier, constant work a question.
+//! The order of steps as clocks: constant work for each barrier, constant work for each question.
 //!
 //! A *time* numbers a step in the walk. For each stage `q` of a queue the clock row says how far back work in `q` that
 //! starts now is ordered: everything in stage `s` of some queue at times below `ordered[queue][s]`. A barrier from stages S
@@ -30,14 +30,14 @@ pub(super) struct Clock<const Q: usize> {
     available: Row<Q>,
 }
 
-/// What a write became available by: an image barrier, or a layout change, which makes itself available.
+/// The event that made a write available: an image barrier, or a layout change, which makes itself available.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Availability {
-    /// When.
+    /// The time of the event.
     pub(super) time: Time,
-    /// Stages that wait for it.
+    /// Stages that wait for the event.
     pub(super) stages: StageSet,
-    /// The queue that it ran on.
+    /// The queue that the event ran on.
     pub(super) queue: u8,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Clocks<const Q: usize> {
     stages: [[Clock<Q>; STAGES]; Q],
     /// For each pair of each queue: which writes have been made visible to it.
     visible: [[Row<Q>; PAIRS]; Q],
-    /// For each pair of each queue: which image barriers come before whatever made things visible to it.
+    /// For each pair of each queue: which image barriers come before a barrier that made writes visible to it.
     through: [[Row<Q>; PAIRS]; Q],
 }
 
@@ -86,7 +86,7 @@ impl<const Q: usize> Clocks<Q> {
         Clocks { stages: [[Clock::START; STAGES]; Q], visible: none, through: none }
     }
 
-    /// What comes before a barrier on `queue` at `now` whose source stages, earlier ones included, are `source`.
+    /// The clock of all that comes before a barrier on `queue` at `now` with the source stages `source`, earlier ones included.
     pub(super) fn before(&self, queue: u8, source: StageSet, now: Time) -> Clock<Q> {
         let queue = usize::from(queue);
         let mut joined = Clock::START;
@@ -97,7 +97,7 @@ impl<const Q: usize> Clocks<Q> {
         joined
     }
 
-    /// What comes before somebody who waits for all that `queue` was given before `now`: all of it, made available.
+    /// The clock of a wait for all that `queue` was given before `now`: all of it, made available.
     pub(super) fn signal(&self, queue: u8, now: Time) -> Clock<Q> {
         let mut joined = self.before(queue, StageSet::ALL, now);
         joined.available[usize::from(queue)] = [now; LANES];
@@ -126,7 +126,7 @@ impl<const Q: usize> Clocks<Q> {
         }
     }
 
-    /// What work in `stage` of `queue` comes after now.
+    /// The clock of work in `stage` of `queue` that starts now.
     pub(super) fn of(&self, queue: u8, stage: usize) -> &Clock<Q> {
         &self.stages[usize::from(queue)][stage]
     }
@@ -141,7 +141,7 @@ impl<const Q: usize> Clocks<Q> {
         reaches(&self.visible[usize::from(queue)][pair], by, write, time)
     }
 
-    /// Whether what this image barrier made available was made visible to `pair` of `queue` after it.
+    /// Whether writes that this image barrier made available were made visible to `pair` of `queue` after it.
     pub(super) fn is_visible_through(&self, queue: u8, pair: usize, barrier: &Availability) -> bool {
         let through = &self.through[usize::from(queue)][pair];
         barrier.stages.iter().any(|stage| reaches(through, barrier.queue, stage, barrier.time))

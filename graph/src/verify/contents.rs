@@ -1,4 +1,4 @@
-//! Whether what is read was ever written, and not lost since.
+//! Whether contents that are read were ever written, and not lost since.
 
 use super::accesses::does;
 use super::findings::{Finding, name};
@@ -9,7 +9,7 @@ use super::walk::Walk;
 use crate::plan::StepId;
 
 impl<const Q: usize> Walk<'_, '_, Q> {
-    /// What an access does to contents.
+    /// Checks and updates contents for an access.
     pub(super) fn contents(&mut self, step: StepId, access: &Access) {
         let now = self.now(step);
         let mut part = self.parts.of(access.resource, access.range);
@@ -31,7 +31,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let lost = match state.contents {
                 Contents::Defined if access.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
                 Contents::Defined if access.contents & does::NOT_STORE != 0 => Lost::NotStored,
-                // A store operation `NONE` keeps what was there before the scope, but not what the scope wrote.
+                // A store operation `NONE` keeps the contents before the scope, but not the scope's writes.
                 Contents::Defined if access.contents & does::STORE_NONE != 0 && state.filled == now => Lost::NotStored,
                 _ => continue,
             };

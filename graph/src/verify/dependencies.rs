@@ -1,12 +1,12 @@
-//! Whether an access or a barrier comes after what it conflicts with, and with what memory dependency.
+//! Whether an access or a barrier comes after the accesses that it conflicts with, and with which memory dependency.
 //!
 //! - A read needs the last write made visible to its own stage and access.
-//! - A write needs the same of the last write: Vulkan asks for a memory dependency between two writes, and its second
+//! - A write needs the last write made visible, too: Vulkan asks for a memory dependency between two writes, and its second
 //!   scope must name the second write. Reads since then must have been waited for; that takes no memory dependency.
 //! - A layout change is a write. It needs the last write available, and reads waited for; it is then available itself and
 //!   visible to the second scope of its barrier.
 //!
-//! Execution dependencies are global, whichever barrier or semaphore makes them. Memory dependencies of an image barrier
+//! Execution dependencies are global, for every kind of barrier and for semaphores. Memory dependencies of an image barrier
 //! cover the barrier's own range, those of memory barriers and semaphores everything.
 
 use super::clocks::{Clock, Clocks, Time};
@@ -14,7 +14,7 @@ use super::scopes::{PairSet, StageSet, stage_of, stage_word, words};
 use super::subresources::{SubresourceState, Write};
 use super::violation::{Accessed, Rule};
 
-/// What is missing between an earlier access and a later one.
+/// A dependency that is missing between an earlier access and a later one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
     /// When the earlier one happened.
@@ -43,7 +43,7 @@ impl Gap {
     }
 }
 
-/// What is missing before an access in `stages` of `queue` by `pairs`.
+/// The dependency that is missing before an access in `stages` of `queue` by `pairs`.
 pub(super) fn before_access<const Q: usize>(
     state: &SubresourceState<Q>,
     clocks: &Clocks<Q>,
@@ -97,8 +97,8 @@ fn after_write<const Q: usize>(
     Some(Gap { time: write.time, earlier: dark.map_or(Accessed::LayoutChange, by), later: by(hidden), missing })
 }
 
-/// What is missing before a layout change, or before the memory is given away, by a barrier that comes after `before` and
-/// makes the writes `source` available itself.
+/// The dependency that is missing before a layout change, or before the memory is given away, by a barrier that comes
+/// after `before` and makes the writes `source` available itself.
 pub(super) fn before_layout_change<const Q: usize>(
     state: &SubresourceState<Q>,
     before: &Clock<Q>,

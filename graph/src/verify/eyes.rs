@@ -1,4 +1,4 @@
-//! Whether what holds both eyes' parts is used for both eyes at once, or by shaders that say whose they look up.
+//! Whether images that hold both eyes' parts are used for both eyes at once, or by shaders that say which eye's part they read.
 
 use super::accesses::attachments;
 use super::findings::Findings;
@@ -53,7 +53,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     }
 }
 
-/// All attachments of a scope, and what they are resolved into, hold both eyes' parts alike, or none does.
+/// All attachments of a scope, and the images that they are resolved into, hold both eyes' parts alike, or none does.
 fn all_or_none(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Findings<'_>) {
     let images = attachments(scope).flat_map(|(attachment, _)| {
         let resolved = attachment.resolve.as_ref().map(|resolve| resolve.image);

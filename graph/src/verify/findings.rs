@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use std::mem::Discriminant;
 use std::sync::Arc;
 
-/// What was found so far.
+/// The violations that were found so far.
 pub(super) struct Findings<'p> {
     pub(super) plan: &'p Plan,
     pub(super) violations: Vec<Violation>,

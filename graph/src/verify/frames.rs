@@ -3,7 +3,7 @@
 use super::findings::Findings;
 use crate::plan::{Buffer, Image, Plan, Role};
 
-/// How many frames are walked, and what becomes what between them.
+/// The number of frames that are walked, and the images and buffers that become each other between them.
 #[derive(Debug)]
 pub(super) struct Frames {
     pub(super) count: u32,
@@ -14,7 +14,7 @@ pub(super) struct Frames {
 /// Most images or buffers that become each other: history is followed as deep as that, less one.
 const LONGEST_CIRCLE: usize = 33;
 
-/// Finds out what becomes what; `None` after a report if it is no permutation of what is alike.
+/// Finds the images and buffers that become each other; `None` after a report if this is no permutation of alike ones.
 pub(super) fn circles(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     let before = found.violations.len();
     let mut circles = Vec::new();
@@ -62,7 +62,7 @@ pub(super) fn circles(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     (found.violations.len() == before).then_some(Frames { count: longest as u32 + 1, circles })
 }
 
-/// What becomes something else must be like it, and leave the frame as that one is found by the next.
+/// An image or buffer must be like the one that it becomes, and leave the frame in the state in which the next finds that one.
 fn check_alike(plan: &Plan, found: &mut Findings) {
     for (image, index) in plan.images.iter().zip(0..) {
         if let Role::Persistent { becomes, .. } = image.role {

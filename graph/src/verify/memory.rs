@@ -7,7 +7,7 @@
 //! 2. the first barrier on each part of an image B must be execution-ordered after every last access of A; so must every
 //!    access of the first step that uses a buffer B;
 //! 3. A's last write must be available by then: by an image barrier on A, by a memory barrier in the batch of B's
-//!    barrier or earlier, or by a semaphore. B's own barrier doesn't speak for A, whatever its source scope names: an
+//!    barrier or earlier, or by a semaphore. B's own barrier doesn't speak for A, with any source scope: an
 //!    image barrier's memory scope is its own image. To the first accesses of a buffer B, which no barrier of its own
 //!    protects, it must be visible as well.
 
@@ -22,7 +22,7 @@ use super::walk::Walk;
 use crate::plan::{Placement, Plan, Role, StepId};
 use std::collections::BTreeMap;
 
-/// Who has which bytes. Images and buffers are numbered in one row.
+/// The owners of the heaps' bytes. Images and buffers are numbered in one row.
 #[derive(Debug)]
 pub(super) struct Memory {
     /// For each heap: start of a piece → its end and who took it last.
@@ -46,12 +46,12 @@ struct Holder {
     predecessors: [u32; 2],
 }
 
-/// What takes memory.
+/// An event that takes memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Taking<'t, const Q: usize> {
-    /// An image barrier: what comes before it. It makes available only what its own image wrote.
+    /// An image barrier, with the clock of all that comes before it. It makes available only the writes of its own image.
     Barrier(&'t Clock<Q>),
-    /// An access to a buffer, on that queue.
+    /// An access to a buffer, on the queue of this number.
     Access(u8, &'t Access),
 }
 
@@ -160,7 +160,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         self.alias(step, resource);
         let holder = self.memory.holders[resource as usize];
         if holder.generations != before {
-            // What it did before it lost its bytes is what those who took them had to wait for.
+            // The accesses before the buffer lost its bytes don't count here: the next owner of the bytes had to wait for them.
             let mut part = self.parts.whole(resource);
             while let Some(index) = self.parts.next(&mut part) {
                 let contents = self.subresources[index].contents;

@@ -2,8 +2,8 @@
 //!
 //! The first queue that uses it owns it. A barrier from `UNDEFINED` makes any queue its owner, since nothing is handed
 //! over. Contents go to another queue by two barriers with the same queues, range and layouts: one among the releases of
-//! a step on the first queue, one among the barriers of a step on the second; in between nobody may use it. In the first
-//! frame something persistent belongs to nobody yet, and can be acquired without a release. Buffers are never handed over.
+//! a step on the first queue, one among the barriers of a step on the second; in between no queue may use it. In the first
+//! frame a persistent resource belongs to no queue yet, and can be acquired without a release. Buffers are never handed over.
 
 use super::program::Barrier;
 use super::subresources::{Owner, SubresourceState};
@@ -79,7 +79,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         barrier.ownership.is_some()
     }
 
-    /// Whether nothing is left between two queues when the frame ends, of what doesn't go on to the next one.
+    /// Reports a release without acquire at the end of the frame. Not for resources that go on to the next frame.
     pub(super) fn check_acquired(&mut self, step: StepId, resource: u32, index: usize) {
         if let Owner::Released(barrier) = self.subresources[index].owner {
             let fault = OwnershipFault::NeverAcquired { released: self.queues(barrier) };
@@ -87,7 +87,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
-    /// Images that become each other pass on what was released: the numbers of images may differ, not their parts.
+    /// Whether `acquire` matches `release`. Images that become each other pass on a release: only their numbers may differ.
     fn is_other_half(&self, release: &Barrier, acquire: &Barrier) -> bool {
         let range = |barrier: &Barrier| self.program.ranges.get(barrier.range);
         (release.ownership, release.old, release.new) == (acquire.ownership, acquire.old, acquire.new)

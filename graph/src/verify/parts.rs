@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 pub(super) struct RangeId(u32);
 
 impl RangeId {
-    /// All of whatever image or buffer.
+    /// The whole of any image or buffer.
     pub(super) const WHOLE: RangeId = RangeId(0);
 }
 
@@ -85,7 +85,7 @@ impl Ranges {
         RangeId(self.ranges.len() as u32)
     }
 
-    /// The range with this number; `None`: the whole of whatever image.
+    /// The range with this number; `None`: the whole of any image.
     pub(super) fn get(&self, range: RangeId) -> Option<Subresources> {
         let index = range.0.checked_sub(1)?;
         Some(self.ranges[index as usize].1)

@@ -1,4 +1,4 @@
-//! Whether each pass is well formed: what it draws or dispatches, and what it accesses.
+//! Whether each pass is well formed: its draws or dispatches, and its accesses.
 
 use super::accesses::{ATTACHMENT, attachments};
 use super::barriers::{check_scope, planes, possible};
@@ -88,7 +88,7 @@ impl<'p> Check<'_, 'p> {
         self.plane(pass, attachment, tests || counts, state.pass != StencilOp::Keep);
     }
 
-    /// Whether `pass` lists what it does to the depth or stencil attachment.
+    /// Whether `pass` lists its accesses to the depth or stencil attachment.
     fn plane(&mut self, pass: &Pass, attachment: &Attachment, reads: bool, writes: bool) {
         let read = if reads { Accesses::DEPTH_STENCIL_ATTACHMENT_READ } else { Accesses::empty() };
         let write = if writes { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE } else { Accesses::empty() };
@@ -181,7 +181,7 @@ impl<'p> Check<'_, 'p> {
         self.binding(access);
     }
 
-    /// Each shader access is bound as what it is, and nothing else is bound.
+    /// Each shader access is bound with its own kind, and nothing else is bound.
     fn binding(&mut self, access: &Access) {
         let of_shader = access.accesses & SHADER;
         let Some(binding) = &access.binding else {

@@ -21,7 +21,7 @@ pub(super) struct Program {
     /// Those before the work of a step, then its releases.
     pub(super) barriers: Vec<Barrier>,
     pub(super) accesses: Vec<Access>,
-    /// For each image and buffer: what accesses it.
+    /// For each image and buffer: its users.
     pub(super) used: Vec<Used>,
     pub(super) ranges: Ranges,
     /// Steps that others wait for, rising.
@@ -90,22 +90,22 @@ pub(super) struct Access {
     pub(super) stages: StageSet,
     pub(super) layout: Layout,
     pub(super) kind: Kind,
-    /// What it does to contents, see [`accesses::does`].
+    /// The effects on contents, see [`accesses::does`].
     pub(super) contents: u8,
 }
 
-/// What accesses an image or buffer: barriers, too.
+/// The steps and queues that use an image or buffer, by barriers too.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Used {
-    /// The first step that does; after `last` if there is none.
+    /// The first step that uses it; after `last` if there is none.
     pub(super) first: u32,
-    /// The last step that does.
+    /// The last step that uses it.
     pub(super) last: u32,
-    /// The queue of the first one.
+    /// The queue of the first step.
     pub(super) queue: u8,
-    /// The queue of the last one.
+    /// The queue of the last step.
     pub(super) last_queue: u8,
-    /// Whether the work of the last one does, not only its barriers.
+    /// Whether the work of the last step uses it, not only the step's barriers.
     worked: bool,
     /// Whether only one queue at a time may use it.
     pub(super) exclusive: bool,

@@ -32,7 +32,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     }
 }
 
-/// What is wrong with a pass that draws the depth of `original` again.
+/// The mistake in a pass that draws the depth of `original` again, if there is one.
 fn wrong(
     plan: &Plan,
     (scope, pass): (&RenderScope, &Pass),

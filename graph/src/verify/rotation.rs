@@ -1,5 +1,5 @@
-//! Whether what is turned is turned all along: nothing in a frame but a draw turns a picture, and shaders and copies take what
-//! they read to be upright.
+//! Whether turned images are turned all along: nothing in a frame but a draw turns a picture, and shaders and copies take
+//! their sources to be upright.
 
 use super::accesses::attachments;
 use super::findings::Findings;
@@ -34,7 +34,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     }
 }
 
-/// All attachments of a scope, and what they are resolved into, are turned alike.
+/// All attachments of a scope, and the images that they are resolved into, are turned alike.
 fn one_rotation(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Findings<'_>) {
     let images = attachments(scope).flat_map(|(attachment, _)| {
         let resolved = attachment.resolve.as_ref().map(|resolve| resolve.image);

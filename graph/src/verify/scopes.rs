@@ -1,7 +1,7 @@
 //! Stages and accesses in a dense form: one bit a stage, one bit a pair of stage and access.
 //!
-//! Only what can happen to an image or a buffer has a pair. The order of the graphics pipeline's stages and which access belongs to
-//! which stage are those of the Vulkan specification, chapter "Synchronization and Cache Control".
+//! Only accesses that an image or a buffer can have form a pair. The order of the graphics pipeline's stages, and the stages
+//! of each access, are those of the Vulkan specification, chapter "Synchronization and Cache Control".
 
 use crate::vulkan::{Accesses, Stages};
 
@@ -218,7 +218,7 @@ impl PairSet {
         other.0 & !self.0 == 0
     }
 
-    /// What `other` leaves of these.
+    /// These without those of `other`.
     pub(super) fn without(self, other: PairSet) -> PairSet {
         PairSet(self.0 & !other.0)
     }

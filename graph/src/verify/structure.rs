@@ -12,7 +12,7 @@ use std::collections::HashSet;
 /// Most steps that all frames together can be numbered with.
 const MOST_STEPS: usize = 1 << 26;
 
-/// Reports what is malformed; how the steps can be followed all the same, `None` if they can't.
+/// Reports malformed parts of the Plan; returns how the steps can be followed all the same, `None` if they can't.
 pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     let before = found.violations.len();
     if plan.format_version != crate::plan::FORMAT_VERSION {

@@ -1,4 +1,4 @@
-//! What is known about each part of each image, and about each buffer, while the walk goes on.
+//! The known state of each part of each image, and of each buffer, while the walk goes on.
 
 use super::clocks::{Availability, Time};
 use super::scopes::{PairSet, STAGES, StageSet};
@@ -9,7 +9,7 @@ use crate::vulkan::Layout;
 pub(super) struct SubresourceState<const Q: usize> {
     /// The layout it is in; of buffers always `UNDEFINED`.
     pub(super) layout: Layout,
-    /// A mistake was reported that concerns the last writes: what follows from it isn't reported again.
+    /// A mistake was reported that concerns the last writes: its consequences aren't reported again.
     pub(super) excused: bool,
     /// The queue that may use it.
     pub(super) owner: Owner,
@@ -21,7 +21,7 @@ pub(super) struct SubresourceState<const Q: usize> {
     pub(super) contents: Contents,
     /// When contents were last written; 0 for never.
     pub(super) filled: Time,
-    /// The last scope that wrote it as an attachment: what else that scope does to it follows in rasterisation order.
+    /// The last scope that wrote it as an attachment: that scope's other accesses to it follow in rasterisation order.
     pub(super) rasterised: Time,
     /// How often its memory had changed hands when it got it; 0 for none yet.
     pub(super) generation: u32,
@@ -41,7 +41,7 @@ impl<const Q: usize> SubresourceState<Q> {
         generation: 0,
     };
 
-    /// An access by `pairs` of `queue`. A write replaces what earlier steps did; the pairs of one step stand side by side.
+    /// An access by `pairs` of `queue`. A write replaces accesses of earlier steps; the pairs of one step stand side by side.
     pub(super) fn record(&mut self, queue: u8, pairs: PairSet, now: Time) {
         let writes = pairs.writes();
         if !writes.is_empty() {
@@ -70,7 +70,7 @@ impl<const Q: usize> SubresourceState<Q> {
 /// A barrier must speak for all of them, or for those that no earlier memory barrier has spoken for.
 #[derive(Debug, Clone)]
 pub(super) struct Write {
-    /// When.
+    /// The time of the write.
     pub(super) time: Time,
     /// The queue that wrote.
     pub(super) queue: u8,
@@ -101,13 +101,13 @@ impl Write {
         barriers: [Availability { time: 0, stages: StageSet(0), queue: 0 }; Write::BARRIERS],
     };
 
-    /// What wrote before the frame.
+    /// The last write before the frame: by the writes among `pairs`, on `queue`.
     pub(super) fn before_frame(queue: u8, pairs: PairSet, time: Time) -> Write {
         let pairs = pairs.writes();
         Write { time, queue, pairs, stages: pairs.stages(), ..Write::NONE }
     }
 
-    /// A layout change by an image barrier: available by itself, visible to what the barrier says.
+    /// A layout change by an image barrier: available by itself, visible to the pairs `visible`.
     pub(super) fn layout_change(barrier: Availability, visible: PairSet) -> Write {
         let mut write = Write { time: barrier.time, queue: barrier.queue, visible, ..Write::NONE };
         write.became_available(barrier);

@@ -89,7 +89,7 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
-    /// What has no side to speak of: its name among passes, and whether it filters.
+    /// Checks the parts of a transfer that belong to neither side: its name among passes, and its filter.
     fn moves(&mut self, transfer: &'p Transfer, blit: bool) {
         if let Some(name) = &transfer.name {
             self.named(name);

@@ -1,4 +1,4 @@
-//! What the checker reports: data first, a sentence where it is shown.
+//! Reports of the checker: data first, a sentence where it is shown.
 
 use crate::plan::names::Shown;
 use crate::plan::{Plan, Queue, StepId};
@@ -12,9 +12,9 @@ use std::sync::Arc;
 pub struct Violation {
     /// Which rule is broken, and how.
     pub rule: Rule,
-    /// The step where it shows: for the state of outputs, the last one; `None`: the Plan as a whole.
+    /// The step where the mistake shows: for the state of outputs, the last one; `None`: the Plan as a whole.
     pub step: Option<StepName>,
-    /// The step that it collides with, or that should have been waited for.
+    /// The other step: one that this step collides with, or that should have been waited for.
     pub other: Option<StepName>,
     /// The image or buffer, by its name.
     pub resource: Option<Arc<str>>,
@@ -29,7 +29,7 @@ pub struct Violation {
 pub struct StepName {
     /// Which step.
     pub step: StepId,
-    /// Its passes, or what it moves; escaped.
+    /// Its passes, or its source and target; escaped.
     pub name: String,
     /// How many frames before it ran.
     pub frames_ago: u32,
@@ -40,7 +40,7 @@ pub struct StepName {
 pub enum Rule {
     /// Parts of the Plan disagree with each other or with Vulkan.
     Structure {
-        /// What is wrong, as a sentence without final stop; names are escaped.
+        /// The mistake, as a sentence without final stop; names are escaped.
         what: String,
     },
     /// The image is in another layout than the access or barrier names.
@@ -78,7 +78,7 @@ pub enum Rule {
     },
     /// A read of contents that were written, but lost since.
     LostWrite {
-        /// How.
+        /// How they were lost.
         loss: Loss,
     },
     /// Two images use the same bytes at the same time.
@@ -102,21 +102,21 @@ pub enum Rule {
     },
     /// An image or buffer that one queue at a time may use is used on another than its own.
     Ownership {
-        /// How.
+        /// The kind of mistake.
         fault: OwnershipFault,
     },
     /// A sum is wrong.
     Total {
         /// Its field.
         field: &'static str,
-        /// What the Plan says.
+        /// The sum that the Plan states.
         stated: u64,
-        /// What its steps, images and heaps say.
+        /// The sum that its steps, images and heaps give.
         counted: u64,
     },
 }
 
-/// What accessed an image.
+/// An access to an image in a report, or an event that counts as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Accessed {
     /// An access.
@@ -127,7 +127,7 @@ pub enum Accessed {
     LayoutChange,
     /// Nothing more than waiting.
     Wait(Stages),
-    /// Whatever comes after the frame and relies on the promised state.
+    /// A use after the frame that relies on the promised state.
     AfterFrame,
 }
 
@@ -303,7 +303,7 @@ impl Display for Violation {
     }
 }
 
-/// The other step, or what stands for it.
+/// The other step, or the words that stand for it.
 struct Other<'v>(Option<&'v StepName>);
 
 impl Display for Other<'_> {

@@ -25,11 +25,11 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     pub(super) clocks: Clocks<Q>,
     pub(super) frame: u32,
     batch: Vec<(Clock<Q>, StageSet, PairSet)>,
-    /// What each queue has waited for with semaphores.
+    /// For each queue, the clock of all that its semaphores have waited for.
     waited: [Clock<Q>; Q],
-    /// What the step at hand waits for with semaphores.
+    /// The clock of all that the semaphores of the current step wait for.
     held: Clock<Q>,
-    /// For each frame, what comes before somebody who waits for a step: for each step that is waited for.
+    /// For each frame, and for each step that is waited for: the clock of a wait for that step.
     signalled: Vec<Vec<Clock<Q>>>,
 }
 
@@ -86,8 +86,8 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
     }
 
-    /// The whole step, barriers included, comes after what it waits for; later steps do so where their barriers, or the
-    /// stages that wait, lead on to them.
+    /// The whole step, barriers included, comes after the steps that it waits for; later steps do so where their barriers, or
+    /// the stages that wait, lead on to them.
     fn wait(&mut self, span: &Span) {
         self.held = Clock::START;
         let accesses = &self.program.accesses[span.accesses.clone()];
@@ -138,7 +138,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         let mut last = None;
         for (barrier, number) in program.barriers[span.barriers.clone()].iter().zip(span.barriers.start as u32..) {
             let stages = (barrier.scopes.from, barrier.scopes.to);
-            // Neighbours mostly wait for the same stages: what came before those is then known already.
+            // Neighbours mostly wait for the same stages: the clock before those is then known already.
             if last != Some(stages) {
                 batch.push((self.before(queue, stages.0, now), stages.1, PairSet::default()));
                 last = Some(stages);
@@ -151,8 +151,8 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         self.batch = batch;
     }
 
-    /// Barriers of one call don't order each other, and none finds available what another one makes so: they take effect
-    /// once all are judged.
+    /// Barriers of one call don't order each other, and none finds writes available that another one makes available: they take
+    /// effect once all are judged.
     fn take_effect(&mut self, queue: u8, call: &mut Vec<(Clock<Q>, StageSet, PairSet)>) {
         for (before, stages, shown) in call.drain(..) {
             self.clocks.hold_up(queue, stages, &before);
@@ -193,7 +193,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             }
             let state = &self.subresources[index];
             if state.generation != generation {
-                // What it did before it lost its bytes is what the image that took them had to wait for.
+                // The accesses before the image lost its bytes don't count here: the next owner had to wait for them.
                 self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before));
             } else if !state.excused
                 && let Some(gap) = before_layout_change(state, before, scopes.source)
@@ -218,7 +218,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
     }
 
-    /// The first halves of ownership transfers: from here on nobody may use the image, before the other half.
+    /// The first halves of ownership transfers: from here on no queue may use the image, until the other half.
     fn releases(&mut self, id: StepId, span: &Span) {
         let (now, queue, program) = (self.now(id), span.queue, self.program);
         for (barrier, number) in program.barriers[span.releases.clone()].iter().zip(span.releases.start as u32..) {
@@ -248,8 +248,8 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     fn work(&mut self, id: StepId, span: &Span) {
         let (now, queue) = (self.now(id), span.queue);
         let accesses = &self.program.accesses[span.accesses.clone()];
-        // Attachments of a scope are kept in order by rasterisation: its accesses are held against what came before
-        // it, not against each other, and up to its own first write.
+        // Attachments of a scope are kept in order by rasterisation: its accesses are held against the accesses before
+        // the scope, not against each other, and up to its own first write.
         for access in accesses.iter().filter(|access| access.kind == Kind::Attachment) {
             self.access(id, queue, access);
             if access.pairs.reads().is_empty() && !access.pairs.is_empty() {

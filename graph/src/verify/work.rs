@@ -17,7 +17,7 @@ use crate::plan::{
 use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Shape, Stages, StoreOp, Subresources, name_of};
 use std::collections::HashSet;
 
-/// Reports what is malformed in the steps; the steps in dense form, if they can be followed.
+/// Reports malformed steps; returns the steps in dense form, if they can be followed.
 pub(super) fn check<'p>(plan: &'p Plan, found: &mut Findings<'p>) -> Option<Program> {
     let mut builder = Builder::new(plan, found);
     let mut names = HashSet::with_capacity(plan.steps.len());
@@ -145,7 +145,7 @@ impl<'p> Check<'_, 'p> {
         self.demand(fits, target.id, "can't be the target of a resolve in its layout");
     }
 
-    /// What attachments and targets of resolves have in common.
+    /// Checks that attachments and targets of resolves share.
     fn target(&mut self, scope: &RenderScope, image: &Image, range: Subresources, plane: Aspects) {
         self.demand(image.shape != Shape::D3, image.id, "is three-dimensional and can't be an attachment");
         self.demand(image.format.aspects().contains(plane), image.id, "has a format that doesn't fit its attachment");
@@ -191,9 +191,9 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
-    /// What passes draw is there for later passes of the scope that read it at their own position only after a local
-    /// barrier, and what they read is drawn over only after one. Such a barrier is about colour only: tests of depth come
-    /// before fragment shaders.
+    /// A local barrier must stand between passes of the scope that draw a colour and those that read it at their own position,
+    /// and before passes that draw over a colour that was read. Such a barrier is about colour only: tests of depth come before
+    /// fragment shaders.
     fn local_reads(&mut self, scope: &RenderScope) {
         let local = |access: &&Access| access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ);
         let reads = |pass: &Pass| pass.accesses.iter().any(|access| local(&access));

@@ -1,9 +1,9 @@
-//! What the numbers of a picture that leaves the frame mean.
+//! The encoding of a picture that leaves the frame: the meaning of its numbers.
 
 use super::{Format, Numeric};
 use serde::{Deserialize, Serialize};
 
-/// What the numbers of a picture mean to a screen or a file.
+/// The meaning of a picture's numbers to a screen or a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Encoding {
     /// Primaries of Rec. 709, encoded with the sRGB curve (IEC 61966-2-1): by the format, or by a shader into a UNORM one.
@@ -17,7 +17,7 @@ pub enum Encoding {
 }
 
 impl Encoding {
-    /// What a format says by itself; `None` where it leaves it open (UNORM) or holds no colour.
+    /// The encoding that a format implies; `None` where the format leaves it open (UNORM) or holds no colour.
     #[must_use]
     pub const fn of(format: Format) -> Option<Encoding> {
         match format.numeric() {
@@ -28,7 +28,7 @@ impl Encoding {
         }
     }
 
-    /// Whether a format can hold it.
+    /// Whether a format can hold the encoding.
     #[must_use]
     pub const fn fits(self, format: Format) -> bool {
         let unorm = matches!(format.numeric(), Numeric::Unorm) && !format.is_depth();
@@ -53,7 +53,7 @@ impl Encoding {
         }
     }
 
-    /// What to say so that an image can hold it.
+    /// The help for an image whose format can't hold the encoding.
     pub(crate) fn help(self, image: &str) -> String {
         let format = match self {
             Encoding::Srgb => Format::R8G8B8A8_SRGB,

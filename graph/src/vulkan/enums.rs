@@ -119,14 +119,14 @@ impl Accesses {
     }
 }
 
-/// Puts what stands from bit 24 on where Vulkan has it: from bit 32 on.
+/// Moves the bits from 24 on to where Vulkan has them: from bit 32 on.
 const fn with_64_bits(bits: u32) -> u64 {
     const LOW: u32 = 24;
     (bits & ((1 << LOW) - 1)) as u64 | ((bits >> LOW) as u64) << 32
 }
 
 bitflags! {
-    /// What an image may be used for (`VkImageUsageFlagBits`).
+    /// The usages of an image (`VkImageUsageFlagBits`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
     pub struct Usage: u32 {
@@ -150,7 +150,7 @@ bitflags! {
 }
 
 bitflags! {
-    /// What a buffer may be used for (`VkBufferUsageFlagBits`).
+    /// The usages of a buffer (`VkBufferUsageFlagBits`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
     pub struct BufferUsage: u32 {
@@ -251,7 +251,7 @@ impl Subresources {
     /// All mip levels or layers from the first on (`VK_REMAINING_MIP_LEVELS`, `VK_REMAINING_ARRAY_LAYERS`).
     pub const REMAINING: u32 = u32::MAX;
 
-    /// All of whatever image, every plane.
+    /// The whole of any image, every plane.
     pub const WHOLE: Subresources = Subresources {
         aspects: Aspects::empty(),
         base_mip: 0,
@@ -277,7 +277,7 @@ impl Subresources {
     }
 }
 
-/// What every texel of an image, or every 32-bit word of a buffer, is set to.
+/// The value that every texel of an image, or every 32-bit word of a buffer, is set to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FillValue {
@@ -289,7 +289,7 @@ pub enum FillValue {
     Depth(f32, u8),
 }
 
-/// What happens to a stencil value (`VkStencilOp`).
+/// The operation on a stencil value (`VkStencilOp`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum StencilOp {
@@ -307,7 +307,7 @@ pub enum StencilOp {
     Invert,
 }
 
-/// What happens to an attachment's contents when a rendering scope begins (`VkAttachmentLoadOp`).
+/// Load op: the contents of an attachment when a rendering scope begins (`VkAttachmentLoadOp`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum LoadOp {
@@ -319,7 +319,7 @@ pub enum LoadOp {
     DontCare,
 }
 
-/// What happens to an attachment's contents when a rendering scope ends (`VkAttachmentStoreOp`).
+/// Store op: the contents of an attachment when a rendering scope ends (`VkAttachmentStoreOp`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum StoreOp {
@@ -355,7 +355,7 @@ pub enum Filter {
     Linear,
 }
 
-/// What a sampled image holds beyond its edges (`VkSamplerAddressMode`), on every axis.
+/// The texels of a sampled image beyond its edges (`VkSamplerAddressMode`), on every axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum AddressMode {
@@ -376,12 +376,12 @@ pub struct Sampler {
     pub filter: Filter,
     /// Filter between mip levels.
     pub mips: Filter,
-    /// What lies beyond the edges.
+    /// The texels beyond the edges.
     pub address: AddressMode,
 }
 
 impl Sampler {
-    /// One that ends at the image's edges and takes the nearest mip level.
+    /// A sampler that ends at the image's edges and takes the nearest mip level.
     #[must_use]
     pub const fn new(filter: Filter) -> Sampler {
         Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge }

@@ -1,4 +1,4 @@
-//! Texel formats by Vulkan's names, and what follows from a name alone.
+//! Texel formats by Vulkan's names, and properties that follow from a name alone.
 
 use super::Aspects;
 use serde::{Deserialize, Serialize};

@@ -17,7 +17,7 @@ pub struct ImageShape {
     pub arrayed: bool,
     /// Whether single samples are read.
     pub multisampled: bool,
-    /// What a component is.
+    /// The type of a component.
     pub component: Component,
 }
 
@@ -36,7 +36,7 @@ pub enum Dimension {
     Buffer,
 }
 
-/// What a component is.
+/// The type of an image's component in a shader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Component {
     /// Floating point (UNORM and SRGB formats too).
@@ -53,7 +53,7 @@ pub(crate) fn extent_at(extent: [u32; 3], mip: u32) -> [u32; 3] {
 }
 
 impl Component {
-    /// What a component of `format` is to a shader.
+    /// The type of a component of `format` in a shader.
     #[must_use]
     pub const fn of(format: Format) -> Component {
         if format.is_integer() { Component::Uint } else { Component::Float }

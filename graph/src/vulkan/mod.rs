@@ -1,4 +1,4 @@
-//! Vulkan's own words as plain data: formats, layouts, stages, accesses, usages, and what follows from them alone.
+//! Vulkan's own words as plain data: formats, layouts, stages, accesses, usages, and properties that follow from them alone.
 
 mod encoding;
 mod enums;

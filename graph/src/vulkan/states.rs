@@ -1,8 +1,8 @@
-//! What contradicts itself in the state in which an image or buffer comes in or goes out.
+//! Contradictions in the state in which an image or buffer comes in or goes out.
 
 use super::{Accesses, Aspects, Format, Layout, Stages, State, Usage};
 
-/// When something is in a state.
+/// The time at which an image or buffer is in a state.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum When {
     /// When it is handed in.
@@ -11,7 +11,7 @@ pub(crate) enum When {
     After,
 }
 
-/// What is in a state.
+/// The image or buffer that is in a state.
 #[derive(Clone, Copy)]
 pub(crate) struct Subject<'a> {
     pub(crate) name: &'a str,
@@ -43,7 +43,7 @@ pub(crate) fn usage_for(layout: Layout) -> Usage {
     }
 }
 
-/// Why nothing of this kind can be in this state, and what would be right.
+/// Why no image or buffer of this kind can be in this state, and the help.
 pub(crate) fn contradiction(state: &State, of: Subject<'_>, when: When) -> Option<(String, String)> {
     let name = of.name;
     for (access, stages) in STAGES_OF {

@@ -7,7 +7,7 @@ use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{Pass, Plan, Work};
 use framewright_graph::verify::verify;
 
-/// Objects and perforated ones in so many samples, whose depth a pass samples, and what is shown.
+/// Opaque and perforated objects with `msaa` samples, whose depth a pass samples, and a pass that shows the picture.
 const PIPELINE: &str = r#"Pipeline(
     version: 1,
     settings: [

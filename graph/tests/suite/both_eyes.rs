@@ -1,5 +1,5 @@
-//! What the compiler makes of images that hold both eyes' parts (ST-2, ST-4): memory, limits, scopes, what it keeps of the last
-//! frame; and frames built in memory that it must refuse.
+//! Images that hold both eyes' parts (ST-2, ST-4), as the compiler treats them: memory, limits, scopes, what it keeps of the
+//! last frame; and frames built in memory that it must refuse.
 
 use crate::testing::plans::{self, compiled, image, on, scopes};
 use crate::testing::raster::{self, Raster};

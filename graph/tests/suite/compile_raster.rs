@@ -1,4 +1,4 @@
-//! What the compiler makes of raster passes: resolves, scopes, load and store operations, forwards.
+//! Raster passes as the compiler translates them: resolves, scopes, load and store operations, forwards.
 
 use crate::testing::plans::{compiled, scopes};
 use crate::testing::raster::{self, Raster, forward};

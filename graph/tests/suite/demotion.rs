@@ -7,7 +7,7 @@ use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Format::R16G16B16A16_SFLOAT;
 
-/// Objects in an image of 4 samples, blurred so many times: to and fro between that image and one of one sample.
+/// Objects in an image of 4 samples, with `strength` blurs: to and fro between that image and one of one sample.
 fn blurred(strength: u32) -> Frame {
     let mut raster = Raster::default();
     let color = raster.image("color", R16G16B16A16_SFLOAT, 4);

@@ -238,7 +238,7 @@ fn the_face_asks_for_the_depth_only_pass_whatever_the_image_says() {
     assert_eq!((plan.totals.resolves, plan.totals.inserted_passes), (0, 1));
 }
 
-/// What drew the depth can't be drawn again: the reason, behind the name of the pass.
+/// The reason why the passes that drew the depth can't draw it again, behind the name of the pass.
 fn refused(change: impl FnOnce(&mut Frame)) -> String {
     let mut frame = Stripes::new(4).frame(None);
     change(&mut frame);
@@ -290,7 +290,7 @@ fn verify_knows_what_may_be_drawn_again() {
     says(lax, "tests depth otherwise than the pass");
 }
 
-/// What is inserted stands in the Plan at its place, with its cause.
+/// Inserted passes stand in the Plan at their place, with their cause.
 #[test]
 fn the_plans_are_those_that_were_reviewed() {
     let rungs =

@@ -1,5 +1,5 @@
-//! What the numbers of outputs mean: declared or said by the format, held against the format, and told with the place where
-//! they are encoded.
+//! Encodings of outputs: declared or said by the format, held against the format, and told with the place where they are
+//! encoded.
 
 use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};

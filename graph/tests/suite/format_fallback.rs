@@ -52,7 +52,7 @@ fn what_a_device_lacks_becomes_what_holds_as_much_and_is_said() {
         let missing = "`a device for tests` has no SAMPLED, COLOR_ATTACHMENT for it";
         let said = note(&plan, "color");
         assert!(said.starts_with(&format!("{wanted} was asked for, {made} is made: {missing}")), "{said}");
-        // What comes of it has its format, too.
+        // The resolved image has its format, too.
         assert_eq!(format(&plan, "color (resolved)"), made);
     }
 }
@@ -155,7 +155,7 @@ fn a_frame_that_fell_back_is_compiled_anew_when_it_changes() {
     }
 }
 
-/// What the compiler inserts takes more of a format than the passes say.
+/// Inserted copies and resolves need more of a format than the passes say.
 #[test]
 fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
     let lacking = |format: Format, usage: Usage| {
@@ -194,7 +194,7 @@ fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
     assert_eq!(refused.len(), 1, "{refused:?}");
     assert!(refused[0].1.contains("`show` samples `color` and it has 4 samples"), "{refused:?}");
 
-    // Outputs can be copied by whoever takes them.
+    // The program that takes an output can copy it.
     let refused = said(&again, &lacking(R8G8B8A8_SRGB, Usage::TRANSFER_SRC));
     assert!(refused[0].1.contains("outputs can be copied"), "{refused:?}");
 }

@@ -101,7 +101,7 @@ fn every_shipped_pipeline_makes_the_plans_that_were_reviewed() {
     }
 }
 
-/// What `verify` has nothing against without one barrier.
+/// Barriers of a Plan that `verify` doesn't miss.
 fn needless(name: &str, plan: &Plan) -> Vec<String> {
     let mut needless = Vec::new();
     for (step, described) in plan.steps.iter().enumerate() {
@@ -187,7 +187,7 @@ fn every_barrier_names_the_first_step_that_needs_it_and_not_the_step_where_it_st
             let images = step.image_barriers.iter().map(|it| (Resource::Image(it.image), it.needed_by));
             let buffers = step.memory_barriers.iter().flat_map(|it| &it.buffers);
             for (resource, needed_by) in images.chain(buffers.map(|it| (Resource::Buffer(it.buffer), it.needed_by))) {
-                // What comes after the frame is no step.
+                // A need after the frame names no step.
                 let Some(StepId(needed_by)) = needed_by else { continue };
                 let what = format!("{name}: a barrier of {resource:?} before step {number}, needed by {needed_by}");
                 assert!(needed_by as usize >= number, "{what}");

@@ -1,4 +1,4 @@
-//! Frames that were built in memory and can't be made: each is refused in words, whatever their numbers.
+//! Frames that were built in memory and can't be made: each is refused in words, with any numbers.
 
 use crate::testing::parts::stored;
 use crate::testing::plans::refused_on;

@@ -1,5 +1,5 @@
-//! What docs/plan-format.md says in words of Plans, held against the JSON form of real Plans. Nothing but that form is looked at, as
-//! another program would.
+//! Sentences of docs/plan-format.md about Plans, held against the JSON form of real Plans. Nothing but that form is looked at,
+//! as another program would.
 
 mod json;
 
@@ -340,7 +340,7 @@ fn what_samples_an_image_fits_it_whether_the_shader_or_the_pass_declares_it() {
     assert!(own > 10 && given > 10, "{own} shaders declare what they sample by themselves, {given} are told");
 }
 
-/// What a shader of the table declares by itself; `None` for what the compiler inserted, which isn't there.
+/// The declaration that a shader of the table has by itself; `None` for a shader that the compiler inserted, which isn't there.
 fn own_declaration(pass: &Value, binding: &str) -> Option<String> {
     let shader = text(&pass["shader"]).trim_start_matches("shipped:");
     let variant = Variant::default();

@@ -196,7 +196,7 @@ fn what_an_earlier_wait_covers_is_not_waited_for_again() {
     builder.draw("tonemap", &[a, color], &[], screen);
     let plan = compiled(&builder.output(screen), CONCURRENT);
     let expected = [
-        // `tonemap` comes after `scene`: whoever waits for it needs nothing more.
+        // `tonemap` comes after `scene`: a step that waits for `tonemap` needs no other wait.
         "compute: first, after tonemap of the frame before",
         "compute: second",
         "shadows",
@@ -235,7 +235,7 @@ fn an_exclusive_image_is_released_and_acquired_with_its_contents() {
     assert_eq!([acquire.old_layout, acquire.new_layout], layouts);
     assert_eq!(release.ownership, Some([Queue::Graphics, Queue::Compute]));
     assert_eq!(acquire.ownership, release.ownership);
-    // What each queue does stands on that queue.
+    // Stages of each queue stand in the barrier on that queue.
     assert_eq!(
         (release.src_stages, release.src_accesses.writes()),
         (Stages::COLOR_ATTACHMENT_OUTPUT, release.src_accesses)
@@ -315,7 +315,7 @@ fn an_upload_runs_on_the_transfer_queue() {
         "lit, after upload, takes texture",
     ];
     assert_eq!(shown(&plan), expected);
-    // Whoever hands it in does so on another queue family.
+    // The program hands `staging` in on another queue family.
     assert_eq!(plan.buffers[0].sharing, Sharing::Concurrent);
 }
 

@@ -249,7 +249,7 @@ fn whatever_the_options_the_checker_finds_nothing_and_the_outputs_hold_what_the_
     });
 }
 
-/// PR-1, PR-2, PR-7: whatever is turned together with an output, and wherever it stays upright.
+/// PR-1, PR-2, PR-7: for all images that are turned together with an output, and for all that stay upright.
 #[test]
 fn outputs_that_leave_rotated_hold_the_same_or_are_refused_beside_other_targets() {
     let (turned, drawn_so) = (Cell::new(0), Cell::new(0));

@@ -121,7 +121,7 @@ fn an_output_that_is_drawn_anew_is_upright_until_then() {
     assert_eq!(all, ["screen (upright)", "depth", "screen"]);
 }
 
-/// What stays from frame to frame and is read again is upright; a second image leaves the frame.
+/// An image that stays from frame to frame and is read again is upright; a second image leaves the frame.
 #[test]
 fn an_output_with_history_stays_upright_beside_a_rotated_one() {
     let mut raster = Raster::default();
@@ -227,7 +227,7 @@ fn what_could_not_be_drawn_rotated_is_no_mistake_where_a_later_pass_reads_the_ou
     }
 }
 
-/// What is handed in is as it is: nobody turned it before.
+/// An image that is handed in is as it is: nobody turned it before.
 #[test]
 fn what_is_handed_in_stays_upright_where_it_is_forwarded_to_the_output() {
     let state = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::TransferDstOptimal };
@@ -283,7 +283,7 @@ fn a_copy_between_images_that_are_rotated_otherwise_is_caught() {
     assert!(said.contains("`screen (copy)`: is copied, and rotated on only one side"), "{said}");
 }
 
-/// What was compiled for one rotation serves for other sizes of it, and not for another rotation.
+/// A Plan that was compiled for one rotation serves for other sizes of it, and not for another rotation.
 #[test]
 fn a_frame_of_another_size_is_rotated_again_and_gives_what_compiling_anew_gives() {
     let device = Arc::new(raster::device());

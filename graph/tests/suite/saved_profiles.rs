@@ -61,7 +61,7 @@ fn shipped_profiles_that_no_driver_wrote_say_what_was_assumed() {
     }
 }
 
-/// What separates the kinds of devices that Plans are made for.
+/// The differences between the kinds of devices that Plans are made for.
 #[test]
 fn shipped_profiles_differ_where_devices_do() {
     let all = SHIPPED_PROFILES.iter().map(|(_, text)| Profile::from_ron(text).expect("read"));
@@ -105,7 +105,7 @@ fn a_profile_that_is_cut_short_anywhere_is_refused() {
     }
 }
 
-/// What is replaced, with what, in which line that is said, and a part of what is said.
+/// The text that is replaced, its replacement, the line of the mistake, and a part of the message.
 const LIES: &[(&str, &str, usize, &str)] = &[
     ("\"small\"", "\" \"", 2, "the device has no name"),
     ("extent: 4096", "extent: 0", 4, "this is 0, and must be 1 to 65536"),

@@ -71,7 +71,7 @@ fn images_that_stay_in_their_scope_take_lazily_allocated_memory_where_there_is_s
     }
 }
 
-/// What a program may build in memory, where nobody has checked it.
+/// Profiles that a program may build in memory, where nobody has checked them.
 fn beyond() -> Vec<Profile> {
     let bare = || graphs::device();
     let needs = |bytes, alignment, type_bits| {

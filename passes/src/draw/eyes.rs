@@ -54,7 +54,7 @@ impl Eyes {
         Eyes { left: at(-0.5 * separation), right: at(0.5 * separation) }
     }
 
-    /// One of them.
+    /// The sight of one eye.
     #[must_use]
     pub const fn of(&self, eye: Eye) -> EyeSight {
         match eye {

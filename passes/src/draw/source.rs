@@ -130,8 +130,8 @@ impl SceneDrawSource {
         })
     }
 
-    /// Goes over to a Plan that differs in values alone, together with [`framewright_vulkan::Executor::change`]: its views are
-    /// jittered as it says. Frames in flight keep what they are drawn from.
+    /// Goes over to a Plan that differs in values alone, together with [`framewright_vulkan::Executor::change`]: its views get
+    /// that Plan's jitter. Frames in flight keep what they are drawn from.
     ///
     /// # Errors
     /// [`Error::DrawSource`] if it has not as many views as the Plan before; no memory.

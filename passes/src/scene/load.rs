@@ -14,7 +14,7 @@ pub enum SceneError {
         /// The file.
         path: PathBuf,
     },
-    /// It can't be read.
+    /// The file can't be read.
     #[error("{}: {source}", shown(path))]
     Unreadable {
         /// The file.
@@ -22,7 +22,7 @@ pub enum SceneError {
         /// The system's error.
         source: std::io::Error,
     },
-    /// It is too large.
+    /// The file is too large.
     #[error("{}: a scene of this kind has at most {limit} bytes; this has more", shown(path))]
     TooLarge {
         /// The file.

@@ -91,7 +91,7 @@ fn no_object_is_left_out_of_which_a_triangle_shows() {
         let fov = random.between(0.2, 2.8);
         let Some(camera) = Camera::look_at(eye.as_dvec3(), target, DVec3::Y, fov, near) else { continue };
         for _ in 0..60 {
-            // Mirrored, flattened, long and thin, huge: whatever a scene may hold.
+            // Mirrored, flattened, long and thin, huge: a scene may hold all of these.
             let mut scale = random.vector(1.0) * [0.1, 1.0, 20.0][(random.next() * 3.0) as usize % 3];
             if random.next() < 0.1 {
                 scale.y = 0.0;

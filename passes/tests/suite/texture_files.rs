@@ -86,7 +86,7 @@ fn exr_and_hdr_hold_light_beyond_one_and_are_never_srgb() {
     assert_eq!(textures.info(&exr), Ok(TextureInfo { extent: [1, 1], format }));
     let texels = textures.texels(&exr, format, [1, 1, 1]).expect("texels");
     let halves: Vec<u16> = texels.as_chunks().0.iter().map(|bytes| u16::from_ne_bytes(*bytes)).collect();
-    // What is too large for a half is the largest there is, 65504.
+    // Numbers too large for a half become the largest half, 65504.
     assert_eq!(halves, [0x3400, 0x4400, 0x7bff, 0x3c00]);
     let wide = textures.texels(&exr, Format::R32G32B32A32_SFLOAT, [1, 1, 1]).expect("texels");
     assert_eq!(wide[8..12], 1e9_f32.to_ne_bytes());

@@ -36,7 +36,7 @@ struct Line {
     /// Frames that each is executed for; without it as many as show all that it keeps from frame to frame.
     #[arg(long)]
     frames: Option<u32>,
-    /// Stop after so many failures.
+    /// Stop after this number of failures.
     #[arg(long, default_value_t = 3)]
     failures: u64,
     /// Write what fails here, shrunk: the pipeline file, its shaders, and its Plan as text.

@@ -139,7 +139,7 @@ impl Follower<'_> {
                     continue;
                 }
                 Some(_) => {
-                    // Whoever prepared what persists has released it to the first queue that acquires it.
+                    // The preparation of a persistent resource has released it to the first queue that acquires it.
                     let prepared = self.frame == 0
                         && cell.owner == Owner::Nobody
                         && matches!(role(self.world.plan, resource), Role::Persistent { .. });
@@ -168,7 +168,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Whoever shares bytes with what was written has lost its contents, and with them the layout that they were in.
+    /// Resources that share bytes with what was written lose their contents, and with them the layout that they were in.
     fn taken(&mut self, by: usize) {
         for other in 0..self.world.physical.len() {
             if self.world.share_bytes(other, by) {
@@ -269,7 +269,7 @@ impl Follower<'_> {
         });
     }
 
-    /// What a pass reads without attachments: one number.
+    /// The value that a pass reads without attachments, as one number.
     fn reads(&mut self, step: usize, pass: &Pass, uses: Vec<Use>) -> Value {
         let named = |number: usize| {
             let image = pass.accesses.get(number).map(|access| access.binding.as_ref().map(|binding| &binding.name));
@@ -286,7 +286,7 @@ impl Follower<'_> {
         all
     }
 
-    /// What a pass writes without attachments. What it doesn't read it replaces whole.
+    /// Writes of a pass without attachments. Parts that the pass doesn't read are replaced whole.
     fn stores(&mut self, pass: &Pass, read: Value) {
         for (at, one) in uses::of_pass(pass, [0; 2], Kind::Plain).iter().enumerate() {
             if !matches!(one.kind, Kind::Attachment { .. }) && !one.accesses.writes().is_empty() {
@@ -387,12 +387,12 @@ fn of_attachment(attachment: &Attachment) -> Use {
     }
 }
 
-/// What a part holds when all or some of it is set to `value`.
+/// The value of a part after all or some of it is set to `value`.
 fn filled(value: Value, old: Value, whole: bool) -> Value {
     if whole { value } else { value.zip(old).map(number) }
 }
 
-/// What a draw makes of a target.
+/// The value of a target after a draw.
 fn made(read: Value, target: (&str, usize, usize), old: Value, covers: bool) -> Value {
     let made = read.map(|read| number((read, target)));
     if covers { made } else { made.zip(old).map(number) }

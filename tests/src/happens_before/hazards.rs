@@ -57,7 +57,7 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
             earlier.physical != later.physical || (number != other_number && !ordered_within_a_step(&one, &other));
         return (number <= other_number && apart).then_some(Missing::Order);
     }
-    // What somebody did before the frame comes after the contents that it left, whatever it was.
+    // Any access before the frame comes after the contents that it left.
     let arrival = |touch: &Touch| touch.of.is_none() && matches!(touch.what, What::Access(..));
     if arrival(later) && (earlier.what == What::Initial || arrival(earlier)) {
         return None;
@@ -88,7 +88,7 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
     if !available.iter().any(|point| before.contains(*point)) {
         return Some(Missing::Availability);
     }
-    // What another image left in the bytes is nobody's to see: `contents` tells whether it is read.
+    // Contents that another image left in the bytes are nobody's to see: `contents` tells whether they are read.
     let What::Access(stage, access) = later.what else { return None };
     let reads = !later.what.writes() && earlier.physical == later.physical && !replaced(timeline, later, cell);
     let visible = || {
@@ -103,8 +103,8 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
     (reads && !visible()).then_some(Missing::Visibility)
 }
 
-/// Whether a load operation that clears or forgets stands between a read within a scope and whatever was before the scope:
-/// then the read sees only what the scope itself wrote.
+/// Whether a load operation that clears or forgets stands between a read within a scope and all that was before the scope: then
+/// the read sees only what the scope itself wrote.
 fn replaced(timeline: &Timeline, read: &Touch, cell: usize) -> bool {
     let within =
         read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment { .. } | Kind::Store | Kind::Input { .. }));

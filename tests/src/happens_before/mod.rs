@@ -58,8 +58,8 @@ pub enum Harm {
 pub struct Verdict {
     /// Every harm, in the order of finding.
     pub harms: Vec<Harm>,
-    /// What outputs, imported resources, persistent ones and custom passes see, frame by frame: numbers that stand for how
-    /// it was made; `None`: undefined.
+    /// Values that outputs, imported resources, persistent ones and custom passes see, frame by frame: numbers that stand for
+    /// how they were made; `None`: undefined.
     pub outcome: Vec<Option<u64>>,
 }
 

@@ -1,7 +1,7 @@
 //! The frames unrolled: every operation as a node, and which nodes happen before which.
 //!
-//! Nodes are made in the order of submission, so whatever happens before a node is made before it, and the closure is
-//! complete as soon as the last node is made. An edge stands for one rule of the specification:
+//! Nodes are made in the order of submission, so all that happens before a node is made before it, and the closure is complete
+//! as soon as the last node is made. An edge stands for one rule of the specification:
 //! - work → first half of a barrier, if its stage is in the barrier's first scope (logically earlier stages included);
 //! - first half → layout transition → second half of the same barrier;
 //! - second half → work, if its stage is in the second scope (logically later stages included);
@@ -306,7 +306,7 @@ impl Timeline {
         step.map(|step| step.queue)
     }
 
-    /// What comes from outside: its contents, and the accesses that were the last to it.
+    /// The arrival of a resource from outside: its contents, and the accesses that were the last to it.
     fn arrive(&mut self, world: &World, frame: usize, resource: Resource) {
         let Some(State { stages, accesses, .. }) = world.arrives(frame, resource) else { return };
         let Some(queue) = Timeline::queue_of(world, resource, false) else { return };
@@ -323,7 +323,7 @@ impl Timeline {
             self.operations.push(MemoryOperation { queue, from: None, to: Some((stages, accesses, to)), part });
         };
         if !external {
-            // Whoever prepared it waited until that was done, and whichever queue comes first may use it.
+            // The preparation was waited for, and any queue may be the first to use the resource.
             let all = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
             for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
                 show(queue, Stages::ALL_COMMANDS, all);
@@ -343,7 +343,7 @@ impl Timeline {
         }
     }
 
-    /// What leaves: somebody waits for the promised state with a barrier of its own.
+    /// The departure of a resource: somebody waits for the promised state with a barrier of its own.
     fn leave(&mut self, world: &World, frame: usize, resource: Resource) {
         let after = match role(world.plan, resource) {
             Role::External { after, .. } => *after,

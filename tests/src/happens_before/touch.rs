@@ -1,4 +1,4 @@
-//! What the judge keeps of an execution: sets of nodes, touches of memory, and operations that make writes available or
+//! Records of the judge about an execution: sets of nodes, touches of memory, and operations that make writes available or
 //! visible.
 
 use super::uses::Use;
@@ -50,9 +50,9 @@ pub(super) enum What {
     Access(Stages, Accesses),
     /// A layout transition: reads and writes; waits for what is available, leaves its own writes available.
     Transition,
-    /// What it holds when it first appears: written and available.
+    /// The contents when the resource first appears: written and available.
     Initial,
-    /// What comes after the frame and relies on the promised state: reads and writes.
+    /// Work after the frame that relies on the promised state: reads and writes.
     After,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct MemoryOperation {
     pub(super) queue: Queue,
     /// Writes become available: masks and node.
     pub(super) from: Option<(Stages, Accesses, usize)>,
-    /// They become visible: masks and node.
+    /// Writes become visible: masks and node.
     pub(super) to: Option<(Stages, Accesses, usize)>,
     /// `None`: all memory; else one image or buffer, in these parts.
     pub(super) part: Option<(usize, Vec<usize>)>,

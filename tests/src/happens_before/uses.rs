@@ -27,12 +27,12 @@ pub(super) enum Kind {
     Custom,
     /// A draw's, as attachment: rasterisation order among them.
     Attachment {
-        /// What passes before this one read at their own position stands before a by-region barrier.
+        /// The first pass behind the last by-region barrier. Earlier passes' reads at their own position stand before it.
         shown: usize,
     },
     /// An input attachment.
     Input {
-        /// What passes before this one drew stands before a by-region barrier.
+        /// The first pass behind the last by-region barrier. Earlier passes' draws stand before it.
         shown: usize,
         /// Whether its pass draws each texel once.
         once: bool,

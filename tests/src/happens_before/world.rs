@@ -50,7 +50,7 @@ impl<'p> World<'p> {
         world
     }
 
-    /// What entries of one list stand for in the frame after one in which they stood for `before`.
+    /// The physical resources of one list's entries in a frame. `before`: those in the frame before.
     fn next(&mut self, entries: Vec<Resource>, before: Option<Vec<usize>>) -> Vec<usize> {
         let mut stand_for = vec![None; entries.len()];
         for (number, entry) in entries.iter().enumerate() {
@@ -84,7 +84,7 @@ impl<'p> World<'p> {
         self.physical.len() - 1
     }
 
-    /// What an entry stands for in a frame.
+    /// The physical resource that an entry stands for in a frame.
     pub(super) fn physical(&self, frame: usize, resource: Resource) -> usize {
         match resource {
             Resource::Image(image) => self.images[frame][image.0 as usize],

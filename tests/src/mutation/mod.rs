@@ -102,11 +102,11 @@ pub fn mutants(plan: &Plan) -> impl Iterator<Item = Mutant> + '_ {
 /// Who noticed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Noticed {
-    /// `verify` reports it.
+    /// `verify` reports the mutant.
     Caught,
     /// Nobody could see the difference: no hazard, no wrong layout, nothing undefined is read, the same outcome.
     Harmless,
-    /// It harms, and `verify` says nothing.
+    /// The mutant does harm, and `verify` says nothing.
     Missed(Vec<Harm>),
 }
 

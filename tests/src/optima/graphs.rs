@@ -120,8 +120,8 @@ fn full_screen(numbers: &mut Numbers, builder: &mut Builder, known: &mut Vec<Kno
     sources.into_iter().fold(pass, |pass, source| pass.sample(source));
 }
 
-/// The frame without passes that no output needs. No pass here replaces what an earlier one made, so whoever writes an
-/// image that is needed later, or before another writer of it, is needed.
+/// The frame without passes that no output needs. No pass here replaces what an earlier one made, so a pass is needed if it
+/// writes an output, or an image that a later needed pass reads or writes.
 fn needed(frame: Frame) -> Frame {
     let mut wanted: BTreeSet<ImageIndex> = frame
         .outputs

@@ -132,7 +132,7 @@ fn steps(
                 && (own == depth || own.is_none() || depth.is_none())
                 && !resolved.iter().any(|(by, _)| *by == before)
                 && pass.sampled.iter().all(|sampled| !written.contains(&sampled.image))
-                // What would have to be cleared in the middle of a scope begins one.
+                // A target that would have to be cleared in the middle of a scope begins one.
                 && pass.color.iter().all(|target| target.clear.is_none())
                 && pass.depth.as_ref().is_none_or(|depth| depth.clear.is_none())
         });

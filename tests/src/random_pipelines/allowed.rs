@@ -61,17 +61,17 @@ pub enum Kind {
     Atomics,
     /// Fragment shaders that write without attachments.
     FragmentStores,
-    /// What stays from frame to frame.
+    /// Resources that stay from frame to frame.
     Persistent,
-    /// What can be read in later frames.
+    /// Resources that can be read in later frames.
     History,
-    /// What the embedding program hands in.
+    /// Resources that the embedding program hands in.
     Imported,
     /// Passes that are never culled.
     SideEffect,
 }
 
-/// What random pipelines may hold.
+/// The kinds of things that random pipelines may hold.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Allowed {
     without: Vec<Kind>,
@@ -91,7 +91,7 @@ impl Allowed {
     }
 }
 
-/// What the library can't do yet. It shrinks to nothing as features land.
+/// Kinds that the library can't do yet. The list shrinks to nothing as features land.
 pub const NOT_YET: &[Kind] = &[];
 
 impl Allowed {

@@ -16,7 +16,7 @@ pub struct Difference {
     pub place: String,
     /// The bytes that it should hold.
     pub expected: Vec<u8>,
-    /// Those that it holds.
+    /// The bytes that it holds.
     pub found: Vec<u8>,
     /// The number of the pass that should have written them; `None`: they were there before any.
     pub writer: Option<u32>,

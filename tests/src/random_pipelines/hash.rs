@@ -38,7 +38,7 @@ pub fn hashes(state: u32, from: u32) -> [u32; 4] {
     std::array::from_fn(|component| hash(state, from + component as u32))
 }
 
-/// What a buffer of `contents` gets in its word number `at` where the hash is `state`.
+/// The word number `at` that a buffer of `contents` gets where the hash is `state`.
 #[must_use]
 pub const fn content(contents: Contents, at: u32, state: u32) -> u32 {
     match contents {

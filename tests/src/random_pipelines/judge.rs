@@ -44,7 +44,7 @@ pub struct Judge {
 /// A mistake on the way from a pipeline to its outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
-    /// It is legal, and was refused.
+    /// The pipeline is legal, and was refused.
     Refused(Vec<String>),
     /// The compiler or the checker panicked.
     Panicked(String),
@@ -52,7 +52,7 @@ pub enum Fault {
     Violations(Vec<String>),
     /// A pass with side effects isn't in its Plan.
     Culled(u32),
-    /// It couldn't be executed.
+    /// The Plan couldn't be executed.
     NotExecuted(String),
     /// The validation layer has something to say.
     Findings(Vec<String>),
@@ -158,7 +158,7 @@ impl Judge {
             spoil.spoil(&mut plan);
         }
         let outcome = self.execute(pipeline, &plan, expected);
-        // What the layer says explains more than what follows from it.
+        // The layer's findings explain more than the differences that follow from them.
         let all = self.device.messages().list();
         let new: Vec<&Message> = all.iter().filter(|message| message.is_finding()).skip(self.findings).collect();
         self.findings += new.len();
@@ -245,7 +245,7 @@ impl Judge {
 
     fn execute(&mut self, pipeline: &Pipeline, plan: &Plan, expected: &[State]) -> Result<(), Fault> {
         let broken = |error: Error| Fault::NotExecuted(error.to_string());
-        // What many frames leave shows in the last; some are looked at one by one.
+        // Many frames leave their traces in the last; some are looked at one by one.
         let flight = 1 + (pipeline.passes.len() % 3) as u32;
         let options = ExecutorOptions { poison: true, frames_in_flight: flight, ..ExecutorOptions::default() };
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;

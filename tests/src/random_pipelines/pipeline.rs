@@ -86,13 +86,13 @@ pub enum Life {
 pub struct Buffer {
     /// 32-bit words, at least 16.
     pub words: u32,
-    /// What the words are.
+    /// The meaning of the words.
     pub contents: Contents,
     /// How long its contents live.
     pub life: Life,
 }
 
-/// What the words of a buffer are. Whatever writes them keeps to it.
+/// The meaning of a buffer's words. All passes that write the buffer keep to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contents {
     /// Any.
@@ -168,7 +168,7 @@ impl Plane {
 /// A part of an image: whole mip levels and layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// Which image.
+    /// The image.
     pub image: usize,
     /// First mip level.
     pub mip: u32,
@@ -178,7 +178,7 @@ pub struct Part {
     pub layer: u32,
     /// Number of layers.
     pub layers: u32,
-    /// Which planes.
+    /// The planes.
     pub plane: Plane,
 }
 
@@ -205,13 +205,13 @@ impl Part {
 pub struct Pass {
     /// Its number: its name is `p` and that, and it is hashed.
     pub number: u32,
-    /// What it does.
+    /// The work of the pass.
     pub work: Work,
     /// Whether it is never culled.
     pub side_effect: bool,
 }
 
-/// What a pass does.
+/// The work of a pass.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Work {
     /// Draws.
@@ -279,7 +279,7 @@ pub struct Draw {
     pub discards: bool,
     /// Whether its fragment shader runs once a sample.
     pub per_sample: bool,
-    /// What it reads.
+    /// Reads of the shaders.
     pub reads: Vec<Read>,
     /// How many of these its vertex shader reads, the first ones.
     pub vertex_reads: usize,
@@ -287,11 +287,11 @@ pub struct Draw {
     pub color: Vec<Target>,
     /// Depth attachment.
     pub depth: Option<DepthTarget>,
-    /// What it writes at the fragment's own position.
+    /// Writes at the fragment's own position.
     pub stores: Vec<Store>,
 }
 
-/// What a draw draws.
+/// The geometry of a draw.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
     /// One triangle that covers all, at depth 0.
@@ -310,7 +310,7 @@ pub enum Geometry {
 /// How many triangles a draw has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Count {
-    /// So many triangles (up to [`TRIANGLES`]) and instances.
+    /// Counts of triangles (up to [`TRIANGLES`]) and of instances.
     Direct(u32, u32),
     /// As the first command of this buffer says.
     Indirect(usize),
@@ -338,7 +338,7 @@ pub struct DepthTarget {
     pub test: CompareOp,
     /// Whether passing fragments write depth.
     pub write: bool,
-    /// What happens to the stencil plane; `None`: it isn't there, or not used.
+    /// Clear value, test and operation of the stencil plane; `None`: it isn't there, or not used.
     pub stencil: Option<StencilState>,
 }
 
@@ -349,16 +349,16 @@ pub struct Compute {
     pub grid: Extent,
     /// How many workgroups.
     pub groups: Groups,
-    /// What it reads.
+    /// Reads of the shader.
     pub reads: Vec<Read>,
-    /// What it writes.
+    /// Writes of the shader.
     pub stores: Vec<Store>,
 }
 
 /// How many workgroups a dispatch has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Groups {
-    /// So many.
+    /// A fixed number.
     Count(Extent),
     /// As many as cover the grid.
     Cover,
@@ -371,9 +371,9 @@ pub enum Groups {
 pub enum Read {
     /// Samples part of an image.
     Sampled {
-        /// Which part.
+        /// The part.
         part: Part,
-        /// Of which frame.
+        /// The age of the part's contents, in frames.
         frames_ago: u32,
         /// Whether it reads every sample, or one value a texel.
         per_sample: bool,

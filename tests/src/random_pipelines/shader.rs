@@ -52,7 +52,7 @@ pub fn shader(pipeline: &Pipeline, pass: &Pass) -> Option<Shader> {
 /// A shader that grows.
 #[derive(Default)]
 struct Text {
-    /// What tells it from others.
+    /// The key that tells the shader from others.
     key: String,
     declarations: String,
     body: String,

@@ -63,13 +63,13 @@ pub fn limit(format: Format) -> u64 {
     }
 }
 
-/// What whole numbers are divided by to become the float that a shader writes.
+/// The number that divides whole numbers to make the float that a shader writes.
 #[must_use]
 pub fn divisor(format: Format) -> f32 {
     if is_unorm(format) { 255.0 } else { 1.0 }
 }
 
-/// What a shader multiplies a float by to have a whole number again: quarters come from averages, 256ths are depths.
+/// The factor with which a shader makes a float a whole number again: quarters come from averages, 256ths are depths.
 #[must_use]
 pub fn scale(format: Format) -> f32 {
     if format.is_depth() {
@@ -168,7 +168,7 @@ pub fn float(format: Format, word: u32) -> f32 {
     }
 }
 
-/// What sets a texel to [`plain`].
+/// The value that fills a texel with [`plain`].
 #[must_use]
 pub fn fill(format: Format, value: u8) -> FillValue {
     let word = plain(format, value);
@@ -188,7 +188,7 @@ pub fn sum(format: Format, left: u32, right: u32) -> u32 {
     if is_unorm(format) { left + right } else { (f32::from_bits(left) + f32::from_bits(right)).to_bits() }
 }
 
-/// What one value for all samples of an image is: the mean, of integers the first, of depth what the image says. Drawing it
+/// One value for all samples of an image: the mean, of integers the first, of depth by the image's resolve mode. Drawing it
 /// again leaves the first: geometry covers whole texels, and with one sample shaders run as if for the first.
 #[must_use]
 pub fn resolved(image: &Image, samples: &[Words]) -> Words {

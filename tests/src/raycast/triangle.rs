@@ -9,8 +9,8 @@ pub struct Ray {
     pub origin: DVec3,
     /// Its direction.
     pub direction: DVec3,
-    /// What the directions of the pixel to the right and of the pixel below have more; zero for a ray without width.
-    /// (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.)
+    /// Ray differentials: the steps of the direction to the pixel to the right and to the pixel below; zero for a ray without
+    /// width. (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.)
     pub spread: [DVec3; 2],
 }
 

@@ -57,7 +57,7 @@ fn shaders_of_one_name_have_one_text() {
     }
 }
 
-/// How the samples of depth become one value for a shader; `None`: whatever drew it is drawn again.
+/// How the samples of depth become one value for a shader; `None`: the passes that drew the depth draw it again.
 #[test]
 fn each_rung_of_the_depth_ladder_turns_up() {
     let modes = [ResolveMode::Average, ResolveMode::SampleZero, ResolveMode::Min, ResolveMode::Max];

@@ -1,5 +1,5 @@
-//! Random pipelines without a device: whatever the order and the options, their Plans are legal to the checker and do no harm
-//! to the brute-force judge, which shares no code with either.
+//! Random pipelines without a device: for every order and all options, their Plans are legal to the checker and do no harm to
+//! the brute-force judge, which shares no code with either.
 
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};

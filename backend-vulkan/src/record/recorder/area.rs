@@ -130,7 +130,7 @@ impl Recorder<'_> {
                 }
                 for eye in [0, 1] {
                     self.see(self.viewport.unwrap_or_else(|| self.own()), eye);
-                    // What reaches over the seam would be drawn into the other eye's half.
+                    // A draw that reaches over the seam would fill the other eye's half.
                     self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
                     draw(&self.gpu.raw, self.commands, instances.start | (eye * RIGHT_EYE), count);
                 }

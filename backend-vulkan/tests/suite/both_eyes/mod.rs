@@ -1,5 +1,5 @@
-//! What the shaders of both eyes are made of: nothing of it is left where there is one eye (ST-6), each look-up of what both eyes
-//! have in layers is given its layer, and all that is made so is valid SPIR-V.
+//! SPIR-V of shaders for both eyes: none of the additions is left where there is one eye (ST-6), each look-up of an image that
+//! both eyes have in layers is given its layer, and all that is made so is valid SPIR-V.
 
 mod layers;
 mod spirv;

@@ -1,4 +1,4 @@
-//! What tests see in SPIR-V, by themselves and by the tools of `spirv-tools` where they are installed.
+//! SPIR-V as tests see it, by themselves and by the tools of `spirv-tools` where they are installed.
 
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Op, StorageClass};

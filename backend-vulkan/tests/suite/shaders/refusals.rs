@@ -1,4 +1,4 @@
-//! What no device could take of a shader is refused in words.
+//! Shaders that no device could take are refused in words.
 
 use super::*;
 

@@ -36,7 +36,7 @@ fn number(bits: u16) -> f64 {
     if bits & 0x8000 == 0 { size } else { -size }
 }
 
-/// What draws frames of a Plan with the program's upscaler.
+/// An executor and an upscaler, which draw frames of a Plan together.
 struct Program {
     executor: Executor,
     upscaler: Upscaler,
@@ -50,7 +50,7 @@ impl Program {
     }
 }
 
-/// So many frames, drawn with the program's upscaler, and by how much it was told that each is shifted.
+/// The first `count` frames, drawn with the program's upscaler, and by how much it was told that each is shifted.
 fn frames(device: &Device, scene: &Scene, external: &str, count: u32) -> (Vec<Frame>, Vec<[f64; 2]>) {
     let set = [("external", external)];
     let setup = Setup { pipeline: "tests/pipelines/upscaler.ron", set: &set, scene, extent: EXTENT };

@@ -25,7 +25,7 @@ const SHADER: &str = "#version 460
         imageStore(upscaled, at, vec4(texelFetch(color, texel, 0).rg, distance, moved + frame.jitter.x));
     }";
 
-/// What it reads and writes: the pass's name for it, its format and part.
+/// Images that the upscaler reads and writes: the pass's names for them, their formats and parts.
 const IMAGES: [(&str, vk::Format, vk::ImageAspectFlags); 4] = [
     ("color", vk::Format::R16G16B16A16_SFLOAT, vk::ImageAspectFlags::COLOR),
     ("depth", vk::Format::D32_SFLOAT, vk::ImageAspectFlags::DEPTH),
@@ -41,7 +41,7 @@ pub(crate) struct Upscaler {
     layout: vk::PipelineLayout,
     pipeline: vk::Pipeline,
     sampler: vk::Sampler,
-    /// Of every frame that was recorded.
+    /// Pools of every frame that was recorded.
     pools: Vec<vk::DescriptorPool>,
     views: Vec<vk::ImageView>,
     /// By how many texels each frame was shifted.
@@ -151,7 +151,7 @@ impl DrawSource for Upscaler {
         let jitter = jitter.map(|part| (part as f32).to_ne_bytes());
         let bytes: Vec<u8> = jitter.into_iter().chain([across, down].map(u32::to_ne_bytes)).flatten().collect();
         let (raw, commands) = (self.device.raw(), recorder.raw());
-        // SAFETY: the commands are being recorded outside of rendering scopes, and touch what the pass says as it says.
+        // SAFETY: the commands are recorded outside of rendering scopes, and touch the images as the pass declares them.
         unsafe {
             raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::COMPUTE, self.pipeline);
             raw.cmd_bind_descriptor_sets(commands, vk::PipelineBindPoint::COMPUTE, self.layout, 0, &[set], &[]);

@@ -28,8 +28,8 @@ pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope 
     }
 }
 
-/// The passes of a scope with local reads. A local barrier stands before the first pass that reads what was drawn or cleared,
-/// and before a pass that draws over what was read, unless one stands between already.
+/// The passes of a scope with local reads. A local barrier stands before the first pass that reads a drawn or cleared target,
+/// and before a pass that draws over a target that was read, unless a barrier stands between already.
 fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
     let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();

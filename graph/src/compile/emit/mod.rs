@@ -1,4 +1,4 @@
-//! `emit`: puts what the stages decided into a [`Plan`](crate::plan::Plan), or brings a Plan up to date.
+//! `emit`: puts the stages' decisions into a [`Plan`](crate::plan::Plan), or brings a Plan up to date.
 
 mod attachments;
 mod barriers;

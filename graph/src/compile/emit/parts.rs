@@ -26,7 +26,7 @@ pub(in crate::compile) struct Parts<'a> {
     pub(super) exact_memory: bool,
     /// The subject of each physical resource.
     pub(super) subjects: Vec<Subject>,
-    /// The name of what has none.
+    /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// What passes and barriers name of a physical resource: close together in memory, since it is read often.
+/// The properties of a physical resource that passes and barriers name: close together in memory, since they are read often.
 pub(super) struct Subject {
     pub(super) id: u32,
     pub(super) is_image: bool,
@@ -63,7 +63,7 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    /// One for each physical resource.
+    /// A subject for each physical resource.
     fn of(adapted: &Adapted) -> Vec<Subject> {
         let subject = |resource: &PhysicalResource| Subject {
             id: resource.id,

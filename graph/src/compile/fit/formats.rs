@@ -48,7 +48,7 @@ fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
     larger[..last].iter().copied().chain([usual]).collect()
 }
 
-/// What a frame asks of the formats of its images, and other formats where the device lacks those.
+/// Demands of a frame on the formats of its images, and other formats where the device lacks those.
 pub(crate) struct Formats<'d> {
     pub(super) supports: Supports<'d>,
     /// Of each image, in the formats that are taken.
@@ -98,7 +98,7 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
     (0..frame.images.len()).for_each(|image| groups.entry(alike.find(image as u32)).or_default().push(image));
     let mut made: Vec<Option<(Format, String)>> = vec![None; frame.images.len()];
     for group in groups.values() {
-        // What is copied texel for texel has one format.
+        // Images that are copied texel for texel share one format.
         let format = frame.images[group[0]].format;
         let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of(format));
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };

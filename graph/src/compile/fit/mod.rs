@@ -1,4 +1,4 @@
-//! `fit`: sample counts, formats and usages meet what the device has.
+//! `fit`: sample counts, formats and usages meet the device's support.
 
 mod formats;
 mod needs;

@@ -1,11 +1,11 @@
-//! What passes ask of the formats of images, and what a device can do with formats.
+//! Demands of passes on the formats of images, and the support of a device for formats.
 
 use crate::device::{FormatSupport, Profile};
 use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{Format, State, Usage};
 
-/// What a device can do with each format, found at once.
+/// Support of a device for each format, indexed by format.
 pub(super) struct Supports<'d> {
     pub(super) device: &'d Profile,
     of: Vec<Option<&'d FormatSupport>>,
@@ -24,7 +24,7 @@ impl<'d> Supports<'d> {
     }
 }
 
-/// What passes, and the states in which it comes and goes, ask of an image's format.
+/// Demands on an image's format: from passes, and from the states in which the image comes and goes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Needs {
     pub(super) usage: Usage,
@@ -79,7 +79,7 @@ impl Needs {
         }
     }
 
-    /// What a format with this support lacks, in words.
+    /// The features that a format with this support lacks, in words.
     pub(super) fn missing(self, support: Option<&FormatSupport>) -> String {
         let usage = support.map_or(Usage::empty(), |support| support.usage);
         let mut missing: Vec<&str> = self.usage.difference(usage).iter_names().map(|(name, _)| name).collect();
@@ -91,7 +91,7 @@ impl Needs {
     }
 }
 
-/// Whether what is forwarded has to be drawn into its target.
+/// Whether a forwarded image has to be drawn into its target.
 fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
@@ -100,7 +100,7 @@ fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
     shape(from) != shape(to)
 }
 
-/// Adds what the images in use need for the states in which they come and go.
+/// Adds the needs of the images in use for the states in which they come and go.
 fn note_states(frame: &Frame, needs: &mut [Needs]) {
     let mut add = |image: usize, state: &State| {
         if !needs[image].usage.is_empty() {

@@ -1,4 +1,4 @@
-//! Sample counts, and what a frame asks of its images by itself, against what the device has.
+//! Sample counts, and a frame's other demands on its images, against the device's limits.
 
 use super::formats::Formats;
 use super::needs::{Needs, Supports};
@@ -57,7 +57,7 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
 }
 
-/// Whether what was negotiated for a frame stays as it is for one that differs from it in nothing but sizes and values, and
+/// Whether the negotiated result for a frame holds for another frame, which differs in nothing but sizes and values, and
 /// forwards between images of the same proportions.
 pub(crate) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
     let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);

@@ -46,7 +46,7 @@ pub enum Reuse {
     Everything,
 }
 
-/// The last frame and what came of it.
+/// The last frame and its results.
 #[derive(Debug)]
 struct Last {
     /// As it was given.

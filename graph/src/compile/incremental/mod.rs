@@ -1,4 +1,4 @@
-//! Compiling frame after frame: what stayed the same is not found out again.
+//! Compiling frame after frame: results that stayed the same are not computed again.
 
 mod compiler;
 mod difference;

@@ -74,8 +74,8 @@ impl Aliasing {
 
     /// Follows the owners of each piece of a heap. The ends of placements cut the heap into pieces.
     ///
-    /// `by_first_step`: what has a place, in the order of first steps. `pieces`: for each physical resource its first piece,
-    /// and the first one behind it.
+    /// `by_first_step`: the placed resources, in the order of first steps. `pieces`: for each physical resource its first
+    /// piece, and the first piece behind it.
     fn heap(&mut self, placed: &Placed, by_first_step: &[PhysicalIndex], heap: u32, pieces: &mut [[u32; 2]]) {
         let mut ends: Vec<(u64, PhysicalIndex, bool)> = Vec::with_capacity(2 * placed.placements.len());
         for (placement, resource) in placed.placements.iter().zip(0_u32..) {

@@ -19,7 +19,7 @@ pub(in crate::compile) struct Placed {
     pub(in crate::compile) transient_bytes: u64,
     /// Largest total alive at one step.
     pub(in crate::compile) live_peak_bytes: u64,
-    /// Bytes of what outlives the frame.
+    /// Bytes of the resources that outlive the frame.
     pub(in crate::compile) kept_bytes: u64,
     /// The images whose format the pipeline chose, rising, with the bytes that it takes beyond the usual format.
     pub(in crate::compile) chosen: Vec<(PhysicalIndex, i64)>,

@@ -127,7 +127,7 @@ impl Turner {
     }
 }
 
-/// Why an output can't leave the frame turned, whatever the passes do.
+/// Why an output can't leave the frame turned, apart from its use by passes.
 fn unfit(image: &Image) -> Option<&'static str> {
     match image.lifetime {
         _ if image.format.is_depth() => Some("holds depth: only colour can be rotated"),

@@ -67,7 +67,7 @@ fn reads(pass: &Pass, image: ImageIndex) -> bool {
     pass.sampled.iter().any(|it| it.image == image) || reads_otherwise(pass, image)
 }
 
-/// Whether a pass reads it otherwise than by sampling it, or needs it upright.
+/// Whether a pass reads the image otherwise than by sampling it, or needs it upright.
 fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
     let copies = matches!(pass.work, Work::Copy | Work::Blit { .. });
     accesses(pass, image).any(|access| match access {
@@ -77,7 +77,7 @@ fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
     })
 }
 
-/// Whether a pass makes it anew, whatever was there.
+/// Whether a pass replaces the whole contents of the image.
 fn replaces(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
     let declared = &frame.images[image.0 as usize];
     let mut targets = pass.color.iter().filter(|target| target.image == image);

@@ -24,15 +24,15 @@ pub(super) fn becomes(from: &Image, to: &Image, rotation: Rotation) -> bool {
         && (to.samples == 1 || to.samples == from.samples)
 }
 
-/// The search for what is turned together with an image.
+/// The search for images that are turned together with an image.
 pub(super) struct Together<'f> {
     pub(super) frame: &'f Frame,
     /// Passes that stay.
     pub(super) live: &'f [u32],
     pub(super) rotation: Rotation,
-    /// Where it begins.
+    /// The image that the search begins with.
     pub(super) start: ImageIndex,
-    /// Whether that leaves the frame turned; else it only becomes what does.
+    /// Whether the first image leaves the frame turned; else it only becomes an image that does.
     pub(super) is_output: bool,
 }
 
@@ -69,7 +69,7 @@ impl Together<'_> {
         &self.frame.images[image.0 as usize].name
     }
 
-    /// Whether an image can be turned, apart from what passes do with it.
+    /// Whether an image can be turned, apart from its use by passes.
     fn may_turn(&self, image: ImageIndex) -> Result<(), Hindrance> {
         let declared = &self.frame.images[image.0 as usize];
         let upright = |what: &str| Err(Hindrance::Upright(format!("`{}` {what}", declared.name), declared.span));
@@ -104,7 +104,7 @@ impl Together<'_> {
         Ok(())
     }
 
-    /// Whether what a pass forwards becomes an image that is turned too, by nothing but a resolve.
+    /// Whether the image that a pass forwards becomes an image that is turned too, by nothing but a resolve.
     fn passes_on_turned(&self, pass: &Pass, all: &BTreeSet<ImageIndex>) -> bool {
         let Work::Forward { from, to, .. } = pass.work else { return true };
         let [source, target] = [from, to].map(|image| &self.frame.images[image.0 as usize]);

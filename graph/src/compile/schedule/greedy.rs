@@ -20,7 +20,7 @@ pub(super) struct Greedy<'a> {
     adapted: &'a Adapted,
     runs: &'a Runs,
     memory: &'a Memory,
-    /// What depends on what, from the first to the last and from the last to the first.
+    /// The dependencies of the runs, from the first to the last and from the last to the first.
     forwards: Dependencies,
     backwards: Dependencies,
     /// For each resource the runs that use it, and for each run the resources: where each list starts, and the lists.

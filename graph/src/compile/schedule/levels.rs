@@ -90,7 +90,7 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
     order
 }
 
-/// A walk through all runs, from the first to the last or from the last to the first: what is behind is counted in levels.
+/// A walk through all runs, from the first to the last or from the last to the first, that finds their least levels.
 struct Walk<'a> {
     accesses: &'a Accesses,
     runs: &'a Runs,

@@ -2,16 +2,16 @@
 //!
 //! An operation depends on an earlier one if both use a subresource and at least one of them writes it, or if both have
 //! effects that nothing shows. Each order that keeps every operation behind those that it depends on is valid, and gives the
-//! same picture. The default order is scored by, from what counts most:
+//! same picture. The default order is scored by these, the most important first:
 //!
 //! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is valid. Sharing a
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
 //! 2. *Batching and overlap* (`levels`): an operation is one level above the highest that it depends on, and levels follow
-//!    each other. All barriers between two levels fit into one call, no valid order has fewer such calls, and what follows
-//!    a barrier depends on nothing in its own level, so the device overlaps it.
-//! 3. *Memory*: what begins more bytes than it ends moves up to the last level that leaves the number of levels as it is,
-//!    and stands in its level behind what ends bytes. If the most that is alive at one time is still more than a fiftieth
-//!    above that of the file's order, the file's order stays.
+//!    each other. All barriers between two levels fit into one call, no valid order has fewer such calls, and operations
+//!    behind a barrier depend on nothing in their own level, so the device overlaps them.
+//! 3. *Memory*: an operation that begins more bytes than it ends moves up to the last level that leaves the number of levels
+//!    as it is, and stands in its level behind operations that end bytes. If the largest number of bytes alive at one time is
+//!    still more than a fiftieth above that of the file's order, the file's order stays.
 //!
 //! Ties keep the file's order.
 
@@ -32,7 +32,7 @@ use memory::{Lifetimes, Memory};
 use runs::Runs;
 use weighed::Weighed;
 
-/// An order, and what bytes decided about it.
+/// An order, and the comparisons of bytes that decided it.
 #[derive(Debug)]
 pub(super) struct Scheduled {
     /// Indices into [`Adapted::ops`], in execution order.

@@ -130,7 +130,7 @@ impl Gatherer<'_> {
         let joined = candidate.filter(|candidate| {
             let run = &mut runs[*candidate as usize];
             if behind > Some(run.place) && !run.fixed {
-                // Nothing depends on it yet: all of it moves behind what this operation waits for.
+                // Nothing depends on the run yet: all of it moves behind the runs that this operation waits for.
                 run.place = self.places;
                 self.places += 1;
             }
@@ -152,7 +152,7 @@ impl Gatherer<'_> {
     }
 }
 
-/// Notes what a run does to a subresource.
+/// Notes the access of a run to a subresource.
 fn note(runs: &mut [Run], state: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
     if writes {
         *state = SubresourceState { before: run, readers: NONE, layout };
@@ -182,7 +182,7 @@ fn candidate(adapted: &Adapted, subresources: &[SubresourceState], op: u32) -> O
         run
     };
     let run = run_before(uses.iter().find(attached)?);
-    // A scope neither clears what it drew nor samples it.
+    // A scope neither clears nor samples its own drawing.
     let forbids = |used: &Use| !used.role.is_attachment() || used.contents != InitialContents::Keep;
     let apart = uses.iter().any(|used| forbids(used) && run_before(used) == run);
     (run != NONE && !apart).then_some(run)

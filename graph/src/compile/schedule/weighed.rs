@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// The comparisons of bytes that led to an order, in the sequence in which they were made; none if bytes decided nothing.
 ///
-/// Each result decides what is compared next. So if all results stay the same, so do the comparisons.
+/// Each result decides the next comparison. So if all results stay the same, so do the comparisons.
 #[derive(Debug, Default)]
 pub(super) struct Weighed {
     runs: Vec<Run>,

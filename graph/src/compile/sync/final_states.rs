@@ -119,7 +119,7 @@ impl Ring<'_> {
         &self.adapted.resources[self.resources.start as usize + at]
     }
 
-    /// The state that was asked for. What several queues use is left to semaphores.
+    /// The state that was asked for. Resources that several queues use are left to semaphores.
     fn asked_for(&self, at: usize) -> Option<State> {
         self.resource(at).after.filter(|_| !self.crossed)
     }
@@ -137,8 +137,8 @@ impl Ring<'_> {
         &self.timeline.subresources[(self.resource(at).first_subresource + part) as usize]
     }
 
-    /// If a frame begins with reads of what the one before read last, in the same layout, widens the barrier before the last
-    /// reads to cover the first ones.
+    /// If a frame begins with reads of a subresource that the frame before read last, in the same layout, widens the barrier
+    /// before the last reads to cover the first ones.
     fn read_on(&mut self, at: usize) {
         let from = self.previous(at);
         for part in self.parts() {

@@ -1,6 +1,6 @@
-//! Initial barriers: what the first access to each subresource waits for.
+//! Initial barriers: the barriers before the first access to each subresource.
 //!
-//! It waits for the state in which the frame finds the subresource, or for the accesses of the resource that had its memory
+//! Each waits for the state in which the frame finds the subresource, or for the accesses of the resource that had its memory
 //! before. In the latter case the barrier names the *stages* of those accesses, and a memory barrier (`aliasing_barriers`)
 //! names their writes. The first owner of memory in a frame comes after the last owner in the frame before.
 
@@ -186,7 +186,7 @@ fn find_last_accesses(
     }
 }
 
-/// Completes the barrier before the first access to what outlives frames. `is_last`: there is no other barrier.
+/// Completes the barrier before the first access to a resource that outlives frames. `is_last`: there is no other barrier.
 fn find(barrier: &mut SubresourceBarrier, States { before, after }: &States, is_last: bool) {
     let covers = before.layout == barrier.new_layout
         && before.stages.contains(barrier.dst_stages)

@@ -1,4 +1,4 @@
-//! Synchronisation: from what steps do to the barriers before them.
+//! Synchronisation: from the accesses of steps to the barriers before them.
 //!
 //! ```text
 //! timeline:  walk ─► final_states

@@ -26,7 +26,7 @@ pub(in crate::compile) struct AccessTimeline {
     pub(in crate::compile) layouts: Vec<(u32, Layout)>,
 }
 
-/// States of what outlives the frame.
+/// States of a resource that outlives the frame.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::compile) struct States {
     pub(in crate::compile) before: State,
@@ -41,7 +41,7 @@ impl AccessTimeline {
             .fold(0, |usage, state| usage | state.usage)
     }
 
-    /// Drops what only other timelines and barriers are made from.
+    /// Drops the parts that serve only to make other timelines and barriers.
     pub(in crate::compile) fn forget_subresources(&mut self) {
         (self.subresources, self.lifetimes) = (Vec::new(), Vec::new());
     }

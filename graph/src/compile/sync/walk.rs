@@ -1,4 +1,4 @@
-//! The walk through the steps: what each does to each subresource.
+//! The walk through the steps: the accesses of each step to each subresource.
 
 use super::final_states;
 use super::subresource::{SubresourceAccess, SubresourceState};
@@ -103,7 +103,7 @@ impl Walk<'_> {
         adapted.for_each_subresource(used, |subresource| self.accessed(access(subresource)));
     }
 
-    /// A local read waits only for what its scope loads. What its scope draws is made visible within the scope.
+    /// A local read waits only for contents that its scope loads. The scope's own draws are made visible within the scope.
     fn read_locally(&mut self, used: &Use, attachments: &[AttachmentOps]) {
         let target = Target::of(self.adapted, used);
         let loads = attachments.iter().any(|ops| ops.target == target && ops.load == LoadOp::Load);

@@ -1,11 +1,11 @@
-//! What holds both eyes' parts is used for both eyes at once.
+//! Images that hold both eyes' parts are used for both eyes at once.
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo, Work};
 use crate::vulkan::Shape;
 use std::collections::HashSet;
 
-/// Why an image can't hold both eyes' parts as it says.
+/// Why an image can't hold both eyes' parts in its `eyes` form.
 pub(super) fn image_problem(image: &Image, stereo: Stereo) -> Option<String> {
     let form = image.eyes?;
     let fits = match stereo {
@@ -23,7 +23,7 @@ pub(super) fn image_problem(image: &Image, stereo: Stereo) -> Option<String> {
     }
 }
 
-/// Reports what a pass does with such images that isn't for both eyes at once.
+/// Reports uses of such images by a pass that aren't for both eyes at once.
 pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     let eyes = |image: ImageIndex| frame.images[image.0 as usize].eyes;
     let mut wrong = |image: ImageIndex, span: Span, what: &str| {

@@ -5,10 +5,10 @@ use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{Subject, When, contradiction};
 use crate::vulkan::{FillValue, Format, Layout, State};
 
-/// Most frames that history goes back: what a checker of the Plan can follow around.
+/// Most frames that history goes back: as many as the checker of the Plan can follow around.
 const MOST_HISTORY: u32 = 32;
 
-/// What is wrong with a lifetime.
+/// The mistake in a lifetime, if there is one.
 pub(super) fn check(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnostic> {
     let wrong = |what: String| Diagnostic::new(span, format!("`{}` {what}", of.name));
     match lifetime {
@@ -51,7 +51,7 @@ pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)>
         .map(|(image, span)| (span, format!("does more with `{}` than sample it: it comes from a file", image.name)))
 }
 
-/// What is wrong with a state in which something comes or goes.
+/// The mistake in a state in which an image or buffer comes or goes, if there is one.
 pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: When) -> Option<Diagnostic> {
     if let Some((message, help)) = contradiction(state, of, when) {
         return Some(Diagnostic::new(span, message).help(help));

@@ -1,4 +1,4 @@
-//! Checks a frame before `link`: one that was built in memory may hold what no pipeline file can say.
+//! Checks a frame before `link`: a frame that was built in memory may hold contradictions that no pipeline file can state.
 
 mod eyes;
 mod lifetimes;
@@ -14,7 +14,7 @@ use pass::{Check, clears_are_finite};
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;
 
-/// Reports what no device could do, and what does not fit together.
+/// Reports work that no device could do, and parts that do not fit together.
 pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Vec::new();
     if frame.images.len().max(frame.buffers.len()).max(frame.passes.len()) > MOST {
@@ -129,7 +129,7 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             && let image = &frame.images[image.0 as usize]
             && image.allocated.is_some()
         {
-            // Of what is dumped no file says that it is an output.
+            // No file declares a dumped image as an output.
             let span = if output.span == Span::NONE { image.span } else { output.span };
             let message = format!("`{}` can't leave the frame: its size may change from frame to frame", subject.name);
             let help = "scale it into an image of a fixed size, and let that leave the frame";
@@ -142,7 +142,7 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What is wrong with an output's encoding: its format can't hold it.
+/// The mistake in an output's encoding, if the output's format can't hold it.
 fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
     let encoding = output.encoding?;
     let name = encoding.name();

@@ -1,4 +1,4 @@
-//! What one pass names and does.
+//! Checks of one pass: its images and buffers, and its work.
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
@@ -33,7 +33,7 @@ impl Check<'_> {
         self.errors.len() == before
     }
 
-    /// What comes from a file is only sampled.
+    /// Images that come from a file are only sampled.
     pub(super) fn files(&mut self) {
         if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
             self.wrong(span, &what);
@@ -93,7 +93,7 @@ impl Check<'_> {
         }
     }
 
-    /// What is drawn into or forwarded is one mip level of a flat image.
+    /// The target of a draw, and both sides of a forward, are one mip level of a flat image.
     fn one_mip(&mut self, image: &Image, range: Subresources, span: Span) {
         if image.shape == Shape::D3 {
             self.wrong(span, &format!("draws into `{}`, which is three-dimensional", image.name));

@@ -1,4 +1,4 @@
-//! Copies, blits and fills: what is on both sides fits together.
+//! Copies, blits and fills: both sides fit together.
 
 use super::lifetimes::value_problem;
 use super::pass::Check;

@@ -1,7 +1,7 @@
 //! Which images hold both eyes' parts in one, so that a pass can draw both at once.
 //!
-//! Only draws, fills and copies of whole images do what they do for both eyes at once. What anything else makes, or reads
-//! otherwise than by sampling, is an image for each eye; so is all that is drawn from such an image, and beside it.
+//! Only draws, fills and copies of whole images work for both eyes at once. An image that other work makes, or reads
+//! otherwise than by sampling, is there for each eye; so is every image that is drawn from such an image, or beside it.
 
 use super::For;
 use crate::frame::{EyeForm, ImageIndex, Stereo};
@@ -11,13 +11,13 @@ use crate::language::{
 };
 use crate::vulkan::AddressMode;
 
-/// By image that each eye has of its own why it isn't one for both; `None`: it is, or both eyes share it.
+/// The images that can't hold both eyes' parts. By image, the reason; `None`: it can, or both eyes share the image.
 pub(super) struct Apart {
     why: Vec<Option<String>>,
 }
 
 impl Apart {
-    /// Finds them out for a mode that keeps both eyes' images in one of this form.
+    /// Finds these images for a mode that keeps both eyes' parts in one image of this form.
     pub(super) fn of(pipeline: &Pipeline, own: &[bool], whose: &[For], stereo: Stereo, form: EyeForm) -> Apart {
         let why = pipeline.images.iter().zip(own).map(|(image, own)| own.then(|| by_itself(image)).flatten());
         let mut apart = Apart { why: why.collect() };
@@ -105,7 +105,7 @@ impl Apart {
                 found |= self.all(written(pass).filter(is_own), &why);
             }
         }
-        // What takes the place of a pass that is off hands on one image for both, or two.
+        // The stand-in of a pass that is off forwards one image for both eyes, or an image for each.
         for pass in pipeline.passes.iter().filter(|pass| pass.off.is_some()) {
             for stand_in in &pass.otherwise {
                 let StandIn::Forward(forward) = stand_in else { continue };
@@ -127,7 +127,7 @@ fn index(image: ImageIndex) -> usize {
     image.0 as usize
 }
 
-/// Why an image can't hold both eyes' parts, whatever passes do.
+/// Why an image can't hold both eyes' parts, apart from its use by passes.
 fn by_itself(image: &Image) -> Option<String> {
     let what = match () {
         () if image.shape.value != ImageShape::D2 => "it isn't flat",
@@ -139,7 +139,7 @@ fn by_itself(image: &Image) -> Option<String> {
     Some(what.to_owned())
 }
 
-/// Why a pass can't do what it does for both eyes at once.
+/// Why a pass can't work for both eyes at once.
 fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
     match &pass.work {
         Work::Draw { draw: Draw::Indirect(_), .. } if stereo != Stereo::Multiview => {
@@ -154,7 +154,7 @@ fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
     }
 }
 
-/// What a pass reads.
+/// Images that a pass reads.
 fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let copied = match &pass.work {
         Work::Copy { from, .. } => image(from),
@@ -163,7 +163,7 @@ fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(looked_up(pass))
 }
 
-/// What a pass writes.
+/// Images that a pass writes.
 fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let color = pass.color.iter().map(|color| &color.part);
     let depth = pass.depth.iter().map(|depth| &depth.part);
@@ -177,7 +177,7 @@ fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     color.chain(depth).chain(storage).chain(transfers.iter().filter_map(image))
 }
 
-/// What a pass reads otherwise than by sampling it, but for copies of whole images.
+/// Images that a pass reads otherwise than by sampling, except copies of whole images.
 fn looked_up(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let transfers: &[Part] = match &pass.work {
         Work::Copy { from: from @ Part::Image(part), to } if is_part(part) || !whole(to) => std::slice::from_ref(from),
@@ -188,7 +188,7 @@ fn looked_up(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     pass.storage.iter().filter_map(|storage| image(&storage.part)).chain(transfers.iter().filter_map(image))
 }
 
-/// What a copy or fill writes only a part of.
+/// The image that a copy or fill writes only a part of.
 fn written_alone(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let to = match &pass.work {
         Work::Copy { from, to } if !whole(to) || !whole(from) => image(to),

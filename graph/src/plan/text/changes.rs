@@ -5,7 +5,7 @@ use crate::plan::Change;
 use crate::plan::names::Shown;
 use std::sync::Arc;
 
-/// What was done, and where it is said.
+/// A change in words, with its place.
 pub(super) fn words(change: &Change) -> String {
     let words = match &change.action {
         Action::Extends { file } => format!("extends `{}`", Shown(file)),

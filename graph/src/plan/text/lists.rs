@@ -1,4 +1,4 @@
-//! What a Plan lists beside its steps: views, images, buffers, outputs, notes and totals.
+//! Lists of a Plan beside its steps: views, images, buffers, outputs, notes and totals.
 
 use super::outline::Node;
 use super::words::{bytes, cause, count, fill_value, place, samples, size};

@@ -1,11 +1,11 @@
-//! An outline drawn with lines: a heading, and under it what belongs to it.
+//! An outline drawn with lines: a heading, and its parts under it.
 
 /// Columns that text is kept within, as far as its words allow.
 const COLUMNS: usize = 120;
 /// Columns that a wrapped line keeps at least, however deep it stands.
 const LEAST: usize = 40;
 
-/// A line with what belongs to it.
+/// A line with its parts.
 #[derive(Debug)]
 pub(super) struct Node {
     text: String,

@@ -1,4 +1,4 @@
-//! The tree form of a Plan, for people: what runs, in order, with what was inserted at its place and why.
+//! The tree form of a Plan, for people: the steps in order, with inserted work at its place and why.
 
 use super::changes;
 use super::lists::{buffer, image, note, output, totals, view};
@@ -220,7 +220,7 @@ impl Tree<'_> {
         Node::new(text, parts)
     }
 
-    /// What is outside of the picture isn't drawn, which no Plan knows.
+    /// The objects of a draw, at most. Objects outside of the picture aren't drawn, but no Plan knows those.
     fn objects(self, list: DrawList) -> String {
         let most = self.objects.map_or_else(String::new, |objects| format!("up to {} ", objects(list)));
         format!("{most}{} objects", words_of_list(list))
@@ -301,7 +301,7 @@ impl Tree<'_> {
         Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)))
     }
 
-    /// Who needs a barrier of what `accesses` tells of: a pass of the step that needs it, with the step if that is a later one.
+    /// The user that needs a barrier: a pass of step `needed_by` that `accesses` picks, with the step if that is a later one.
     fn who(self, needed_by: Option<StepId>, accesses: impl Fn(&Pass) -> bool) -> String {
         let step_of = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
         let Some((needed_by, step)) = needed_by.and_then(step_of) else { return "this step".to_owned() };

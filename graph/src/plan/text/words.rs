@@ -8,7 +8,7 @@ use crate::plan::names::Shown;
 use crate::plan::{Cause, Hazard, StepId};
 use crate::vulkan::{AddressMode, FillValue, Filter, Sampler, name_of};
 
-/// Who does what, after what.
+/// The hazard of a barrier in words: the user, its work, and the step before.
 pub(super) fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
     let after = after.map_or("the frame before".to_owned(), |StepId(step)| format!("step {step}"));
     match hazard {
@@ -35,7 +35,7 @@ pub(super) fn words_of_cascade(cascade: Cascade) -> String {
     format!("cascade {index} of {of} through {}", cascade.reach_in_words())
 }
 
-/// A sampler, without what is usual.
+/// A sampler in words, without its usual values.
 pub(super) fn words_of(sampler: &Sampler) -> String {
     let mut words = name_of(&sampler.filter);
     if sampler.mips == Filter::Linear {

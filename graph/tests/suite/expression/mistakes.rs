@@ -17,7 +17,7 @@ fn pinned(name: &str, mistakes: &[(&str, Wanted<'_>)]) {
     }, { insta::assert_snapshot!(name, answers.join("\n")) });
 }
 
-/// Mistakes whatever is wanted.
+/// Mistakes in places that want any type.
 fn any<'t>(texts: &[&'t str]) -> Vec<(&'t str, Wanted<'static>)> {
     texts.iter().map(|text| (*text, ANY)).collect()
 }

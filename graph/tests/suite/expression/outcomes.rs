@@ -1,4 +1,4 @@
-//! What decided, and which part of a condition failed.
+//! Decisions behind a value, and the part of a condition that failed.
 
 use crate::expression::world::{ANY, World};
 use framewright_graph::base::Span;

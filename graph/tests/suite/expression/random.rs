@@ -18,7 +18,7 @@ enum Tree {
     Call(&'static str, Vec<Tree>),
 }
 
-/// What a tree comes to; whole numbers in 128 bits.
+/// The value of a tree; whole numbers in 128 bits.
 #[derive(Debug, Clone, PartialEq)]
 enum Worth {
     Truth(bool),

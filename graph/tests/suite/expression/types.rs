@@ -1,4 +1,4 @@
-//! What a place wants, and what the whole expression is, whatever the values.
+//! The types that places want, and the type of the whole expression, which doesn't depend on values.
 
 use crate::expression::world::{ANY, World};
 use framewright_graph::base::Span;

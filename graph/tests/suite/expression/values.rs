@@ -1,4 +1,4 @@
-//! What expressions come to.
+//! Values of expressions.
 
 use crate::expression::world::World;
 use framewright_graph::expression::{Origin, Value};

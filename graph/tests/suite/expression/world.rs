@@ -73,7 +73,7 @@ impl World {
         self
     }
 
-    /// What `text` comes to.
+    /// The outcome of `text`.
     pub(crate) fn outcome(&self, text: &str) -> Outcome {
         let place = Placed::new(text, self);
         let evaluated = place.read(text, self, ANY).and_then(|expression| expression.evaluate(self));

@@ -16,8 +16,8 @@ use std::sync::Arc;
 /// Mistakes that are shown before the others are counted.
 const MOST_SHOWN: usize = 20;
 
-/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`, `//! rotate 90`, `//! eyes 2`; `//! device NAME`: a shipped
-/// device that it is compiled for as well, `//! device NAME without FORMAT`: one that has not that format.
+/// The settings, dumps and size that a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`.
+/// Beside them may stand `//! rotate 90`, `//! eyes 2`, `//! device NAME` and `//! device NAME without FORMAT`.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
     for line in text.lines().map_while(|line| line.strip_prefix("//! ")) {
@@ -61,14 +61,14 @@ pub(crate) fn device(text: &str) -> Option<Profile> {
     Some(profile)
 }
 
-/// What is wrong with a file.
+/// The mistakes of a file.
 pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (sources, errors) = mistakes_if_any(name, text);
     assert!(!errors.is_empty(), "{name}");
     (sources, errors)
 }
 
-/// What is wrong with a file that may be right.
+/// The mistakes of a file that may be right.
 pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (set, dump, output_extent) = asked(&text);
     let device = device(&text);
@@ -86,7 +86,7 @@ pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Di
     (sources, plan.err().unwrap_or_default())
 }
 
-/// What is said about a file, in both forms.
+/// The answer about a file, in both forms.
 fn answer(name: &str, text: String) -> (String, serde_json::Value) {
     let (sources, errors) = mistakes(name, text);
     // All are pinned, so none is left to be counted.

@@ -17,7 +17,7 @@ fn answer(files: &mut dyn Files, text: &str) -> (String, u64) {
     (shown, measured.bytes_max)
 }
 
-/// What is said about a file that names no other.
+/// The answer about a file that names no other.
 fn alone(text: &str) -> (String, u64) {
     answer(&mut language::NoFiles, text)
 }

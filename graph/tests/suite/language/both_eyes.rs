@@ -1,5 +1,5 @@
-//! What both eyes have is in one image where they are drawn at once, and what draws it runs once (ST-2, ST-4); what can't be so
-//! is drawn for one eye after the other, and the frame says why.
+//! Images that both eyes have are one image where both are drawn at once, and the passes that draw them run once (ST-2, ST-4).
+//! Others are drawn for one eye after the other, and the frame says why.
 
 use crate::testing::pipelines::{INPUTS, frame, right, wrong};
 use crate::testing::plans::shipped;
@@ -60,7 +60,7 @@ fn saved() -> Profile {
     shipped("amd-rx-7800-xt")
 }
 
-/// What a frame remarks: of what, where, and what.
+/// The remarks of a frame: subject, place and text.
 fn remarks(frame: &Frame) -> Vec<(String, String, String)> {
     let place = |span| frame.sources.place(span).expect("it stands in the file").to_string();
     frame.remarks.iter().map(|it| (it.subject.to_string(), place(it.span), it.text.clone())).collect()
@@ -129,11 +129,11 @@ fn both_eyes_parts_are_in_one_image_and_what_draws_them_runs_once() {
         };
         assert_eq!((made, frame.images[0].made_layers()), expected, "{stereo:?}");
         assert_eq!((frame.images[1].made(), frame.images[1].made_layers()), ([640, 360, 1], 1), "the noise is shared");
-        // What leaves the frame is one thing for both.
+        // Each output is one for both.
         let outputs: Vec<_> = frame.outputs.iter().map(|output| (output.resource, output.eye)).collect();
         let image = |at| Resource::Image(framewright_graph::frame::ImageIndex(at));
         assert_eq!(outputs, [(image(2), None), (image(1), None)], "{stereo:?}");
-        // It is seen from between both eyes; whoever draws looks up the views of both.
+        // The pass's view lies between both eyes; the draw source looks up the views of both.
         assert_eq!(pass(&frame, "opaque").view.0, 0);
         let views: Vec<_> = frame.views.iter().map(|view| &*view.name).collect();
         assert_eq!(views, ["main", "main (left)", "main (right)"]);
@@ -186,7 +186,7 @@ fn what_is_blitted_is_there_for_each_eye() {
     let blit = r#"(name: "shrink", blit: (from: "color", to: "own")),"#;
     let [reads, scales] =
         [("color", "`shrink` uses it otherwise than by sampling or drawing"), ("own", "`shrink` scales by a blit")];
-    // What samples `color` beside it draws for one eye, too.
+    // A pass that samples `color` beside it draws for one eye, too.
     let shown = ("screen", "`show` draws it for one eye after the other, as it does with `color`");
     for frame in fall_apart(ALL, OWN, blit, &[reads, shown, scales]) {
         let expected = ["opaque", "show", "shrink"].map(|it| [Eye::Left, Eye::Right].map(|eye| eye.named(it)));
@@ -205,7 +205,7 @@ fn what_is_copied_from_or_to_a_buffer_is_there_for_each_eye() {
     let why = ("own", "`upload` uses it otherwise than by sampling or drawing");
     let mixed = ("screen", "`mix` draws it for one eye after the other, as it does with `own`");
     for frame in fall_apart(ALL, OWN, &upload.concat(), &[mixed, why]) {
-        // What it is drawn from besides stays one for both: each eye samples its part.
+        // Other images that `screen` is drawn from stay one for both: each eye samples its part.
         assert!(passes(&frame).starts_with(&["noise", "opaque", "show (left)", "show (right)", "upload (left)"]));
         assert_eq!(pass(&frame, "show (right)").sampled[0].eye, Some(Eye::Right));
     }
@@ -273,7 +273,7 @@ fn what_the_program_records_is_recorded_for_each_eye() {
     for frame in fall_apart(ALL, OWN, more, &[read, shown, written]) {
         assert_eq!(passes(&frame)[5..], ["outside (left)", "outside (right)"]);
     }
-    // What it only samples stays one for both.
+    // An image that the pass only samples stays one for both.
     let more = r#"(name: "outside", custom: "it", sample: {"source": "color"}, writes: ["own"]),"#;
     for frame in fall_apart(ALL, OWN, more, &[written]) {
         assert_eq!(passes(&frame), ["noise", "opaque", "show", "outside (left)", "outside (right)"]);
@@ -288,7 +288,7 @@ fn what_is_drawn_for_one_eye_only_is_there_for_each() {
         (name: "mark", draw: FullScreen("reinhard"), sample: {"source": "color"}, color: [Eye(Left, "own")]),"#;
     for frame in fall_apart(ALL, OWN, more, &[("own", "`mark` writes one eye's")]) {
         assert_eq!(passes(&frame), ["noise", "opaque", "show", "paint (left)", "paint (right)", "mark"]);
-        // What draws for one eye reads what is that eye's.
+        // A pass that draws for one eye reads that eye's images.
         let mark = pass(&frame, "mark");
         assert_eq!((mark.sampled[0].eye, mark.view.0), (Some(Eye::Left), 1));
         assert_eq!(&*frame.images[mark.color[0].image.0 as usize].name, "own (left)");
@@ -473,7 +473,7 @@ fn in_halves_shaders_ask_which_half_is_theirs_and_in_layers_they_need_not() {
     for stereo in [Stereo::Off, Stereo::MultiPass, Stereo::Multiview] {
         assert!(frame(&text, &drawn(stereo)).is_ok(), "{stereo:?}");
     }
-    // What draws for one eye after the other from a half of an image for both must ask as well; it is told once.
+    // A pass for one eye after the other that samples half of an image for both must ask as well; it is told once.
     let apart = r#"(name: "record", custom: "it", writes: ["own"]),
         (name: "paint", draw: FullScreen("deaf"), sample: {"source": "color"}, color: ["own"]),"#;
     let said = wrong(&pipeline(OWN, apart), &drawn(Stereo::DoubleWide));

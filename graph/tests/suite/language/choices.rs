@@ -50,7 +50,7 @@ fn shown(document: &Document, sources: Sources, values: &[(&str, &str)]) -> Stri
     values.join(" ")
 }
 
-/// What a preset and files, with their texts, come to.
+/// The values that a preset and files, with their texts, lead to.
 fn come_to(preset: Option<&str>, files: &[&str], values: &[(&str, &str)]) -> String {
     let (mut sources, mut document) = document();
     let files: Vec<SettingsFile> = files.iter().map(|text| file(&mut sources, &document, text)).collect();
@@ -140,7 +140,7 @@ pub(crate) fn bad_texts() -> Vec<(String, String)> {
     paths.iter().map(named).collect()
 }
 
-/// What is wrong with a settings file.
+/// The mistakes of a settings file.
 pub(crate) fn mistakes(name: &str, text: String) -> (Sources, Vec<Diagnostic>) {
     let (mut sources, document) = document();
     let errors = document.read_settings(&mut sources, name, name, text).err();

@@ -14,7 +14,7 @@ fn device() -> Arc<Profile> {
     Arc::new(shipped("amd-rx-7800-xt"))
 }
 
-/// What is drawn is forwarded at its own size and scaled to the screen's.
+/// A frame whose picture is forwarded at its own size and scaled to the screen's.
 fn frame(scale: &str, more: &str) -> Frame {
     let text = format!(
         r#"Pipeline(

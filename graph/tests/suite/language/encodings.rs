@@ -1,4 +1,4 @@
-//! What a file says that the numbers of its outputs mean.
+//! Encodings of outputs as a file declares them.
 
 use crate::testing::pipelines::{INPUTS, frame, right};
 use framewright_graph::vulkan::Encoding::{self, *};

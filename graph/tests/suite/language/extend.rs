@@ -93,7 +93,7 @@ fn what_extends_and_says_nothing_else_is_the_same_but_for_its_places() {
     assert_eq!(unnamed(&twice), unnamed(&base));
 }
 
-/// What the preset of [`BASE`] chooses, by the settings' names.
+/// The values of [`BASE`]'s preset, by the settings' names.
 fn preset(document: &Document) -> Vec<(&str, String)> {
     let chosen = |choice: &language::Choice| (&*document.settings[choice.setting].name.text, choice.value.to_string());
     document.presets[0].set.iter().map(chosen).collect()

@@ -1,4 +1,4 @@
-//! What each eye has of its own is drawn for each, and all else once (ST-1).
+//! Passes over each eye's own images run for each eye, and all others once (ST-1).
 
 use crate::testing::pipelines::{INPUTS, right, wrong};
 use framewright_graph::expand::Inputs;
@@ -92,7 +92,7 @@ fn one_eye_can_be_named_as_source_and_as_target() {
     let frame = right(&pipeline(images, more), &TWO);
     assert_eq!(passes(&frame)[5..], ["mirror", "mark", "both"]);
     assert_eq!(drawn(&frame, "mirror"), ["screen (right)", "mirror"]);
-    // What draws for one eye reads what is that eye's.
+    // A pass that draws for one eye reads that eye's images.
     assert_eq!(drawn(&frame, "mark"), ["color (left)", "screen (left)"]);
     assert_eq!(frame.passes.iter().map(|pass| pass.view.0).collect::<Vec<_>>()[5..], [0, 1, 2]);
     // For one eye both are the same image.

@@ -151,7 +151,7 @@ fn fragments_use_fragments_and_are_repeated() {
 }
 
 #[test]
-fn a_fragment_sees_nothing_of_whoever_uses_it() {
+fn a_fragment_sees_nothing_of_the_pipeline_that_uses_it() {
     let text = BLOOM.replace("\"source\": \"if(i == 0, source, down[i - 1])\"", "\"source\": \"color\"");
     let said = wrong(&text, &INPUTS);
     assert!(said.contains("there is no image named `color`"), "{said}");

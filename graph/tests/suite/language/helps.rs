@@ -35,13 +35,12 @@ impl File {
         File { name, text, number: 1, mistakes: |name, text| choices::mistakes(name, text).1 }
     }
 
-    /// What is wrong with it, if this is its text.
+    /// The mistakes of the file, if this is its text.
     fn wrong(&self, text: &str) -> Vec<Diagnostic> {
         (self.mistakes)(&self.name, text.to_owned())
     }
 
-    /// Where a mistake stands in the file itself, not in one that it includes. What is asked for by the command stands in the
-    /// first lines.
+    /// Where a mistake stands in the file itself, not in one that it includes. Choices of the command stand in the first lines.
     fn places(&self, text: &str, mistake: &Diagnostic) -> Vec<Range<usize>> {
         let own = mistake.labels.iter().map(|label| label.span);
         let own = own.take_while(|span| span.file() == Some(self.number));
@@ -54,8 +53,8 @@ impl File {
         asked.filter(alone).chain(own).collect()
     }
 
-    /// What is wrong at a mistake's place, or where something was written, that wasn't before. Of what the compiler says is
-    /// wrong: anything.
+    /// A new mistake at the old one's place, or where something was written. In a file that is compiled for a device: any
+    /// mistake.
     fn made(&self, mistake: &Diagnostic, before: &[Diagnostic], new: &str, offer: &Offer) -> Option<String> {
         let after = self.wrong(new);
         if bad::device(&self.text).is_some() {
@@ -67,7 +66,7 @@ impl File {
         let near = |range: Range<usize>, at: usize| (range.start..=range.end).contains(&at);
         let here = |at: usize| near(moved(place.start)..moved(place.end), at) || near(changed.clone(), at);
         let known = |it: &Diagnostic| before.iter().any(|old| old.message == it.message);
-        // What is found is looked at further.
+        // A name that is found now may lead to mistakes further on.
         let further = |it: &Diagnostic| match offer {
             Offer::Known(_) => !it.message.starts_with("there is no"),
             Offer::Write { new, .. } => {
@@ -84,12 +83,12 @@ impl File {
     }
 }
 
-/// What comes of trying helps.
+/// The outcome of trying helps.
 #[derive(Default)]
 struct Outcome {
-    /// How many things that helps say to do mend their mistakes.
+    /// How many offers of helps mend their mistakes.
     tried: usize,
-    /// Those that don't, with what is wrong then.
+    /// Offers that mend nothing, with the mistakes that are left then.
     failed: Vec<String>,
     /// The forms of helps that aren't tried.
     untried: BTreeSet<String>,

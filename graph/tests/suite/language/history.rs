@@ -40,7 +40,7 @@ fn history_that_no_running_pass_reads_goes_with_its_images_and_copies() {
     assert!(matches!(on.images[1].lifetime, Lifetime::History { frames: 1, .. }), "{:?}", on.images[1].lifetime);
     let (images, _) = planned(&on);
     assert!(images.contains(&"past (1 frame ago)".to_owned()), "{images:?}");
-    // What it shows is `now` by another name.
+    // Without `mix` the shown image is `now` by another name.
     let off = mixed(&[("mix", "false")], "past");
     assert_eq!(off.images[1].lifetime, Lifetime::Transient);
     assert_eq!(planned(&off), (vec!["past".to_owned(), "screen".to_owned()], 0));

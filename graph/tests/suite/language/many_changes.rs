@@ -4,7 +4,7 @@
 use framewright_graph::base::{Diagnostic, FilePath, Sources};
 use framewright_graph::language::{self, Files, Found, Unread};
 
-/// So many of a thing are many.
+/// A large number of changes, or of other things.
 const MANY: usize = 100_000;
 
 /// Few enough for each of their mistakes to be told.
@@ -22,7 +22,7 @@ impl Files for Base {
     }
 }
 
-/// What is wrong with `changes` to a pipeline of these passes, images and outputs.
+/// The mistakes of `changes` to a pipeline of these passes, images and outputs.
 fn mistakes(passes: &str, images: &str, outputs: &str, changes: &str) -> Vec<Diagnostic> {
     let base = format!(
         r#"Pipeline(version: 1, images: [(name: "screen", format: Output, size: Output), {images}], passes: [{passes}],

@@ -57,7 +57,7 @@ impl Seen {
     }
 }
 
-/// What a field is called here. Those that all files have in common with pipelines are read by the same readers.
+/// The name of a field here. Fields that all files have in common with pipelines are read by the same readers.
 fn key(table: &Table, row: &str) -> String {
     let pipeline = FILES[0]();
     let shared =
@@ -72,7 +72,7 @@ fn known(leaf: Leaf<'_>, form: &Form) -> usize {
     leaf.fields().into_iter().flatten().filter(|(name, _)| rows.iter().any(|row| row.name == name.text())).count()
 }
 
-/// What of the files holds a mistake's place.
+/// Adds to `all` the fields and words of the files in which a mistake's place lies.
 fn misused(sources: &Sources, mistakes: &[Diagnostic], all: &mut BTreeSet<String>) {
     for (number, file) in (0..).map_while(|at: usize| Some((at, sources.file(at)?))) {
         let Some(tree) = Tree::read(u32::try_from(number).expect("few files"), file.text.clone(), &mut Vec::new())

@@ -1,4 +1,4 @@
-//! What `Color` and `Depth` become: what the file says comes to the frame.
+//! The formats that `Color` and `Depth` become: the file's choices come to the frame.
 
 use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
@@ -131,7 +131,7 @@ fn a_setting_or_an_expression_chooses_and_is_named() {
     assert_eq!(chosen(&by_expression, 0), None);
 }
 
-/// What is said of `color`, and that it keeps its format.
+/// The remark about `color`, which keeps its format.
 fn kept(text: &str) -> String {
     let frame = right(text, &INPUTS);
     assert_eq!((frame.images[0].format, &frame.images[0].chosen), (R16G16B16A16_SFLOAT, &None));

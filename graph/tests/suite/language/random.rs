@@ -1,4 +1,4 @@
-//! Whatever a file holds, reading it ends in a pipeline or in mistakes that can be shown.
+//! Files of any bytes: reading one ends in a pipeline or in mistakes that can be shown.
 
 use crate::testing::pipelines::{INPUTS, shipped};
 use crate::testing::table::Table;

@@ -1,4 +1,4 @@
-//! What a file says of images and buffers beyond formats and sizes: mip levels, layers, shapes, bytes, lifetimes, states.
+//! Fields of images and buffers beyond formats and sizes: mip levels, layers, shapes, bytes, lifetimes, states.
 
 use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
@@ -129,7 +129,7 @@ fn a_lifetime_may_be_that_of_another() {
     let buffers = r#"(name: "c", bytes: 4, lifetime: History(frames: 2))"#;
     let frame = right(&reading(images, buffers, &[("image", "a", 2), ("image", "b", 2)]), &INPUTS);
     let history = |initial| Lifetime::History { frames: 2, initial };
-    // What is zero follows from what is filled.
+    // The kind of zero follows from the image that is filled.
     assert_eq!(frame.images[1].lifetime, history(FillValue::Depth(0.0, 0)));
     assert_eq!(frame.images[2].lifetime, history(FillValue::Color([0.0; 4])));
 }

@@ -66,7 +66,7 @@ fn planned(text: &str, inputs: &Inputs<'_>, device: &Profile) -> Plan {
     on(&right(text, inputs), device).unwrap_or_else(|wrong| panic!("{wrong:?}"))
 }
 
-/// What the Plan has the shader of its last step declare.
+/// The texture type that the Plan has the shader of its last step declare.
 fn in_plan(plan: &Plan) -> Option<String> {
     let Some(Work::Render(scope)) = plan.steps.last().map(|step| &step.work) else { panic!("{}", plan.tree()) };
     let binding = scope.passes[0].accesses.iter().find_map(|access| access.binding.as_ref());

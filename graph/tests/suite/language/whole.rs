@@ -4,7 +4,7 @@ use framewright_graph::base::{self, Sources};
 use framewright_graph::language::{self, LARGEST_FILE};
 use std::time::{Duration, Instant};
 
-/// What is said about some bytes. An answer is short and comes soon, whatever the bytes are.
+/// The answer about bad bytes. It is short and comes soon, for all bytes.
 fn answer(bytes: impl Into<Vec<u8>>) -> String {
     let mut sources = Sources::default();
     let begin = Instant::now();

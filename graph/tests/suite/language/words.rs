@@ -1,4 +1,4 @@
-//! What the words of the language come to in a frame.
+//! Words of the language, and their meaning in a frame.
 
 use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;

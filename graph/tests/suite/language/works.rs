@@ -1,5 +1,5 @@
-//! What passes do besides drawing the scene: dispatches, transfers, draws of their own, what the program records; and with
-//! which parts of which images and buffers.
+//! Passes besides those that draw the scene: dispatches, transfers, draws of their own, the program's own; and the parts of
+//! images and buffers that they use.
 
 use crate::testing::pipelines::{INPUTS, frame, set};
 use framewright_graph::expand::Inputs;

@@ -56,7 +56,7 @@ pub(crate) fn passes(step: &Value) -> impl Iterator<Item = &Value> {
     list(&work["render"]["passes"]).iter().chain(alone)
 }
 
-/// What the work of a step touches: an image and its part, or a buffer.
+/// Images, with their parts, and buffers that the work of a step touches.
 pub(crate) fn accesses(step: &Value) -> Vec<(Named, Option<&Value>)> {
     let (work, mut all) = (&step["work"], Vec::new());
     let scope = &work["render"];
@@ -147,7 +147,7 @@ impl Cells {
         Cells(cells.map(|cell| (cell, is.clone())).collect())
     }
 
-    /// Those of a part.
+    /// The states of a part's cells.
     pub(crate) fn of(&mut self, range: &Value) -> impl Iterator<Item = &mut String> {
         let planes = flags(&range["aspects"]);
         let [mip, mips, layer, layers] =

@@ -189,7 +189,7 @@ impl language::Files for Based {
     }
 }
 
-/// One file, whatever its name.
+/// One file, found by every name.
 struct One(Vec<u8>);
 
 impl language::Files for One {

@@ -35,7 +35,7 @@ fn placeholder(line: &str) -> Option<&str> {
     line.strip_prefix("{{")?.strip_suffix("}}")
 }
 
-/// What has to have a place.
+/// Everything that must have a place on the page.
 fn expected(all: &Catalogue) -> BTreeSet<String> {
     let tables = all.tables.keys().filter(|name| !all.inner.contains(name)).map(|name| format!("fields {name}"));
     let words = all.words.keys().map(|name| format!("words {name}"));
@@ -67,7 +67,7 @@ fn headed(text: &str) -> impl Iterator<Item = (usize, Option<&str>, &str)> {
     })
 }
 
-/// What GitHub makes of a heading.
+/// The anchor that GitHub makes of a heading.
 fn anchor(title: &str) -> String {
     let letters = title.to_lowercase();
     letters.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-')).collect::<String>().replace(' ', "-")
@@ -153,7 +153,7 @@ fn rows<const N: usize>(titles: [&str; N], rows: impl Iterator<Item = [String; N
     text
 }
 
-/// What documentation says, and its example.
+/// The sentences of a documentation comment, and its example.
 fn documentation(lines: &[&str]) -> (String, Option<String>) {
     let lines: Vec<&str> = lines.iter().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
     let fence = lines.iter().position(|line| line.starts_with("```")).unwrap_or(lines.len());

@@ -135,7 +135,7 @@ fn places(leaf: Leaf<'_>, found: &mut Vec<std::ops::Range<usize>>) {
     }
 }
 
-/// The schema knows less than the readers, but nothing that they don't: whatever it refuses, they refuse.
+/// The schema knows less than the readers, but nothing that they don't: they refuse all that it refuses.
 #[test]
 fn what_the_schema_refuses_is_wrong() {
     let judge = Judge::new();
@@ -144,7 +144,7 @@ fn what_the_schema_refuses_is_wrong() {
     for (name, text) in shipped().into_iter().filter(|(_, text)| text.contains("Pipeline(")).chain(examples()) {
         let mut found = Vec::new();
         places(tree(&text).root(), &mut found);
-        // What stands in the same words behind the same words was tried.
+        // Places with the same words in them and before them need one try.
         let before = |at: usize| text.floor_char_boundary(at.saturating_sub(24));
         found.retain(|place| seen.insert(text[before(place.start)..place.end].to_owned()));
         for place in found {

@@ -1,4 +1,4 @@
-//! What may stand in a place, in a few words with links.
+//! Values that a place takes, in a few words with links.
 
 use crate::reference::catalogue::called;
 use framewright_graph::ron::{Form, Plain, Words};
@@ -10,7 +10,7 @@ pub(crate) const MOST_INLINE: usize = 10;
 /// Where on the page tables, words and choices are told.
 pub(crate) type Places = BTreeMap<String, String>;
 
-/// What a form takes.
+/// The values that a form takes.
 pub(crate) fn takes(form: &Form, places: &Places) -> String {
     match form {
         Form::Anything => "anything".to_owned(),

@@ -1,4 +1,4 @@
-//! What the tests of this crate share.
+//! Helpers that the tests of this crate share.
 
 pub(crate) mod graphs;
 pub(crate) mod hand_written_plans;

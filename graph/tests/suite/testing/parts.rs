@@ -1,4 +1,4 @@
-//! What frames that are built in memory are made of, and a device for them.
+//! Parts of frames that are built in memory, and a device for them.
 
 use framewright_graph::base::Span;
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};

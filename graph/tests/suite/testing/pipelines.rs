@@ -8,7 +8,7 @@ use framewright_graph::language::{self, Facts, Files, Found, NoFiles, Unread};
 use framewright_graph::vulkan::{Format, Rotation};
 use std::sync::Arc;
 
-/// What a test puts a pipeline together with.
+/// The inputs with which a test puts a pipeline together.
 pub(crate) const INPUTS: Inputs<'static> = Inputs {
     set: &[],
     facts: Facts::UNKNOWN,
@@ -39,7 +39,7 @@ pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
 pub(crate) struct Pictures;
 
 impl Pictures {
-    /// What the file holds, if it is one of the table.
+    /// The extent and format of the file's texture, if it is one of the table.
     pub(crate) fn info(file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
         let (extent, format) = match &*file.path {
             "grain.png" | "looks/grain.png" => ([64, 32], Format::R8G8B8A8_UNORM),
@@ -74,7 +74,7 @@ pub(crate) fn right(text: &str, inputs: &Inputs<'_>) -> Frame {
     frame(text, inputs).unwrap_or_else(|answer| panic!("{answer}"))
 }
 
-/// What is said about a pipeline that is wrong.
+/// The messages about a pipeline that is wrong.
 pub(crate) fn wrong(text: &str, inputs: &Inputs<'_>) -> String {
     frame(text, inputs).expect_err("the pipeline is wrong")
 }

@@ -15,7 +15,7 @@ pub(crate) fn planned(frame: &Frame, device: &Profile, options: &Options) -> Res
     Ok(plan)
 }
 
-/// The same with default options.
+/// The Plan of a frame with default options, or what is wrong with the frame.
 pub(crate) fn on(frame: &Frame, device: &Profile) -> Result<Plan, Vec<Diagnostic>> {
     planned(frame, device, &Options::default())
 }
@@ -25,12 +25,12 @@ pub(crate) fn compiled(frame: &Frame) -> Plan {
     on(frame, &device()).unwrap_or_else(|errors| panic!("the frame is valid: {errors:?}"))
 }
 
-/// What is said of a frame that can't be compiled on the device that has everything.
+/// The messages about a frame that can't be compiled on the device that has everything.
 pub(crate) fn refused(frame: &Frame) -> Vec<String> {
     refused_on(frame, &device())
 }
 
-/// What is said of a frame that can't be compiled on a device.
+/// The messages about a frame that can't be compiled on a device.
 pub(crate) fn refused_on(frame: &Frame, device: &Profile) -> Vec<String> {
     match on(frame, device) {
         Ok(plan) => panic!("it was compiled:\n{}", plan.tree()),

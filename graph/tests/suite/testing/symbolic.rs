@@ -1,4 +1,4 @@
-//! What images hold, as numbers that stand for how they were made: equal numbers, equal pictures.
+//! Contents of images, as numbers that stand for how they were made: equal numbers, equal pictures.
 //!
 //! A frame and its Plan are followed separately, each by its own meaning. The checker can tell whether a Plan keeps its own
 //! promises; only this can tell whether those are the frame's.
@@ -44,7 +44,7 @@ fn made(pass: &str, target: &str, before: u64, depth: u64, read: &[(String, u64)
     mix((pass, target, before, depth, read))
 }
 
-/// What the outputs of `frame` hold.
+/// The contents of the outputs of `frame`.
 pub(crate) fn of_frame(frame: &Frame) -> Vec<u64> {
     let mut held = vec![ANYTHING; frame.images.len()];
     for pass in &frame.passes {
@@ -104,7 +104,7 @@ fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
     }
 }
 
-/// What the outputs of `plan` hold.
+/// The contents of the outputs of `plan`.
 pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
     let mut held = vec![ANYTHING; plan.images.len()];
     for (number, step) in plan.steps.iter().enumerate() {

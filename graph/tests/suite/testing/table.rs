@@ -48,7 +48,7 @@ fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
     ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), asks_part, ..ShaderInterface::default() }
 }
 
-/// What of these is sampled.
+/// The names of the sampled images among `bindings`.
 fn sampled(bindings: &[Binding]) -> Vec<String> {
     let sampled = bindings.iter().filter(|it| matches!(it.kind, BindingKind::SampledImage(_)));
     sampled.map(|it| it.name.clone()).collect()
@@ -164,7 +164,7 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
 
 const NAMES: &[&str] = &["blur", "downsample", "lit", "lit_masked", "reinhard", "sky", "soft_focus", "tone_map"];
 
-/// What lights surfaces may be given shadow maps.
+/// Adds shadow maps to a shader that lights surfaces, if the variant gives them.
 fn shadowed(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     if variant.sampled.iter().any(|name| **name == *"sun_shadow") {
         shader.bindings.extend([adapting("sun_shadow", variant), params(&[("shadow_taps", "int")])]);
@@ -172,12 +172,12 @@ fn shadowed(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     shader
 }
 
-/// What the draw source brings along for a whole frame.
+/// A binding that the draw source brings along for a whole frame.
 fn of_frame(binding: u32, name: &str, kind: BindingKind) -> Binding {
     Binding { set: 1, binding, name: name.to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
 }
 
-/// What is read from the pass's own rendering scope is declared so.
+/// Declares images that are read from the pass's own rendering scope as input attachments.
 fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     for binding in shader.bindings.iter_mut().filter(|it| variant.local.iter().any(|local| **local == *it.name)) {
         binding.kind = BindingKind::InputAttachment { multisampled: false, component: Component::Float };

@@ -1,4 +1,4 @@
-//! What our reader makes of a text is what the `ron` crate makes of it.
+//! Our reader and the `ron` crate make the same tree of a text.
 //!
 //! Known differences, all of them refused by one side and none read in two ways:
 //! - we refuse ranges (`1..2`), raw identifiers (`r#a-b`), types behind numbers (`1u8`, `0.5f32`) and brackets nested
@@ -15,7 +15,7 @@ use framewright_graph::ron::Tree;
 use judge::judge;
 use std::path::Path;
 
-/// What our reader makes of a text.
+/// The tree that our reader makes of a text.
 fn ours(text: &str) -> Result<Tree, Vec<Diagnostic>> {
     let mut sources = Sources::default();
     let file = sources.add("test.ron", "test.ron", text);

@@ -1,4 +1,4 @@
-//! What the compiler makes of frames is accepted, and none of its barriers can be left out.
+//! Plans of the compiler are accepted, and none of their barriers can be left out.
 
 use crate::testing::graphs;
 use crate::testing::hand_written_plans::names_all;

@@ -1,4 +1,4 @@
-//! What is sure to set all of an image, and what isn't.
+//! Writes that are sure to set all of an image, and writes that aren't.
 
 use crate::testing::hand_written_plans::build::*;
 use crate::testing::hand_written_plans::recount;
@@ -37,7 +37,7 @@ fn painted(what: Draw, blend: Blend, depth: Option<DepthState>) -> Plan {
     plan(vec![color, depth_image, screen], 65536, steps)
 }
 
-/// The same with a shader that discards fragments.
+/// The Plan with a shader that discards fragments.
 fn discarding(mut plan: Plan) -> Plan {
     if let Work::Render(scope) = &mut plan.steps[0].work {
         scope.passes[0].discards = true;
@@ -45,7 +45,7 @@ fn discarding(mut plan: Plan) -> Plan {
     plan
 }
 
-/// The same with two layers of `color`.
+/// The Plan with two layers of `color`.
 fn with_two_layers(mut plan: Plan) -> Plan {
     plan.images[0].layers = 2;
     for step in &mut plan.steps {

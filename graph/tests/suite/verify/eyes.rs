@@ -1,4 +1,4 @@
-//! What holds both eyes' parts and isn't used for both eyes is found, whoever made the Plan.
+//! Images that hold both eyes' parts and aren't used for both eyes are found in any Plan.
 
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
@@ -79,7 +79,7 @@ fn sampling<'p>(plan: &'p mut Plan, pass: &str) -> &'p mut framewright_graph::pl
 
 type Change = fn(&mut Plan);
 
-/// What changes, and what is to be said of it; the name of the image first.
+/// The change, and the start of its message; the name of the image first.
 const CHANGES: &[(Change, &str)] = &[
     (|plan| plan.stereo = Stereo::MultiPass, "`screen`: holds both eyes' parts as `multi-pass` doesn't draw them"),
     (|plan| plan.stereo = Stereo::Off, "`kept`: holds both eyes' parts as `off` doesn't draw them"),

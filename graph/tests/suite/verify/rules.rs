@@ -218,7 +218,7 @@ fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_owner() {
     let [a, _] = images(1);
     let on_a = barrier(&a, (CS, WRITE), WRITES.2, (CS, NONE, WRITES.2), Hazard::WriteAfterWrite, Some(0));
     assert_eq!(handed_over(vec![], Some(on_a), (CS, NONE)), []);
-    // What the barrier on `b` names itself makes nothing available that went through `a`.
+    // The source scope of the barrier on `b` makes nothing available that went through `a`.
     for source in [(CS, NONE), (CS, WRITE), (Stages::ALL_COMMANDS, Accesses::MEMORY_WRITE)] {
         let violation = only(handed_over(vec![], None, source));
         assert!(matches!(violation.rule, Rule::HandOver { waited: true, .. }), "{violation}");

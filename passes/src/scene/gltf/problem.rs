@@ -77,9 +77,9 @@ pub enum Problem {
     TooMuch {
         /// The thing that is counted.
         what: &'static str,
-        /// How much there is.
+        /// The amount in the file.
         is: u64,
-        /// How much is allowed.
+        /// The amount that is allowed.
         limit: u64,
     },
     /// The JSON is not what the specification says; the parser's words, escaped.

@@ -23,14 +23,14 @@ pub struct Material {
 /// How a material's alpha is used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AlphaMode {
-    /// It is ignored: the surface is opaque.
+    /// Alpha is ignored: the surface is opaque.
     Opaque,
     /// Fragments below the cut-off are discarded.
     Mask {
         /// The cut-off, at least 0. Above 1 nothing is left.
         cutoff: f32,
     },
-    /// It is the surface's opacity.
+    /// Alpha is the surface's opacity.
     Blend,
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn sound() -> Builder {
     file
 }
 
-/// What the reader says about the file after `lie` has changed its JSON.
+/// The reader's answer to the file after `lie` has changed its JSON.
 fn said(lie: impl FnOnce(&mut Value)) -> String {
     let file = sound();
     let mut json = file.json();

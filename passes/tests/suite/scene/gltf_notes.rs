@@ -1,4 +1,4 @@
-//! What a glTF file says that isn't drawn is noted, and what it says in an unusual way is read.
+//! Parts of a glTF file that aren't drawn are noted, and unusual ways to say things are read.
 
 use crate::scene::fixtures::builder::pack;
 use crate::scene::gltf_mistakes::sound;
@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
-/// What becomes of the file after its JSON was changed.
+/// The result of reading the file after its JSON was changed.
 fn read(change: impl FnOnce(&mut Value)) -> Result<Scene, String> {
     let file = sound();
     let mut json = file.json();

@@ -1,4 +1,4 @@
-//! Whatever is done to a file's bytes, reading it ends in a scene or a sentence.
+//! Files with changed bytes: reading any of them ends in a scene or a sentence.
 
 use crate::scene::fixtures;
 use framewright_graph::base::{Sources, render};

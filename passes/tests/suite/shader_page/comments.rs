@@ -1,6 +1,6 @@
 //! Comments of a GLSL file, by what stands below them.
 
-/// What the comment right above the first line that `is` it says; empty without one.
+/// The text of the comment right above the first line that `is` accepts; empty without one.
 pub(crate) fn above(text: &str, is: impl Fn(&str) -> bool) -> String {
     let mut comment: Vec<&str> = Vec::new();
     for line in text.lines().map(str::trim) {
@@ -33,7 +33,7 @@ fn type_of<'t>(line: &'t str, name: &str) -> Option<&'t str> {
     line.strip_suffix(';')?.split_once(' ').filter(|(_, it)| *it == name).map(|(ty, _)| ty)
 }
 
-/// What the whole shader does: the comment above its `main`.
+/// The comment above `main`, which says what the whole shader does.
 pub(crate) fn of_main(text: &str) -> String {
     above(text, |line| line.starts_with("void main()"))
 }

@@ -87,7 +87,7 @@ fn optional(text: &str) -> Vec<Arc<str>> {
     named.map(|name| name.trim().into()).collect()
 }
 
-/// What the page says of a shader.
+/// The section of the page about a shader.
 fn tell(shader: &Shader) -> String {
     let about = comments::of_main(&shader.text);
     assert!(!about.is_empty(), "{}: no comment above `main` says what it does", shader.name);
@@ -111,7 +111,7 @@ fn tell(shader: &Shader) -> String {
     told
 }
 
-/// What a binding is to the pass: the field of it, the name there, the type and the meaning.
+/// The rows of a binding: the pass's field for it, the name there, the type and the meaning.
 fn rows(shader: &Shader, binding: &Binding) -> Vec<[String; 4]> {
     let said = |about: String, name: &str| {
         assert!(!about.is_empty(), "{}: no comment above `{name}` says what it is", shader.name);

@@ -10,7 +10,7 @@ use crate::random_pipelines::texels;
 use framewright_graph::frame::Blend;
 use framewright_graph::vulkan::{Aspects, Format, Numeric, Shape};
 
-/// Whether the work of a pass fits the images and buffers that it names, whatever their contents.
+/// Whether the work of a pass fits the images and buffers that it names, for any contents.
 pub(super) fn fits(written: &Written, pipeline: &Pipeline, pass: &Pass) -> bool {
     let (reads, stores) = shader(pass);
     reads.iter().all(|read| read_fits(written, pipeline, *read))

@@ -198,7 +198,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What a shader's invocation at a position does to what it writes without attachments.
+    /// Writes without attachments of a shader's invocation at a position.
     fn stores(&mut self, stores: &[Store], state: u32, at: [u32; 3], line: u32) {
         for (number, store) in stores.iter().enumerate() {
             let from = 64 + 4 * number as u32;

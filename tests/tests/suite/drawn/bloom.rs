@@ -22,7 +22,7 @@ impl Image {
     }
 }
 
-/// What the pipeline's outputs are.
+/// The pipeline's outputs.
 struct Filtered {
     noise: Image,
     plain: Image,

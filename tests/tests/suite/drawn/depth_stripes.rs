@@ -8,7 +8,7 @@ use framewright_tests::shapes::{material, scene, sphere, square};
 use glam::{Mat4, Vec3};
 use std::error::Error;
 
-/// What Vulkan allows a sine to be off, 2⁻¹¹, twice over since it is squared: a quarter of an 8-bit step.
+/// The error that Vulkan allows a sine, 2⁻¹¹, twice over since it is squared: a quarter of an 8-bit step.
 const SINE: f64 = 2.0 / 2048.0;
 
 /// Texel by texel the depth, and white light through the stripes in both forms.

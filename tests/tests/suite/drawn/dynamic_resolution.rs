@@ -77,8 +77,8 @@ fn difference(one: &[u8], other: &[u8]) -> (u8, usize) {
     (steps.clone().max().unwrap_or(0), steps.filter(|step| *step > 0).count())
 }
 
-/// What only fetches texels is the same bit for bit; what filters linearly finds its weights at other places of the image, which
-/// may round in another way.
+/// Filters that only fetch texels give the same bit for bit; a linear filter finds its weights at other places of the image,
+/// which may round in another way.
 #[test]
 fn a_part_shows_what_an_image_of_its_size_would_and_nothing_of_what_lies_beyond() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };

@@ -12,7 +12,7 @@ use std::error::Error;
 
 const EXTENT: [u32; 2] = [96, 56];
 
-/// What a pixel shows: its object, its depth, and by how much it moved.
+/// A pixel: its object, its depth, and by how much it moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Pixel {
     object: Option<usize>,
@@ -20,7 +20,7 @@ struct Pixel {
     moved: DVec2,
 }
 
-/// What the pixels of frame `number` show.
+/// The pixels of frame `number`.
 fn frame(device: &Device, scene: &Scene, set: &[(&str, &str)], number: u32) -> Result<Vec<Pixel>, Box<dyn Error>> {
     let setup = Setup { pipeline: "tests/pipelines/motion.ron", set, scene, extent: EXTENT };
     let (_, mut executor) = draw(device, &setup, &Options::default(), number + 1)?;

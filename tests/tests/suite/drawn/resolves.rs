@@ -56,7 +56,7 @@ fn a_weighted_resolve_is_the_mean_of_tone_mapped_samples_taken_back() -> Result<
     Ok(())
 }
 
-/// What `resolve: Weighted` inserts for a pass that samples the plain name.
+/// The pass that `resolve: Weighted` inserts for a pass that samples the plain name.
 #[test]
 fn what_is_inserted_is_bit_for_bit_what_the_fragment_draws() -> Result<(), Box<dyn Error>> {
     let Some(Resolved { weighted, inserted, .. }) = resolved("clip")? else { return Ok(()) };

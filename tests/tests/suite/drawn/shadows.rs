@@ -58,7 +58,7 @@ fn bars() -> Texture {
     Texture { name: String::new(), width: 64, height: 1, rgba8: (0..64).flat_map(texel).collect(), sampler }
 }
 
-/// What the picture shows of the sun's light: pixels in it, pixels without it, pixels that neither can be said of.
+/// Holds the sun's light against rays, and counts pixels: in light, without it, and those that neither can be said of.
 fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3], Box<dyn Error>> {
     let Some(device) = device() else { return Ok([usize::MAX; 3]) };
     let (number, width) = (cascades.to_string(), taps.to_string());

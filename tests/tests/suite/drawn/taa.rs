@@ -143,7 +143,7 @@ fn a_camera_that_moves_leaves_no_ghosts() -> Result<(), Box<dyn Error>> {
         "{far} of {} pixels are a quarter of the way from black to white off",
         steady.len()
     );
-    // What motion and the hold on history are for: without them it is another picture.
+    // Motion and the hold on history have a purpose: without them it is another picture.
     for deviations in ["1.25", "10.0"] {
         let ghosts = root_mean_square(&last(&[("reproject", "false"), ("deviations", deviations)])?);
         assert!(ghosts > 1.6 * found, "{deviations}: {ghosts} beside {found}");

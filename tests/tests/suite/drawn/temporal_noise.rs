@@ -9,7 +9,7 @@ const EXTENT: [i32; 2] = [64, 32];
 
 type Picture = Vec<[f64; 3]>;
 
-/// What is drawn, history, and what becomes of both.
+/// The picture that is drawn, history, and the mixture of both.
 fn mixed_noise(set: &[(&str, &str)]) -> Result<Option<[Picture; 3]>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let scene = empty_scene();

@@ -7,13 +7,13 @@ use std::error::Error;
 
 const EXTENT: [u32; 2] = [32, 24];
 
-/// What `sample_values.frag` draws.
+/// The colour that `sample_values.frag` draws.
 fn drawn(x: u32, y: u32, layer: u32, number: u32) -> [f64; 3] {
     let number = ((layer * 8 + number) * EXTENT[1] + y) * EXTENT[0] + x;
     [number, number * number % 65521, number % 7].map(f64::from)
 }
 
-/// The sum of what was drawn into a texel of so many layers and samples, and how many those are.
+/// The sum of what was drawn into a texel of all its layers and samples, and a number that tells how many those are.
 fn summed(x: u32, y: u32, layers: u32, samples: u32) -> [f64; 4] {
     let all = (0..layers).flat_map(|layer| (0..samples).map(move |number| drawn(x, y, layer, number)));
     let [r, g, b] = all.fold([0.0; 3], |sum, value| [0, 1, 2].map(|channel| sum[channel] + value[channel]));

@@ -47,8 +47,8 @@ pub(super) fn search(blocks: &[Block], bound: u64, swept: Packing) -> Packing {
     search.best
 }
 
-/// The live peak where each block but the highest is followed by what it lacks of a multiple of the least alignment: no
-/// packing is lower.
+/// The live peak where each block but the highest is padded to a multiple of the least alignment: no packing is
+/// lower.
 fn aligned_peak(blocks: &[Block]) -> u64 {
     let alignment = blocks.iter().map(|block| block.alignment).min().unwrap_or(1);
     let lacking = blocks.iter().map(|block| align(block.bytes, alignment) - block.bytes).max().unwrap_or(0);

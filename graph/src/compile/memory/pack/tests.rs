@@ -259,7 +259,7 @@ fn sums_beyond_what_a_number_holds_end_at_the_largest() {
     // So is what the search finds that such a peak would end at once.
     let unreached = Measured { peak: Peak { bytes: 0, ..measured.peak }, ..measured };
     assert_eq!(unreached.pack().height, huge);
-    // What does fit stays exact.
+    // Blocks that do fit stay exact.
     let blocks = [block(0, 1, huge - 16, 16), block(1, 1, 15, 1), block(2, 2, huge - 1, 1)];
     assert_eq!(packed(&blocks).height, huge - 1);
 }

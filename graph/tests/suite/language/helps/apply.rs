@@ -37,7 +37,7 @@ const VALUES: [(&str, &str); 10] = [
     ("\"shader\"", "\"plain\""),
 ];
 
-/// What `…` may stand for.
+/// Values that `…` may stand for.
 const ANY: [&str; 6] = ["0", "true", "\"2 > 1\"", "Undefined", "SHADER_READ_ONLY_OPTIMAL", "R8G8B8A8_UNORM"];
 
 /// A file's text and that of the file that it extends, whose names it may use.
@@ -47,7 +47,7 @@ fn with_base(text: &str) -> String {
     format!("{text}\n{}", base.unwrap_or_default())
 }
 
-/// What a snippet comes to where its names are those of the file, and what `…` stands for is something.
+/// The texts of a snippet with names of the file in place of its own, and with values in place of `…`.
 fn filled(text: &str, snippet: &str) -> Vec<String> {
     let text = &with_base(text);
     let mut all = vec![VALUES.iter().fold(snippet.to_owned(), |it, (form, value)| it.replace(form, value))];
@@ -124,7 +124,7 @@ pub(super) fn applied(text: &str, places: &[Range<usize>], offer: &Offer, all: &
             let bare = text[place.clone()].trim_matches(['"', '\'']);
             [bare, "1", "true"].map(|new| replace(text, place, new)).to_vec()
         }
-        // What is repeated is declared once.
+        // A repeated pass is declared once.
         Offer::Move(pass) => moved(text, place, pass.split('[').next().unwrap_or(pass)).into_iter().collect(),
         Offer::Both(first, second) => {
             let then = |text: String, before: &str| {

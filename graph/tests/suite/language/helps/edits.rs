@@ -32,8 +32,8 @@ fn code(text: &str) -> impl Iterator<Item = (usize, u8)> {
     })
 }
 
-/// What stands between brackets, each without them: what holds a place, the innermost first, and what the place ends in or
-/// is followed by.
+/// The insides of pairs of brackets: those that hold a place, the innermost first, and those that the place ends in or is
+/// followed by.
 pub(super) fn brackets(text: &str, place: &Range<usize>, open: u8) -> Vec<Range<usize>> {
     let (mut stack, mut found) = (Vec::new(), Vec::new());
     for (at, byte) in code(text) {
@@ -63,7 +63,7 @@ pub(super) fn calls(text: &str, place: &Range<usize>) -> Vec<Range<usize>> {
     brackets(text, place, b'(').into_iter().take(2).filter_map(with_word).collect()
 }
 
-/// What commas part in a text.
+/// The elements of a text, which commas separate.
 pub(super) fn elements(text: &str) -> Vec<Range<usize>> {
     let (mut depth, mut start, mut all) = (0_u32, 0, Vec::new());
     for (at, byte) in code(text) {
@@ -98,7 +98,7 @@ pub(super) fn with(record: &str, name: &str, value: &str) -> String {
     let entries = |text: &str| Some(text.split_once('{')?.1.strip_suffix('}')?.trim_end_matches(',').to_owned());
     let fields = |text: &str| Some(text.trim().strip_prefix('(')?.strip_suffix(')')?.to_owned());
     let there = old.as_ref().and_then(|old| fields(record[old.clone()].split_once(':')?.1));
-    // What a record says beside that stays.
+    // Other fields of the old value stay.
     let merged = there.zip(fields(value)).map(|(there, new)| {
         let new = elements(&new).into_iter().filter_map(|it| new[it].split_once(": "));
         format!("({})", new.fold(there, |there, (name, value)| with(&there, name, value)))
@@ -120,7 +120,7 @@ pub(super) fn without_field(record: &str, name: &str) -> Option<String> {
     field(record, name).map(|it| without(record, &it))
 }
 
-/// What is between brackets without one of its elements.
+/// The inside of brackets without one of its elements.
 pub(super) fn without(all: &str, element: &Range<usize>) -> String {
     let comma = all[element.end..].trim_start().starts_with(',').then(|| all[element.end..].find(',').unwrap_or(0) + 1);
     replace(all, &(element.start..element.end + comma.unwrap_or(0)), "")
@@ -150,7 +150,7 @@ pub(super) fn names<'t>(text: &'t str, section: &str) -> Vec<&'t str> {
     names
 }
 
-/// The text with a pass right before whatever element of its list a place is in.
+/// The text with a pass right before the element of its list that a place is in.
 pub(super) fn moved(text: &str, place: &Range<usize>, pass: &str) -> Option<String> {
     let record = declared(text, pass).into_iter().rfind(|it| it.start > place.start)?;
     let whole = record.start - 1..record.end + 1;

@@ -1,25 +1,25 @@
-//! What a help says to write. Helps are sentences; what belongs into a file stands in backticks or is a number.
+//! Offers: the edits that a help suggests. Helps are sentences; text for a file stands in backticks or is a number.
 
-/// One thing that a help says to do.
+/// One edit that a help suggests.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Offer {
-    /// This in place of `old`, or of what is underlined.
+    /// The text `new` in place of `old`, or of the underlined text.
     Write { new: String, old: Option<String> },
-    /// A name that there is, in place of what is underlined. It need not be the one that was meant.
+    /// A name that exists, in place of the underlined one. It need not be the one that was meant.
     Known(String),
-    /// A field with a value: of the things of these names, or of whatever stands around what is underlined.
+    /// A field with a value: of the things of these names, or of the record around the underlined text.
     Say { field: String, value: String, of: Vec<String> },
-    /// Nothing in place of a field, or of what is underlined.
+    /// Nothing in place of a field, or of the underlined text.
     Leave(Option<String>),
-    /// What is underlined, without its quotes.
+    /// The underlined text, without its quotes.
     Unquote,
     /// A pass further up.
     Move(String),
-    /// One thing and another.
+    /// Two edits together.
     Both(Box<Offer>, Box<Offer>),
 }
 
-/// What is to be done with a snippet.
+/// The use of a snippet.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Verb {
     Write,
@@ -28,7 +28,7 @@ enum Verb {
     Move,
 }
 
-/// Words before what is to be written.
+/// Words before text that is to be written.
 const WRITE: [&str; 14] = [
     "did you mean",
     "write",
@@ -45,12 +45,12 @@ const WRITE: [&str; 14] = [
     "insert at it by",
     "left is",
 ];
-/// First words of clauses that say what to do, and show it behind a colon.
+/// First words of clauses that tell an edit, and show it behind a colon.
 const IMPERATIVES: [&str; 9] = ["say", "read", "write", "let", "clear", "compare", "list", "name", "texts stand"];
-/// Words before names that there are.
+/// Words before names that exist.
 const KNOWN: [&str; 2] = ["there are", "there is only"];
 
-/// What a help says to do: each of several things. What is said of the shader is for another file.
+/// The offers of a help, one for each edit that it suggests. Words about the shader are for another file.
 pub(super) fn offers(help: &str) -> Vec<Offer> {
     let line = help.lines().next().unwrap_or_default();
     // "write another `format` of `color`: `R8_UNORM`"
@@ -89,7 +89,7 @@ pub(super) fn offers(help: &str) -> Vec<Offer> {
     all
 }
 
-/// What is said of all that was offered before: whose the field is, or in place of what it is written.
+/// Narrows an offer by words behind it: to the field of `name`, or to writing in place of `name`.
 fn narrow(offer: &mut Offer, by: &str, name: &str) {
     match offer {
         Offer::Say { of, .. } if of.is_empty() || by == " and " => of.push(name.to_owned()),
@@ -112,7 +112,7 @@ fn offer(verb: Verb, part: &str) -> Offer {
     }
 }
 
-/// What is to be done with the snippet after some words, if `before` was with the one in front of them.
+/// The use of the snippet after some words, if `before` was the use of the one in front of them.
 fn said(words: &str, before: Option<Verb>) -> Option<Verb> {
     if [",", "or", "and", ", or", ", and", "of", "in place of", ""].contains(&words.trim()) {
         return before;
@@ -131,7 +131,7 @@ fn said(words: &str, before: Option<Verb>) -> Option<Verb> {
     }
 }
 
-/// What words say to do without a snippet.
+/// The offers of words without a snippet.
 fn bare(words: &str) -> Vec<Offer> {
     let write = |new: &str| Offer::Write { new: new.to_owned(), old: None };
     let numbers = |text: &str| -> Vec<Offer> {
@@ -139,7 +139,7 @@ fn bare(words: &str) -> Vec<Offer> {
         split.filter(|it| it.parse::<f64>().is_ok()).map(write).collect()
     };
     let behind = |lead: &str| words.split_once(lead).map(|(_, rest)| rest.split([';', ':']).next().unwrap_or(rest));
-    // What ends between two steps is no value.
+    // The number behind "in steps" is no value.
     let range = |text: &str| numbers(text.split(" in steps").next().unwrap_or(text)).into_iter();
     let mut all = Vec::new();
     if words.contains("leave it out") || words.contains("leave one of them out") {

@@ -65,7 +65,7 @@ pub(crate) fn plan() -> Plan {
 
     let after = |barrier: MemoryBarrier, work: Work| Step { memory_barriers: vec![barrier], ..step(Vec::new(), work) };
     let nothing = Accesses::empty();
-    // What `emit` wrote is read by the indirect dispatch, by its shader and, later, by the copy.
+    // Words from `emit` are read by the indirect dispatch, by its shader and, later, by the copy.
     let emitted =
         (Stages::DRAW_INDIRECT | CS | Stages::COPY, Accesses::INDIRECT_COMMAND_READ | READ | Accesses::TRANSFER_READ);
     let mut weaving = memory((CS, nothing), (CS, WRITE));

@@ -49,7 +49,7 @@ pub(crate) fn plan() -> Plan {
 
     let [mut tonemap, export] = tone_map(&blurred, written, &screen, 3);
     tonemap.waits = vec![wait(2, 0, FS)];
-    // What read `screen` before the frame came before `scene`, which `blur` has waited for.
+    // Reads of `screen` before the frame came before `scene`, which `blur` has waited for.
     tonemap.image_barriers = vec![acquire(&blurred, written, SAMPLED, TO_GRAPHICS, 2), first(&screen, COLOR)];
     if let Work::Render(scope) = &mut tonemap.work {
         scope.passes[0].buffers = vec![block(&particles, FS, true, false)];

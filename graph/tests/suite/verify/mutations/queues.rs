@@ -165,7 +165,7 @@ fn a_state_that_is_promised_and_not_kept_is_caught() {
     assert!(said[0].starts_with(expected), "{said:#?}");
 }
 
-/// What is presented waits for the frame by a semaphore: no barrier need lead on to it.
+/// An image that is presented waits for the frame by a semaphore: no barrier need lead on to it.
 #[test]
 fn a_state_without_stages_follows_everything() {
     let mut plan = plan("history");

@@ -8,7 +8,7 @@ use std::error::Error;
 /// As the twin of nothing but the arithmetic: what a store of 5 or 6 bits of mantissa loses of a value, at most, over three
 /// stores: what is opaque, the glass before it, and the mean of the samples.
 const SMALLEST: [f64; 3] = [3.0 / 64.0, 3.0 / 64.0, 3.0 / 32.0];
-/// The same of ten bits.
+/// The loss by stores of ten bits of mantissa.
 const HALF: [f64; 3] = [3.0 / 1024.0; 3];
 /// Two roundings of 8 bits.
 const STEP: f64 = 2.0;
@@ -52,7 +52,7 @@ fn without_hdr_too() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What hides what is the same: surfaces lie further apart than the steps of 16 bits.
+/// The same surfaces are hidden: they lie further apart than the steps of 16 bits.
 #[test]
 fn every_precision_of_depth_draws_the_same_picture() -> Result<(), Box<dyn Error>> {
     for word in ["Smallest", "Balanced"] {

@@ -1,4 +1,4 @@
-//! What a frame takes, against what one would write by hand for the same choices: no full-screen draw, copy or resolve more.
+//! Work of a frame, against what one would write by hand for the same choices: no full-screen draw, copy or resolve more.
 //!
 //! The scene has opaque objects, a sky and glass. Each expected frame is counted from what its choices need, not from a Plan.
 

@@ -1,4 +1,4 @@
-//! What the shipped `image_quality` claims, on a real driver: each row of the requirements with the test that shows it, and a
+//! Claims of the shipped `image_quality`, on a real driver: each row of the requirements with the test that shows it, and a
 //! change of one line that was seen to turn it red.
 //!
 //! | row | test | what turns it red |
@@ -6,7 +6,7 @@
 //! | IQ-1 | `dynamic_resolution` | `part.glsl`: `uv_clamp` gives `uv` back |
 //! | IQ-1 | `dynamic_resolution`, `graph/tests/suite/language/dynamic_sizes.rs` | `model/area.rs`: `LEAST_PART` 1 |
 //! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | size of `color` `Output` |
-//! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` whatever the operator |
+//! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` for every operator |
 //! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `view.allows_msaa` left out |
 //! | IQ-3 | `plans::a_view_brings_effects_of_its_own_or_takes_the_users` | `entries/views.rs`: `set.iter().flatten().take(0)` |
 //! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
@@ -21,9 +21,9 @@
 //! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
 //! | IQ-7, IQ-9, IQ-16, IQ-22 | `frames_by_hand` | `compile/adapt/demote.rs`: nothing moves; `compile/scope/builder.rs`: nothing folds |
 //! | IQ-10 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged where it is sampled, or where it leaves the frame |
-//! | IQ-11 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth is resolved whatever its samples |
+//! | IQ-11 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth is resolved for any number of samples |
 //! | IQ-11 | `graph/tests/suite/language/samplers.rs` | `expand/sampled.rs`: depth is filtered as colour is |
-//! | IQ-12 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared whatever `start`, so that one is left |
+//! | IQ-12 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared for every `start`, so that one is left |
 //! | IQ-12: refused | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
 //! | IQ-12, IQ-24 | `cli/tests/suite/image_quality.rs`, `depth_stripes`, `frames_by_hand` | `depth_stripes.ron`: `"depth"` for `Resolved("depth")` |
 //! | IQ-13 | `cli/tests/suite/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
@@ -108,7 +108,7 @@ fn plan(set: Set<'_>) -> Result<Option<Plan>, Box<dyn Error>> {
     plan_of(PIPELINE, set, &shining_behind_glass([4.0; 3]), true)
 }
 
-/// What a frame does, in its order: passes by name, and `(resolve)`.
+/// The work of a frame, in its order: passes by name, and `(resolve)`.
 fn listing(plan: &Plan) -> Vec<String> {
     let mut listing = Vec::new();
     for step in &plan.steps {
@@ -127,7 +127,7 @@ fn listing(plan: &Plan) -> Vec<String> {
     listing
 }
 
-/// The image that a pass draws colour into, whatever it is called: what is forwarded has the name of what gets it.
+/// The image that a pass draws colour into. It may have another name: a forwarded image has that of its receiver.
 fn drawn_by<'p>(plan: &'p Plan, pass: &str) -> Option<&'p Image> {
     plan.steps.iter().find_map(|step| match &step.work {
         Work::Render(scope) if scope.passes.iter().any(|it| &*it.name == pass) => {
@@ -143,7 +143,7 @@ struct Picture {
     pixels: Vec<[f64; 3]>,
 }
 
-/// What is shown of a scene.
+/// The picture of a scene.
 fn picture(set: Set<'_>, scene: &Scene, extent: [u32; 2]) -> Result<Option<Picture>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let outputs = render::render(device, &Setup { pipeline: PIPELINE, set, scene, extent })?;
@@ -168,7 +168,7 @@ fn encoded(light: f64) -> f64 {
 }
 
 impl Picture {
-    /// Half or another part of the size: the mean of so many by so many pixels, in light.
+    /// Half or another part of the size: the mean of squares of `times` by `times` pixels, in light.
     fn shrunk(&self, times: usize) -> Picture {
         let (width, height) = (self.width / times, self.pixels.len() / self.width / times);
         let block = |x: usize, y: usize| {

@@ -42,7 +42,7 @@ fn with_nothing_to_do_objects_are_drawn_straight_into_the_screen() -> Result<(),
     Ok(())
 }
 
-/// IQ-3: a preview without scale, samples and HDR, whatever the user chose.
+/// IQ-3: a preview without scale, samples and HDR, even if the user chose them.
 #[test]
 fn a_view_that_allows_nothing_takes_the_direct_path() -> Result<(), Box<dyn Error>> {
     let set = [("msaa", "4"), ("hdr", "true"), ("render_scale", "2"), ("tone_mapping", "clip")];
@@ -198,7 +198,7 @@ fn colour_is_floating_point_only_where_something_makes_use_of_it() -> Result<(),
             [("hdr", hdr), ("tone_mapping", tone_mapping), ("depth_stripes", "copied"), ("light_resolve", "Weighted")];
         let Some(plan) = plan_of(PIPELINE, &set, scene, true)? else { return Ok(()) };
         assert_eq!(format_of(&plan, "opaque"), Some(format), "{hdr}, {tone_mapping}");
-        // What stands between keeps it.
+        // The image in between keeps the format.
         assert_eq!(format_of(&plan, "copied_stripes.stripes"), Some(format), "{hdr}, {tone_mapping}");
     }
     Ok(())

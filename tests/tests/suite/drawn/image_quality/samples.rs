@@ -16,8 +16,8 @@ fn converged(set: Set<'_>, light: f32) -> Result<Option<Picture>, Box<dyn Error>
     Ok(large.map(|large| large.shrunk(MANY as usize)))
 }
 
-/// What is held against `converged` below is right itself: rays through the same places show as much of the square. Rays
-/// that graze its edge may fall to either side.
+/// The reference of the tests below, `converged`, is right itself: rays through the same places show as much of the square.
+/// Rays that graze its edge may fall to either side.
 #[test]
 fn pictures_of_256_samples_show_what_rays_meet() -> Result<(), Box<dyn Error>> {
     const LIGHT: f32 = 0.8;

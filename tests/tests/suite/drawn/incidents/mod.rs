@@ -41,7 +41,7 @@ fn attachments(plan: &Plan) -> impl Iterator<Item = &Attachment> {
     scopes(plan).flat_map(|scope| scope.color.iter().chain(&scope.depth).chain(&scope.stencil))
 }
 
-/// What an image is resolved to and by which scope or step: pairs of images.
+/// The resolves of a Plan, by scopes or steps: each image with the one that it is resolved to.
 fn resolves(plan: &Plan) -> Vec<(ImageId, ImageId)> {
     let folded = attachments(plan)
         .filter_map(|attachment| attachment.resolve.as_ref().map(|resolve| (attachment.image, resolve.image)));

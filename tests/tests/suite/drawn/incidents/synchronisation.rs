@@ -45,7 +45,7 @@ fn o3de_20073_memory_is_handed_over_before_it_is_taken() {
     }
 }
 
-/// What was kept from the frame before was overwritten, since a key by which images were used again left a field out.
+/// History of the frame before was overwritten, since a key by which images were used again left a field out.
 #[test]
 fn unity_2141_history_is_nobody_elses_memory_and_stays_as_long_as_it_is_said_to() {
     for frames in 1..=4 {

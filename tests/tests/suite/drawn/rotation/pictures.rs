@@ -15,7 +15,7 @@ use std::error::Error;
 /// up by squares of two by two pixels, which odd sizes cut otherwise from the other side.
 type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], u32, usize);
 
-/// What is drawn beside every shipped pipeline as it is.
+/// Cases beside those of every shipped pipeline with its default settings.
 const FORWARD: Case<'_> = ("forward", &[], 1, 0);
 const FORWARD_WITHOUT_TONE_MAPPING: Case<'_> =
     ("forward", &[("msaa", "4"), ("hdr", "false"), ("tone_mapping", "false")], 1, 350);

@@ -77,7 +77,7 @@ fn derivatives_and_places_of_the_helpers_are_upright() -> Result<(), Box<dyn Err
     Ok(())
 }
 
-/// What `fwidth`, depth and `uv` are doesn't depend on a rotation, so no shader is refused for them.
+/// The values of `fwidth`, depth and `uv` don't depend on a rotation, so no shader is refused for them.
 #[test]
 fn what_no_rotation_changes_is_left_alone() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };

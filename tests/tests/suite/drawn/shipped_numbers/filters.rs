@@ -1,5 +1,5 @@
-//! What filters make of numbers that go wrong easily, against their twins: an infinite texel is as bright as a texel can be, and
-//! one that is no number is black.
+//! Filters over numbers that go wrong easily, against their twins: an infinite texel is as bright as a texel can be, and one
+//! that is no number is black.
 
 use super::outputs;
 use super::pipeline::{EXTENT, Pipeline};
@@ -107,7 +107,7 @@ fn a_copy_keeps_what_a_half_float_holds_and_cuts_off_the_rest() -> Result<(), Bo
 fn fxaa_spreads_no_number_that_is_none() -> Result<(), Box<dyn Error>> {
     let Some([extremes, _, _, _, smoothed, _]) = filtered()? else { return Ok(()) };
     for (x, y, channel) in places() {
-        // What is mixed is the texel itself and one of those around it.
+        // The mixture is of the texel itself and one of those around it.
         let around = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)]
             .map(|(dx, dy)| guard(extremes.at(x + dx, y + dy, channel), channel));
         let (least, most) = around.into_iter().fold((f64::MAX, 0.0_f64), |(a, b), it| (a.min(it), b.max(it)));

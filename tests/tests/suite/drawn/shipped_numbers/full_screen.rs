@@ -9,7 +9,7 @@ use framewright_tests::render::library;
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
-/// What parameters are, and how images are sampled.
+/// The value of all parameters and the filter of all images, round by round.
 const ROUNDS: [(u32, &str); 3] = [(0, "Linear"), (1, "Nearest"), (16, "Linear")];
 
 /// The interface of a shader if it is one that fills the screen.

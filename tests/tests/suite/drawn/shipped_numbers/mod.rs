@@ -1,5 +1,5 @@
-//! Whatever the images, materials and lights hold that a shipped shader is given, what it stores is a number that a half float
-//! holds. The shaders are those of the folder, so a new one is held to the rule from the start.
+//! Numbers that shipped shaders store: each is one that a half float holds, for all images, materials and lights that a shader
+//! is given. The shaders are those of the folder, so a new one is held to the rule from the start.
 
 mod filters;
 mod full_screen;
@@ -13,7 +13,7 @@ use framewright_tests::render::{Setup, device, floats, in_repository, render};
 use std::error::Error;
 use std::io::Write;
 
-/// What one frame of a pipeline, given as text, leaves in its outputs, channel by channel; `None`: there is no device.
+/// The outputs of one frame of a pipeline, given as text, channel by channel; `None`: there is no device.
 fn outputs(pipeline: &str, scene: &Scene) -> Result<Option<Vec<Vec<f64>>>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let mut file = tempfile::NamedTempFile::new()?;

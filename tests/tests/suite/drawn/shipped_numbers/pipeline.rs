@@ -65,7 +65,7 @@ impl Pipeline {
     }
 }
 
-/// What belongs to a shader's pass.
+/// The bindings of a shader that its pass fills.
 pub(crate) fn own(shader: &ShaderInterface) -> impl Iterator<Item = &Binding> {
     shader.bindings.iter().filter(|binding| binding.set == PASS_SET)
 }

@@ -1,5 +1,5 @@
-//! What the filters of a sampler make of numbers that go wrong easily, where the image that is drawn into has another size than the
-//! one that is sampled, or a size that floating point divides inexactly.
+//! Sampler filters over numbers that go wrong easily, where the image that is drawn into has another size than the one that is
+//! sampled, or a size that floating point divides inexactly.
 
 use super::outputs;
 use framewright_passes::twin::radiance::guard_signed;
@@ -104,7 +104,7 @@ fn a_linear_filter_at_the_centers_of_texels_finds_them_at_an_odd_size_too() -> R
         let number = odd.at(x, y, channel);
         let around = [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| odd.at(x + dx, y + dy, channel)));
         let around = around.as_flattened();
-        // What the device finds finite is its own, and its place may lie a little beside the centre. Of huge numbers that is much.
+        // Finite texels say nothing. The place of a look-up may be a little off the centre: much for huge numbers.
         let huge = |it: &f64| it.is_finite() && it.abs() > 65504.0;
         if around.iter().all(|it| it.is_finite()) || around.iter().any(huge) {
             continue;

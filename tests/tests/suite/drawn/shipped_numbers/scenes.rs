@@ -60,7 +60,7 @@ fn draw_of(name: &str) -> Result<(Draw, ShaderInterface), Box<dyn Error>> {
     Ok((Draw::Objects(if shader.discards { DrawList::Masked } else { DrawList::Opaque }), shader))
 }
 
-/// Draws whatever is neither objects nor the sky: as flakes of snow are drawn.
+/// Passes that make flakes of snow, for shaders that draw neither objects nor the sky.
 const FLAKES: &str = r#"
     (name: "fall", dispatch: "snow_fall", groups: Invocations(256, 1, 1),
         storage: {"before": (buffer: "flakes", previous: 1), "flakes": (buffer: "flakes", access: Write)},

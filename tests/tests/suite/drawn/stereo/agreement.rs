@@ -22,7 +22,7 @@ const BY_PLACE: usize = 140;
 
 const LARGE: [u32; 2] = [641, 361];
 
-/// Of 231,401.
+/// Most pixels, of 231,401, that may be off in a large picture.
 const MOST_OF_LARGE: usize = 500;
 
 const SPHERES: &str = "spheres_and_cubes";
@@ -104,7 +104,7 @@ fn agree<'a>(device: &Device, cases: Vec<(Shipped<'a>, [u32; 2], usize)>, away: 
 #[test]
 fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    // What differs by settings does so at odd widths, but for what a driver chooses by a pixel's place.
+    // Cases that differ by settings do so at odd widths, but for what a driver chooses by a pixel's place.
     let even = CASES.iter().enumerate();
     let even = even.filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0 || case.4 == BY_PLACE);
     let even = even.map(|(_, case)| (*case, EVEN, if case.4 == BY_PLACE { 6 } else { case.4 }));

@@ -1,4 +1,4 @@
-//! What two eyes see, drawn one after the other and at once. Each row of the requirements with the tests that show it, and a
+//! Pictures of two eyes, drawn one after the other and at once. Each row of the requirements with the tests that show it, and a
 //! change of one line that was seen to turn the first of them red.
 //!
 //! | row | tests | what turns it red |
@@ -60,7 +60,7 @@ use std::error::Error;
 const EXTENT: [u32; 2] = [97, 61];
 const EVEN: [u32; 2] = [96, 60];
 
-/// What is drawn.
+/// A pipeline with its settings, scene and size, and how many frames are drawn.
 #[derive(Clone, Copy)]
 struct Case<'a> {
     pipeline: &'a str,
@@ -70,13 +70,13 @@ struct Case<'a> {
     frames: u32,
 }
 
-/// What the left eye sees, and the right one.
+/// The picture of the left eye, and of the right one.
 type Pair = [Vec<u8>; 2];
 
-/// What was drawn.
+/// The Plan, report and pictures of a case that was drawn.
 struct Drawn {
     plan: Plan,
-    /// Of the last frame.
+    /// The report of the last frame.
     report: FrameReport,
     /// By frame and output; twice the same where both eyes share it.
     frames: Vec<Vec<Pair>>,
