@@ -1,4 +1,4 @@
-//! What operators and functions make of values. All are total: what has no value says why.
+//! Operators and functions on values. All are total: an operation without a value says why.
 
 use super::functions::Function;
 use super::program::Binary;
@@ -48,7 +48,7 @@ fn number(value: &Value) -> Result<f64, Trouble> {
     }
 }
 
-/// A number, unless it is infinite or none at all.
+/// A number, unless it is infinite or NaN.
 fn finite(number: f64) -> Result<Value, Trouble> {
     if number.is_finite() { Ok(Value::Number(number)) } else { Err(Trouble::NotFinite) }
 }

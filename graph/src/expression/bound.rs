@@ -8,7 +8,7 @@ use super::types::Type;
 #[derive(Debug, Clone)]
 pub struct Expression {
     pub(super) program: Program,
-    /// What the program's names stand for.
+    /// The bindings of the program's names.
     pub(super) bound: Vec<Bound>,
     pub(super) ty: Type,
 }

@@ -1,4 +1,4 @@
-//! What names stand for, and whether types fit: one pass over the program, with a stack of types in place of values.
+//! Names are bound, and types checked: one pass over the program, with a stack of types in place of values.
 
 use super::bound::Expression;
 use super::environment::{Bound, Declarations, Found, Origin, Symbol};
@@ -32,11 +32,11 @@ pub(super) fn check(
     }
 }
 
-/// The type of what a node leaves.
+/// The type of the value that a node leaves.
 #[derive(Clone, Copy)]
 enum Leaves {
     Known(Type),
-    /// A mistake was reported, so nothing more is said about it.
+    /// Unknown, since a mistake was reported.
     Unknown,
 }
 
@@ -60,7 +60,7 @@ struct Operand {
     node: u32,
 }
 
-/// What became of a name.
+/// The result of binding a name.
 #[derive(Clone, Copy)]
 enum Name {
     Bound(Bound),
@@ -80,7 +80,7 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn bind(&mut self, wanted: Wanted<'_>) {
-        // Of what a name by itself stands for, the type is known.
+        // The wanted type is known only for a name that is the whole expression.
         let alone = matches!(&self.program.nodes[..], [node] if matches!(node.operation, Operation::Name(_)));
         let wanted = alone.then_some(wanted);
         for (name, range) in &self.program.names {
@@ -102,7 +102,7 @@ impl Check<'_> {
         }
     }
 
-    /// What a node leaves, if it leaves anything. Takes what it needs off the stack.
+    /// The type that a node leaves, if it leaves a value. Takes its operands off the stack.
     fn node(&mut self, node: u32) -> Option<Leaves> {
         Some(match self.program.node(node).operation {
             Operation::Literal(literal) => Leaves::Known(self.program.literals[literal as usize].ty()),
@@ -209,7 +209,7 @@ impl Check<'_> {
         }
     }
 
-    /// Two values that are compared: of one type, and a text only with a text that can occur.
+    /// Reports compared values of different types, and comparisons with a text that can't occur.
     fn equal(&mut self, node: u32, left: Operand, right: Operand) {
         for (name, text) in [(left, right), (right, left)] {
             self.text(name, text);
@@ -221,7 +221,7 @@ impl Check<'_> {
         }
     }
 
-    /// What may be wrong when `text` is compared with `name`: a text without quotes, a text that never occurs.
+    /// Reports mistakes in a comparison of `text` with `name`: a text without quotes, a text that never occurs.
     fn text(&mut self, name: Operand, text: Operand) {
         let Operation::Name(name) = self.program.node(name.node).operation else { return };
         if let (Name::Unknown(mistake), Some(Type::Text)) = (self.names[name as usize], text.ty) {
@@ -288,7 +288,7 @@ impl Check<'_> {
         }
     }
 
-    /// The type that both values of an `if` have; the shorter of two numbers widens.
+    /// The type that both values of an `if` have; a whole number beside a number becomes a number.
     fn choice(&mut self, node: u32, first: Operand, second: Operand) -> Leaves {
         let (Some(first_type), Some(second_type)) = (first.ty, second.ty) else { return Leaves::Unknown };
         let Some(met) = first_type.meet(second_type) else {
@@ -301,7 +301,7 @@ impl Check<'_> {
         Leaves::Known(met)
     }
 
-    /// The type of the whole, which is that of its value.
+    /// The type of the whole expression. Reports a type that is not wanted.
     fn result(&mut self, value: Operand, wanted: Wanted<'_>) -> Option<Type> {
         let ty = value.ty?;
         let widened = ty == Type::Integer && wanted.types.contains(&Type::Number);
@@ -320,7 +320,7 @@ impl Check<'_> {
         self.needs(by, operand, Wanted::NUMBER)
     }
 
-    /// Reports an operand of a wrong type. Returns the right one.
+    /// The type of an operand. Reports a type that is not wanted.
     fn needs(&mut self, by: &str, operand: Operand, wanted: Wanted<'_>) -> Option<Type> {
         let Some(ty) = operand.ty else {
             self.suggest_fitting(operand, wanted);
@@ -333,7 +333,7 @@ impl Check<'_> {
         None
     }
 
-    /// Of a name that nothing has it turns out what it should be: only names of such are suggested.
+    /// Suggests only names of a wanted type, if the operand is a name that nothing has.
     fn suggest_fitting(&mut self, operand: Operand, wanted: Wanted<'_>) {
         let Operation::Name(name) = self.program.node(operand.node).operation else { return };
         if let Name::Unknown(mistake) = self.names[name as usize] {
@@ -347,7 +347,7 @@ impl Check<'_> {
         let (message, declared) = match self.program.node(node).operation {
             Operation::Literal(_) => (format!("{needs}, found {}", self.program.quoted(node)), Span::NONE),
             Operation::Name(name) => match self.names[name as usize] {
-                // That an image is an image needn't be said twice.
+                // The message needn't say twice that an image is an image.
                 Name::Bound(Bound::Symbol(symbol)) if matches!(symbol.origin, Origin::Image | Origin::Buffer) => {
                     (format!("{needs}, but {is}"), symbol.declared)
                 }
@@ -364,7 +364,7 @@ impl Check<'_> {
                 Some(format!("write `floor({written})`, `round({written})` or `ceil({written})`"))
             }
             (Type::Number, [Type::Integer], None) => Some("round it: `floor(…)`, `round(…)` or `ceil(…)`".to_owned()),
-            // What it is a part of may hold more tightly together than `>` does.
+            // The parentheses are for operators around it that bind more tightly than `>`.
             (Type::Integer | Type::Number, [Type::Bool], Some(written)) => {
                 Some(format!("compare it: `({written} > 0)`"))
             }
@@ -389,8 +389,8 @@ impl Check<'_> {
     }
 }
 
-/// What to do about a name that nothing has. `wanted` is what it would have to be, if that is known; `alone`: it is the whole
-/// expression.
+/// The help for a name that nothing has. `wanted` is the type that is wanted there, if that is known; `alone`: the name is
+/// the whole expression.
 fn unknown(name: &str, declarations: &dyn Declarations, wanted: Option<Wanted<'_>>, alone: bool) -> Option<String> {
     if let Some(callee) = Callee::find(name) {
         return Some(format!("the function is written `{}`", callee.form));

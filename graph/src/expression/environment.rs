@@ -1,4 +1,4 @@
-//! What an expression's names stand for: declared while a file is read, given values when a frame is put together.
+//! The names of an expression: declared while a file is read, given values when a frame is put together.
 
 use super::types::{Type, Value};
 use crate::base::Span;
@@ -7,14 +7,14 @@ use crate::vulkan::Format;
 use std::fmt;
 use std::sync::Arc;
 
-/// What kind of thing has a name.
+/// The kind of thing that has a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Origin {
     /// A setting, which a user chooses.
     Setting,
     /// A fact of the scene.
     Fact,
-    /// A property of the view: its width, what it allows.
+    /// A property of the view: its width, its allowances.
     View,
     /// A property of the device.
     Device,
@@ -29,7 +29,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// What it is called in messages.
+    /// The word in messages.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
@@ -44,40 +44,40 @@ impl Origin {
         }
     }
 
-    /// Whether its value comes from outside the file, so that it is what decided.
+    /// Whether its value comes from outside the file, so that messages name it as a cause.
     #[must_use]
     pub const fn decides(self) -> bool {
         matches!(self, Origin::Setting | Origin::Fact | Origin::View | Origin::Device)
     }
 }
 
-/// What a name stands for.
+/// The declaration of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Symbol {
-    /// By which [`Values`] knows it.
+    /// The number by which [`Values`] knows it.
     pub id: u32,
     /// Its type; of a list, its elements' type.
     pub ty: Type,
     /// Whether it is a list, which takes an index.
     pub list: bool,
-    /// What kind of thing it is.
+    /// The kind of thing.
     pub origin: Origin,
     /// Where it was declared, if a file declares it.
     pub declared: Span,
 }
 
-/// What a name of an expression was bound to.
+/// The binding of a name in an expression.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Bound {
     Symbol(Symbol),
-    /// Its name is that of a format.
+    /// The format that has this name.
     Format(Format),
 }
 
-/// What a search for a name ends in.
+/// The result of a search for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Found {
-    /// It stands for this.
+    /// The declaration of the name.
     Symbol(Symbol),
     /// It is declared, but a mistake in its declaration was reported already.
     Reported,
@@ -87,7 +87,7 @@ pub enum Found {
 
 /// The names that an expression may use, without values.
 pub trait Declarations {
-    /// What `name` stands for: `levels`, `scene.has_opaque`.
+    /// The declaration of `name`: `levels`, `scene.has_opaque`.
     fn find(&self, name: &str) -> Found;
 
     /// Every name, those first that should be suggested first.
@@ -150,13 +150,13 @@ pub trait Values {
     /// If it is not known, or not yet.
     fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing>;
 
-    /// What decided the value of a parameter, which was given by another expression: that stands in its place.
+    /// The decisions behind the value of a parameter, which another expression gave.
     fn decided_by(&self, id: u32) -> &[Decision] {
         let _ = id;
         &[]
     }
 
-    /// What decided a property of an image, whose declaration holds expressions itself.
+    /// The decisions behind a property of an image, whose declaration holds expressions itself.
     fn property_decided_by(&self, image: ImageIndex, property: Property) -> &[Decision] {
         let _ = (image, property);
         &[]

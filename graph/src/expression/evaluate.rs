@@ -1,4 +1,4 @@
-//! The value of an expression, what decided it, and why it may have none: a loop over the program with a stack.
+//! The value of an expression, the decisions behind it, or why there is none: a loop over the program with a stack.
 
 use super::arithmetic::{self, Trouble};
 use super::bound::Expression;
@@ -9,32 +9,32 @@ use super::types::{Type, Value};
 use crate::base::{Diagnostic, Span, shown_number};
 use crate::frame::ImageIndex;
 
-/// The value of an expression, and why it is that.
+/// The value of an expression, and the decisions behind it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// The value; of the type of the expression.
     pub value: Value,
     /// Settings, facts and properties of the view and the device that were read on the way to it, each once, in the
-    /// order of reading. What was not evaluated did not decide.
+    /// order of reading. A part that was not evaluated decides nothing.
     pub decided: Vec<Decision>,
-    /// If the value is `false`: what made it so.
+    /// The part that made the value `false`, if it is.
     pub failed: Option<Failed>,
 }
 
-/// The smallest part of a condition that made it `false`: of `a && b` the one that doesn't hold, of others the whole.
+/// The smallest part of a condition that made it `false`: of `a && b` the operand that doesn't hold, else the whole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Failed {
     /// Where it stands.
     pub span: Span,
     /// As it was written.
     pub text: String,
-    /// What was read within it.
+    /// The decisions that were read within it.
     pub decided: Vec<Decision>,
 }
 
 impl Outcome {
-    /// What decided, for people: "msaa = 4, hdr = true"; of a condition that failed only what was read in the part
-    /// that made it fail. Empty if nothing did.
+    /// The decisions, for people: "msaa = 4, hdr = true"; of a condition that failed only those in the part that made it
+    /// fail. Empty if there are none.
     #[must_use]
     pub fn because(&self) -> String {
         let decided = self.failed.as_ref().map_or(&self.decided, |failed| &failed.decided);
@@ -73,7 +73,7 @@ struct Slot {
     part: u32,
 }
 
-/// Something that a node read.
+/// A name or property that a node read.
 struct Read {
     node: u32,
     what: Source,
@@ -91,12 +91,12 @@ enum Fault {
     Trouble { trouble: Trouble, operands: [u32; 2] },
     /// A list of `length` elements has none at `at`, which the part `index` left.
     NoElement { at: i64, index: u32, length: u64, declared: Span },
-    /// Something isn't known.
+    /// A value isn't known.
     Missing(Missing),
 }
 
 impl Fault {
-    /// What the types rule out, unless [`Values`] breaks the promises of the declarations.
+    /// A fault that the types rule out, unless [`Values`] breaks the promises of the declarations.
     const UNDECLARED: Fault = Fault::Trouble { trouble: Trouble::Undeclared, operands: [0; 2] };
 }
 
@@ -114,7 +114,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Does what a node does; returns the next node.
+    /// Executes a node; returns the next node.
     fn step(&mut self, node: u32, operation: Operation) -> Result<u32, Fault> {
         let next = node + 1;
         let value = match operation {
@@ -145,7 +145,7 @@ impl Run<'_> {
                 self.pop()?;
                 return Ok(next);
             }
-            // The value of the second operand is that of the whole, and so is what explains it.
+            // The second operand leaves the value of the whole, and the part that explains it.
             Operation::And => return Ok(next),
             Operation::Or => self.pop()?.value,
             Operation::Branch(to) => return Ok(if self.pop_truth()? { next } else { to }),
@@ -177,7 +177,7 @@ impl Run<'_> {
         }
     }
 
-    /// A value that was read, if it is what was declared.
+    /// A value that was read, if it has the declared type and is finite.
     fn read(&mut self, node: u32, symbol: Symbol, value: Value) -> Result<Value, Fault> {
         let value = value.widened(symbol.ty).ok_or(Fault::UNDECLARED)?;
         if matches!(value, Value::Number(number) if !number.is_finite()) {
@@ -218,13 +218,13 @@ impl Run<'_> {
         arithmetic::call(function, &arguments).map_err(|trouble| Fault::Trouble { trouble, operands: parts })
     }
 
-    /// What was read within a part.
+    /// The reads within a part.
     fn read_within(&self, part: u32) -> impl Iterator<Item = &Read> {
         let first = self.expression.program.node(part).first;
         self.reads.iter().filter(move |read| (first..=part).contains(&read.node))
     }
 
-    /// What decided the value of a part.
+    /// The decisions behind the value of a part.
     fn decided(&self, part: u32) -> Vec<Decision> {
         let mut decided: Vec<Decision> = Vec::new();
         for read in self.read_within(part) {

@@ -20,12 +20,12 @@ pub(super) enum Function {
     Of(Property),
 }
 
-/// What can be called.
+/// A function that can be called, or `if`.
 pub(super) struct Callee {
     pub(super) name: &'static str,
     /// How it is written: `clamp(x, low, high)`.
     pub(super) form: &'static str,
-    /// What its value is.
+    /// The meaning of its value.
     pub(super) about: &'static str,
     /// How many arguments it takes.
     pub(super) takes: RangeInclusive<usize>,
@@ -43,7 +43,7 @@ const fn callee(
     Callee { name, form, about, takes: least..=most, function: Some(function) }
 }
 
-/// Everything that can be called.
+/// All functions, and `if`.
 pub(super) static CALLEES: [Callee; 17] = [
     Callee {
         name: "if",
@@ -77,13 +77,13 @@ pub(super) static CALLEES: [Callee; 17] = [
 ];
 
 impl Callee {
-    /// What is called by this name.
+    /// The function of this name, or `if`.
     pub(super) fn find(name: &str) -> Option<&'static Callee> {
         CALLEES.iter().find(|callee| callee.name == name)
     }
 }
 
-/// How each function is written, and what its value is.
+/// The form of each function, and the meaning of its value.
 pub fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
     CALLEES.iter().map(|callee| (callee.form, callee.about))
 }

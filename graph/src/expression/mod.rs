@@ -1,10 +1,10 @@
-//! Expressions: what a pipeline file calculates from settings, facts of the scene, the view and the device.
+//! Expressions: values that a pipeline file calculates from settings, facts of the scene, the view and the device.
 //!
 //! ```text
 //! text ─► tokens ─► parse ─► check (names, types) ─► Expression ─► evaluate (values) ─► Outcome
 //! ```
 //! An expression stands in quotes where a file takes a number, a format, a condition, an image or a buffer. It is
-//! checked as a whole when the file is read, whatever the settings, and evaluated for each frame that is put together.
+//! checked as a whole when the file is read, for all settings at once, and evaluated for each frame that is put together.
 //! Its text is kept in a flat program, operands before operators: checking and evaluating it are loops, and thousands
 //! of variants of a pipeline share one program.
 //!
@@ -57,7 +57,7 @@ use crate::base::{Diagnostic, Span};
 use environment::Bound;
 use program::Program;
 
-/// An expression that was parsed; what its names stand for is not known yet.
+/// An expression that was parsed; its names are not bound yet.
 #[derive(Debug, Clone)]
 pub struct Parsed {
     program: Program,
@@ -68,7 +68,7 @@ impl Parsed {
     /// file wrote it with escapes, and every mistake is placed at the whole span.
     ///
     /// # Errors
-    /// What is wrong with the first place that is.
+    /// The first mistake in the text.
     pub fn new(text: &str, span: Span) -> Result<Parsed, Diagnostic> {
         parse::parse(text, span).map(|program| Parsed { program })
     }
@@ -78,7 +78,7 @@ impl Parsed {
         self.program.names()
     }
 
-    /// Finds what its names stand for, and whether the types fit together and to what is wanted.
+    /// Binds its names, and checks that types fit together and that the whole has a wanted type.
     ///
     /// # Errors
     /// Every mistake; none if all that is wrong was reported already ([`Found::Reported`]).
@@ -91,7 +91,7 @@ impl Expression {
     /// Parses and checks: see [`Parsed::new`] and [`Parsed::check`].
     ///
     /// # Errors
-    /// Theirs.
+    /// The mistakes of both.
     pub fn new(
         text: &str,
         span: Span,
@@ -124,7 +124,7 @@ impl Expression {
         self.program.names()
     }
 
-    /// What the names stand for, in the order of [`Expression::names`]; formats are left out.
+    /// The declarations of its names, in the order of [`Expression::names`]; formats are left out.
     pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
         self.bound.iter().filter_map(|bound| match bound {
             Bound::Symbol(symbol) => Some(*symbol),

@@ -155,7 +155,7 @@ impl<'a> Parser<'a> {
         if self.next.token == Token::End { Ok(()) } else { Err(self.expected("an operator or the end")) }
     }
 
-    /// An operand and all operators after it that bind at least so tightly. Returns the bytes.
+    /// An operand and all operators after it that bind at least as tightly as `least`. Returns the bytes.
     fn binary(&mut self, least: u8) -> Result<Range<usize>, Mistake> {
         let first = self.nodes.len();
         let mut whole = self.operand()?;
@@ -204,7 +204,7 @@ impl<'a> Parser<'a> {
         match token {
             Token::Integer(digits) => self.integer(digits, &range),
             Token::Number(digits) => {
-                // What the tokens call a number is one; only its size may be too large.
+                // A token that is called a number is a number; only its size may be too large.
                 let number = digits.parse().unwrap_or(f64::INFINITY);
                 if !f64::is_finite(number) {
                     return Err(too_large(range, "64-bit floating point reaches about 1.79e308"));
@@ -248,7 +248,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes a literal, which `value` is the value of.
+    /// Takes a literal with the value `value`.
     fn literal(&mut self, value: Value, range: &Range<usize>) -> Result<Range<usize>, Mistake> {
         self.take()?;
         let index = short(self.literals.len());
@@ -279,7 +279,7 @@ impl<'a> Parser<'a> {
         Mistake::new(self.next.range.clone(), "this takes no index").help("only the name of a list does: `down[i - 1]`")
     }
 
-    /// Takes the sign that ends what `open` began. Returns where that ends.
+    /// Takes the sign that closes the bracket at `open`. Returns its end.
     fn close(&mut self, sign: &'static str, open: &Range<usize>) -> Result<usize, Mistake> {
         if self.at(sign) {
             let end = self.take()?.range.end;
@@ -350,7 +350,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What stands next is not what could.
+    /// The mistake that the next token is not `what`, which was expected.
     fn expected(&self, what: &str) -> Mistake {
         let Placed { token, range } = self.next.clone();
         let found = match token {

@@ -40,7 +40,7 @@ impl Binary {
     }
 }
 
-/// What a part does with the values that the parts before it left.
+/// The operation of a part on the values that the parts before it left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Operation {
     /// Leaves the literal of this number.
@@ -52,7 +52,7 @@ pub(super) enum Operation {
     Not,
     Negate,
     Binary(Binary),
-    /// Takes as many values.
+    /// Takes this many values.
     Call(Function, u32),
     /// Between the operands of `&&`: if the first doesn't hold it is the result, and evaluation goes on there.
     IfHolds(u32),
@@ -70,7 +70,7 @@ pub(super) enum Operation {
     },
 }
 
-/// One part.
+/// A part of an expression.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node {
     pub(super) operation: Operation,
@@ -99,7 +99,7 @@ impl Text {
         self.span
     }
 
-    /// Where some bytes stand. An escape is longer than what it stands for: where lengths differ, places within the
+    /// Where some bytes stand. An escape is longer than its character: where lengths differ, places within the
     /// text can't be told and the whole stands for them.
     pub(super) fn span(&self, range: Range<u32>) -> Span {
         let mut span = self.span;

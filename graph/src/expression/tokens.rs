@@ -3,7 +3,7 @@
 use super::program::shown;
 use std::ops::Range;
 
-/// What is wrong with a text, and which of its bytes.
+/// A mistake in a text, and its bytes.
 #[derive(Debug)]
 pub(super) struct Mistake {
     pub(super) range: Range<usize>,
@@ -29,7 +29,7 @@ pub(super) enum Token<'a> {
     Integer(&'a str),
     /// With a point or an exponent.
     Number(&'a str),
-    /// What stands between single quotes.
+    /// The text between single quotes.
     Text(&'a str),
     /// `levels`, `scene.has_opaque`.
     Name(&'a str),
@@ -38,7 +38,7 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// Those that begin like shorter ones come first.
+/// Signs that begin like shorter signs come first.
 const SIGNS: [&str; 19] =
     ["||", "&&", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "[", "]", ","];
 

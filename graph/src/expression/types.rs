@@ -1,4 +1,4 @@
-//! Types of expressions, their values, and what a place in a file wants.
+//! Types of expressions, their values, and the types that a place in a file wants.
 
 use crate::base::shown_number;
 use crate::frame::{BufferIndex, ImageIndex};
@@ -26,7 +26,7 @@ pub enum Type {
 }
 
 impl Type {
-    /// What one value is called in messages.
+    /// The name of one value in messages.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
@@ -40,7 +40,7 @@ impl Type {
         }
     }
 
-    /// What several values are called in messages.
+    /// The name of several values in messages.
     #[must_use]
     pub const fn several(self) -> &'static str {
         match self {
@@ -105,7 +105,7 @@ impl Value {
         }
     }
 
-    /// It as a value of `ty`, which is its own type or, for a whole number, the wider one. Whole numbers beyond 2^53
+    /// The same value in the type `ty`, which is its own or, for a whole number, the wider type. Whole numbers beyond 2^53
     /// become the nearest number in double precision.
     pub(super) fn widened(self, ty: Type) -> Option<Value> {
         match (self, ty) {
@@ -131,12 +131,12 @@ impl fmt::Display for Value {
     }
 }
 
-/// What a place in a file wants of its expression.
+/// The types that a place in a file wants of its expression.
 #[derive(Debug, Clone, Copy)]
 pub struct Wanted<'a> {
-    /// The types that do. Where [`Type::Number`] does and [`Type::Integer`] doesn't, a whole number becomes a number.
+    /// The types that fit. Where [`Type::Number`] fits and [`Type::Integer`] doesn't, a whole number becomes a number.
     pub types: &'a [Type],
-    /// What to call it in messages: "a whole number".
+    /// The name in messages: "a whole number".
     pub words: &'a str,
 }
 
@@ -157,7 +157,7 @@ impl Wanted<'static> {
     pub const BUFFER: Self = Wanted { types: &[Type::Buffer], words: Type::Buffer.words() };
     /// An image or a buffer.
     pub const RESOURCE: Self = Wanted { types: &[Type::Image, Type::Buffer], words: "an image or buffer" };
-    /// What parameters of shaders take.
+    /// A value for a parameter of a shader.
     pub const PARAMETER: Self =
         Wanted { types: &[Type::Bool, Type::Integer, Type::Number], words: "a number, `true` or `false`" };
 }

@@ -30,9 +30,9 @@ use std::sync::Arc;
 /// often as there are choices of settings, scenes, sizes and devices.
 #[derive(Debug, Clone)]
 pub struct Document {
-    /// What a user may choose, in file order.
+    /// Settings that a user may choose, in file order.
     pub settings: Vec<Setting>,
-    /// What a user may choose at once, in file order.
+    /// Presets that a user may choose, in file order.
     pub presets: Vec<Preset>,
     in_force: Vec<InForce>,
     entries: Arc<Entries>,
@@ -40,14 +40,14 @@ pub struct Document {
     asks_device: bool,
     /// The pipeline, as it was put together of its files.
     tree: Tree,
-    /// What files did to the pipeline that they extend.
+    /// Changes that files made to the pipeline that they extend.
     account: ChangeLog,
     origins: Origins,
 }
 
 impl Document {
-    /// Finds all that is wrong with what was put together, whatever the values. `relative` is the path of the pipeline's
-    /// own file. Mistakes come beside those that `reader` has already.
+    /// Reads a pipeline that was put together, and finds all mistakes that don't depend on values. `relative` is the path
+    /// of the pipeline's own file. Mistakes come beside those that `reader` has already.
     pub(crate) fn read(
         mut reader: Reader,
         loader: &mut Loader<'_>,
@@ -134,7 +134,7 @@ impl Document {
         self.asks_device
     }
 
-    /// Puts in the values of settings, in their order, and what the pipeline is made for.
+    /// Evaluates the pipeline for values of its settings, in their order, and for surroundings.
     ///
     /// # Errors
     /// Everything that is wrong with the file, and expressions that have no value or none that is allowed.
@@ -153,13 +153,13 @@ impl Document {
         }
     }
 
-    /// What files did to the pipeline that they extend, in the order in which they did it.
+    /// Changes that files made to the pipeline that they extend, in the order in which they were made.
     #[must_use]
     pub fn changes(&self) -> &[Change] {
         &self.account.changes
     }
 
-    /// Adds the other place to mistakes in what was changed, and to those in files that others brought in.
+    /// Adds the other place to mistakes in changed entries, and to mistakes in files that others brought in.
     pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
         self.account.tell(&self.tree, errors);
         self.origins.tell(errors);

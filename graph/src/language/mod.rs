@@ -1,16 +1,16 @@
-//! What a file can say: one type per concept, names with source spans, diagnostics.
+//! The language of files: one type per concept, names with source spans, diagnostics.
 //!
 //! ```text
 //! bytes ─► text ─► tree (compose: files, extends, extensions) ─► typed entries (entries, scope) ─► Document
 //! Document, values, Surroundings ─► evaluate ─► Pipeline (model)
 //! ```
-//! Trees and entries are made once; values are put in for each choice of settings, scene, view and device. Everything that
-//! is wrong is reported at once, and what is wrong whatever the values already when a file is read. What depends on shaders
-//! and on the order of passes comes in [`crate::expand`].
+//! Trees and entries are made once; values are put in for each choice of settings, scene, view and device. All mistakes are
+//! reported at once, and mistakes that don't depend on values already when a file is read. Mistakes that depend on shaders
+//! and on the order of passes are found in [`crate::expand`].
 //!
-//! The rooms, each of which uses only those above it:
-//! - `model`: a pipeline as data, and what a user may choose.
-//! - `inputs`: what a pipeline is evaluated for: facts of the scene, the view and the device.
+//! The modules, each of which uses only those above it:
+//! - `model`: a pipeline as data, with its settings and presets.
+//! - `inputs`: the surroundings of a pipeline: facts of the scene, the view and the device.
 //! - `scope`: the names of one level of a file; values that are known or asked for, and where they are found.
 //! - `entries`: one file per kind of entry: its field table and its reading.
 //! - `compose`: the files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.

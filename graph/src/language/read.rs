@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Reads a pipeline file's bytes; `shown` and `relative` are as in [`read`].
 ///
 /// # Errors
-/// What [`read`] reports, and bytes that are no text.
+/// The mistakes of [`read`], and bytes that are no text.
 pub fn read_bytes(
     sources: &mut Sources,
     shown: &str,
@@ -26,7 +26,7 @@ pub fn read_bytes(
 /// Reads a pipeline file's bytes and the files that it names, as [`read_bytes`] does.
 ///
 /// # Errors
-/// What [`read_with`] reports, and bytes that are no text.
+/// The mistakes of [`read_with`], and bytes that are no text.
 pub fn read_bytes_with(
     sources: &mut Sources,
     files: &mut dyn Files,
@@ -42,7 +42,7 @@ pub fn read_bytes_with(
 /// one after the other.
 ///
 /// # Errors
-/// What [`read_bytes_with`] reports, and what is wrong with the extensions by themselves, and with them for this pipeline.
+/// The mistakes of [`read_bytes_with`], and mistakes in the extensions, by themselves and for this pipeline.
 pub fn read_extended(
     sources: &mut Sources,
     files: &mut dyn Files,
@@ -71,7 +71,7 @@ pub fn read_extended(
 /// user named it; `relative` is the path from the pipeline's own folder, usually the file's name, which stands in Plans.
 ///
 /// # Errors
-/// Everything that is wrong with the file whatever it is made for, in the order of the file.
+/// All mistakes that don't depend on settings, scene, view or device, in the order of the file.
 pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Document, Vec<Diagnostic>> {
     read_with(sources, &mut NoFiles, shown, relative, text)
 }
@@ -79,7 +79,7 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
 /// Reads a pipeline file's text and the files that it includes, as [`read`] does.
 ///
 /// # Errors
-/// What [`read`] reports, and what is wrong with included files, file by file.
+/// The mistakes of [`read`], and mistakes in included files, file by file.
 pub fn read_with(
     sources: &mut Sources,
     files: &mut dyn Files,
@@ -107,7 +107,7 @@ fn read_all(
     let mut reader = Reader::default();
     let Some(tree) = Tree::read(file, text, &mut reader.errors) else { return Err(in_order(reader.errors)) };
     if !loader::version(&mut reader, tree.root()) {
-        // Of a later version's words nothing is known.
+        // The words of a later version are not known.
         return Err(reader.errors.pop().into_iter().collect());
     }
     let mut loader = Loader::new(sources, files);

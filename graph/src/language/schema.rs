@@ -1,4 +1,4 @@
-//! The language as a JSON Schema, draft 2020-12, of what [`convert`](crate::ron::convert()) makes of files.
+//! The language as a JSON Schema, draft 2020-12, for the JSON that [`convert`](crate::ron::convert()) makes of files.
 
 use super::settings_file::SettingsFields;
 use crate::language::compose::tables::{EXTENDING, EXTENSION, LibraryFields, PIPELINE};
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 /// The schema of pipelines, files of fragments and settings files.
 ///
-/// What it refuses is wrong. What it accepts may still be wrong: it knows no names that files give, and no expressions.
+/// A file that it refuses is wrong. One that it accepts may still be wrong: it knows no names in files, and no expressions.
 #[must_use]
 pub fn schema() -> Value {
     let mut schema = Schema::default();
@@ -167,7 +167,7 @@ fn text(lines: &[&str]) -> String {
     lines.collect::<Vec<_>>().join(" ").trim().to_owned()
 }
 
-/// What a file as a whole is: a pipeline, a file of fragments, a settings file.
+/// The kinds of file: pipelines, pipelines that extend others, extensions, files of fragments, settings files.
 pub const FILES: [fn() -> Table; 5] =
     [|| PIPELINE, || EXTENDING, || EXTENSION, LibraryFields::<'static>::table, SettingsFields::<'static>::table];
 

@@ -1,4 +1,4 @@
-//! Settings files: what one user chooses of a pipeline.
+//! Settings files: the choices of one user for a pipeline.
 
 use super::mistakes::in_order;
 use crate::base::{Diagnostic, Sources, Span};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub const SETTINGS_VERSION: i64 = 1;
 
 fields! {
-    /// A settings file: what one user chooses of a pipeline.
+    /// A settings file: the choices of one user for a pipeline.
     /// ```ron
     /// Settings(version: 1, preset: "low", set: {"msaa": 4})
     /// ```
@@ -24,7 +24,7 @@ fields! {
         version: Leaf<'src> => VERSION,
         /// The preset that it begins with.
         preset: Option<Leaf<'src>> => Form::Plain(Plain::Name),
-        /// What it chooses besides.
+        /// Values of settings, which are stronger than those of the preset.
         set: Option<Leaf<'src>> => SET,
     }
 }

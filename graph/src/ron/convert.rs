@@ -4,14 +4,14 @@ use super::{Leaf, Number, Shape};
 use crate::base::Diagnostic;
 use serde_json::{Map, Number as JsonNumber, Value, json};
 
-/// What a value of a file is as JSON.
+/// A value of a file as JSON.
 ///
-/// `(name: value)` becomes `{"name": value}`; `(a, b)` and `[a, b]` become `[a, b]`; `Word(…)` becomes `{"Word": …}` with what
-/// stands in the parentheses, and `Word` alone `{"Word": []}`; `{"key": value}`, texts, numbers, `true` and `false` stay.
+/// `(name: value)` becomes `{"name": value}`; `(a, b)` and `[a, b]` become `[a, b]`; `Word(…)` becomes `{"Word": …}` with the
+/// contents of the parentheses, and `Word` alone `{"Word": []}`; `{"key": value}`, texts, numbers, `true` and `false` stay.
 /// `Some(value)` is the value, and a field that is `None` is left out. A number that JSON doesn't have is a word.
 ///
 /// # Errors
-/// What has no such form: fields and keys that stand twice, keys that are no texts, bytes and characters.
+/// Values without such a form: fields and keys that stand twice, keys that are no texts, bytes and characters.
 pub fn convert(leaf: Leaf<'_>) -> Result<Value, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let value = value(leaf, &mut errors);

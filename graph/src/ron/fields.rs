@@ -5,16 +5,16 @@ use crate::base::{Diagnostic, MOST_KEPT, keep, suggestion};
 
 /// A form that a value can have. [`fields!`](crate::fields) makes one of a struct.
 pub trait FromLeaf<'t>: Sized {
-    /// Tells the parts of `leaf` apart, or adds what is wrong to `errors`. `what` names the value: "pass `sky`".
+    /// Tells the parts of `leaf` apart, or adds mistakes to `errors`. `what` names the value: "pass `sky`".
     fn from_leaf(leaf: Leaf<'t>, what: &str, errors: &mut Vec<Diagnostic>) -> Option<Self>;
 }
 
 /// A field's value, which may have to be there.
 pub trait Field<'t>: Sized {
-    /// Whether it has to.
+    /// Whether it has to be there.
     const REQUIRED: bool;
 
-    /// From what was found. `None` if it is required and missing.
+    /// The field of the value that was found. `None` if it is required and missing.
     fn of(found: Option<Leaf<'t>>) -> Option<Self>;
 }
 
@@ -29,7 +29,7 @@ impl<'t> Field<'t> for Leaf<'t> {
 impl<'t> Field<'t> for Option<Leaf<'t>> {
     const REQUIRED: bool = false;
 
-    /// `None` says what leaving it out says, and `Some(…)` what stands in it.
+    /// `None` means a field that is left out, and `Some(…)` means the value in it.
     fn of(found: Option<Leaf<'t>>) -> Option<Self> {
         Some(match found.map(|leaf| (leaf, leaf.shape())) {
             None | Some((_, Shape::Word("None", None))) => None,

@@ -1,16 +1,16 @@
-//! What may stand where in a pipeline's files, as data: the readers' own tables of fields and words.
+//! The forms of values in a pipeline's files, as data: the readers' own tables of fields and words.
 //!
 //! ```text
 //! fields!, Words, Form ─┬─► schema: a JSON Schema, of files as `convert` makes JSON of them
 //! (beside each reader)  └─► docs/language.md, which a test renews
 //! ```
-//! Readers take the names of fields and words from these tables, so neither can tell of one that isn't read, or
-//! leave one out.
+//! Readers take the names of fields and words from these tables. So schema and page name all words that are read, and
+//! no others.
 
-/// What may stand in a place of a file.
+/// The form of a value in a file.
 #[derive(Debug, Clone, Copy)]
 pub enum Form {
-    /// Whatever its reader takes: nobody has said it.
+    /// Any value: the table doesn't say its form.
     Anything,
     /// A value by itself, never an expression.
     Plain(Plain),
@@ -22,7 +22,7 @@ pub enum Form {
     Listed(&'static [u32]),
     /// A number, or an expression.
     Number,
-    /// An expression in quotes that says what the words name: "a condition".
+    /// An expression in quotes for the value that the words name: "a condition".
     Expression(&'static str),
     /// A name, or an expression, for an image or buffer: "an image".
     Reference(&'static str),
@@ -30,21 +30,21 @@ pub enum Form {
     Fields(fn() -> Table),
     /// One of several words, most with something in parentheses.
     Words(&'static Words),
-    /// One of several words that stand alone; what they are together, and the words.
+    /// One of several words that stand alone: the name of their kind, and the words.
     Choice(&'static str, fn() -> Vec<&'static str>),
-    /// Fields that something else says; what they are: "fields of the thing".
+    /// Fields that another table lists, with their name: "fields of the thing".
     Open(&'static str),
     /// `(value, …)`
     Tuple(&'static [Form]),
     /// `[value, …]`
     List(&'static Form),
-    /// `{"name": value, …}`; what the names are: "setting".
+    /// `{"name": value, …}`, with the kind of its names: "setting".
     Map(&'static str, &'static Form),
     /// One or the other.
     Either(&'static [Form]),
 }
 
-/// What stands by itself.
+/// A value by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plain {
     /// `true` or `false`.
@@ -57,18 +57,18 @@ pub enum Plain {
     Text,
     /// A name that the file gives to something, in quotes.
     Name,
-    /// The name of a shader, or of what a program records, in quotes.
+    /// The name of a shader, or of a callback of a program, in quotes.
     Outside,
 }
 
 /// The fields of a form, as [`fields!`](crate::fields) makes them.
 #[derive(Debug, Clone, Copy)]
 pub struct Table {
-    /// What it is called in the schema: "ImageFields".
+    /// The name in the schema: "ImageFields".
     pub name: &'static str,
     /// The word that may stand before its parentheses, if any.
     pub word: Option<&'static str>,
-    /// Lines that tell what it is: first what one of them is called, up to a colon or full stop.
+    /// Lines of documentation. They begin with a noun, up to a colon, comma or full stop.
     pub about: &'static [&'static str],
     /// Its fields.
     pub rows: &'static [Row],
@@ -81,35 +81,35 @@ pub struct Row {
     pub name: &'static str,
     /// Whether it has to be there.
     pub needed: bool,
-    /// Lines that tell what it means.
+    /// Lines of documentation.
     pub about: &'static [&'static str],
-    /// What may stand there.
+    /// The form of its value.
     pub form: Form,
 }
 
 /// Words of which one stands in a place.
 #[derive(Debug)]
 pub struct Words {
-    /// What it is called in the schema: "Size".
+    /// The name in the schema: "Size".
     pub name: &'static str,
-    /// What it is called in messages: "a size".
+    /// The name in messages: "a size".
     pub what: &'static str,
-    /// What may stand there besides words, if anything.
+    /// Other forms that are allowed in place of a word.
     pub or: &'static [Form],
     /// The words.
     pub all: &'static [Word],
 }
 
-/// A word and what stands in its parentheses.
+/// A word and its parentheses.
 #[derive(Debug)]
 pub struct Word {
     /// The word.
     pub word: &'static str,
-    /// What may stand behind it.
+    /// The contents that its parentheses may have.
     pub takes: &'static [Takes],
-    /// How it is written, in every way that there is; empty if it stands alone.
+    /// Examples of every way to write it; empty if it stands alone.
     pub examples: &'static [&'static str],
-    /// What it means.
+    /// The meaning.
     pub about: &'static str,
 }
 
@@ -129,14 +129,14 @@ impl Word {
         Word { word, takes: &[Takes::Nothing], examples: &[], about }
     }
 
-    /// How it is written, in every way that there is.
+    /// Every way to write it.
     pub fn written(&self) -> impl Iterator<Item = &'static str> {
         let alone = self.examples.is_empty().then_some(self.word);
         self.examples.iter().copied().chain(alone)
     }
 }
 
-/// What stands behind a word.
+/// The contents of the parentheses behind a word.
 #[derive(Debug, Clone, Copy)]
 pub enum Takes {
     /// No parentheses, or empty ones.
@@ -147,7 +147,7 @@ pub enum Takes {
     Fields(fn() -> Table),
 }
 
-/// What has a table of its fields.
+/// A type that has a table of its fields.
 pub trait Described {
     /// The table.
     const TABLE: Table;
@@ -160,7 +160,7 @@ pub trait Described {
 }
 
 impl Table {
-    /// What one of them is called: "an image".
+    /// The noun for one value: "an image".
     #[must_use]
     pub fn noun(&self) -> String {
         let first = self.about.first().map_or("", |line| line.trim());
@@ -177,7 +177,7 @@ impl Words {
         self.all.iter().find(|known| known.word == word)
     }
 
-    /// All words that may stand there, those of [`or`](Words::or) too.
+    /// All allowed words, words in [`or`](Words::or) too.
     pub(crate) fn known(&self) -> Vec<&'static str> {
         let mut known: Vec<&'static str> = self.all.iter().map(|word| word.word).collect();
         for or in self.or {
@@ -205,7 +205,7 @@ impl Words {
 }
 
 impl Form {
-    /// What it is called where words are listed, if it needs to be said there.
+    /// The name in a list of words; `None` if the list leaves it out.
     fn briefly(&self) -> Option<String> {
         Some(match self {
             Form::Whole(..) => "a number, an expression in quotes".to_owned(),

@@ -13,7 +13,7 @@ pub struct Leaf<'t> {
     node: u32,
 }
 
-/// What a value looks like.
+/// The shape of a value.
 #[derive(Debug, Clone, Copy)]
 pub enum Shape<'t> {
     /// `"text"`
@@ -33,7 +33,7 @@ pub enum Shape<'t> {
 }
 
 impl Shape<'_> {
-    /// What it is called in messages.
+    /// The name in messages.
     #[must_use]
     pub fn words(self) -> String {
         match self {
@@ -79,7 +79,7 @@ impl<'t> Leaf<'t> {
         (self.node..self.node().after).filter_map(move |node| Leaf::new(self.tree, node).plain())
     }
 
-    /// What it looks like.
+    /// The shape.
     #[must_use]
     pub fn shape(self) -> Shape<'t> {
         match self.node().kind {
@@ -139,7 +139,7 @@ impl<'t> Leaf<'t> {
         Spanned { value, span: self.span() }
     }
 
-    /// What stands in the quotes, if this is a text without escapes.
+    /// The text between the quotes, if this is a text without escapes.
     #[must_use]
     pub fn plain(self) -> Option<&'t str> {
         let text = self.text();
@@ -153,7 +153,7 @@ impl<'t> Leaf<'t> {
         }
     }
 
-    /// The text that the quotes mean, if this is one.
+    /// The text between the quotes with its escapes undone, if this is a text.
     #[must_use]
     pub fn words(self) -> Option<Cow<'t, str>> {
         if self.node().kind != Kind::Escaped {
@@ -163,7 +163,7 @@ impl<'t> Leaf<'t> {
         escapes::undo(text.get(1..text.len() - 1)?).ok().map(Cow::Owned)
     }
 
-    /// The number, if this is one.
+    /// The number, if this is a number.
     #[must_use]
     pub fn number(self) -> Option<Number> {
         if self.node().kind == Kind::Number { numbers::parse(self.text()) } else { None }

@@ -1,4 +1,4 @@
-//! Blanks, comments, words, texts and numbers: what has no brackets.
+//! Blanks, comments, words, texts and numbers: the parts of a file without brackets.
 
 use super::node::Kind;
 use super::{escapes, numbers};
@@ -19,9 +19,9 @@ pub(crate) struct Lexer<'t> {
 pub(crate) enum Stop {
     /// The value is wrong, but where the next one begins is clear.
     Value(Diagnostic),
-    /// The same, and that something stands in brackets where it can't: they may not be closed.
+    /// The value is wrong, and an item stands in brackets where it can't: the brackets may not be closed.
     Misplaced(Diagnostic),
-    /// What comes after can't be told.
+    /// The rest of the file can't be read.
     File(Diagnostic),
 }
 

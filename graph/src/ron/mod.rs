@@ -1,4 +1,4 @@
-//! RON as a tree with places, and readers of the values in it: what pipelines, settings and scenes are read with.
+//! RON as a tree with places, and readers of the values in it, for files of pipelines, settings and scenes.
 
 mod convert;
 mod escapes;

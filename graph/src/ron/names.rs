@@ -85,8 +85,8 @@ impl Names {
         self.find_fitting(reader, name, |_| true, None)
     }
 
-    /// The same; only names of things whose number `fits` are suggested. `literal`: what may stand there by itself, without
-    /// quotes.
+    /// As [`Names::find`], but only names of things whose number `fits` are suggested. `literal` names the values that may
+    /// stand there without quotes.
     pub(crate) fn find_fitting(
         &self,
         reader: &mut Reader,

@@ -1,4 +1,4 @@
-//! What a tree is made of: nodes, and the texts that they stand in.
+//! The parts of a tree: nodes, and the texts that they stand in.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub(crate) struct Node {
     pub(crate) kind: Kind,
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// `"text"` without escapes.
@@ -47,6 +47,6 @@ pub(crate) enum Kind {
     Map,
     /// Bytes and characters.
     Other,
-    /// What could not be read and was reported.
+    /// A place that could not be read, which was reported.
     Broken,
 }

@@ -1,11 +1,11 @@
 //! Numbers as RON writes them: `1`, `-0.5`, `1_000`, `1e-3`, `.5`, `0xff`, `0b1010`, `0o17`.
 
-/// What a number is.
+/// A number, by how it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Number {
     /// Written without point and exponent.
     Whole(i64),
-    /// The same, and beyond 64 bits; the nearest floating-point number.
+    /// Written without point and exponent, but beyond 64 bits; the nearest floating-point number.
     Huge(f64),
     /// Written with point or exponent; finite unless it is too large.
     Real(f64),
@@ -13,7 +13,7 @@ pub enum Number {
     NotFinite,
 }
 
-/// The number that a text means, if it is one. Types behind the digits (`1u8`) are not part of it.
+/// The number that a text means, if it means one. Types behind the digits (`1u8`) are no part of numbers.
 pub(crate) fn parse(text: &str) -> Option<Number> {
     let (negative, digits) = match text.as_bytes().first()? {
         b'-' => (true, &text[1..]),

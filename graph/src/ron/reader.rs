@@ -1,4 +1,4 @@
-//! Reads single values, and turns what goes wrong into mistakes with their place.
+//! Reads single values, and reports mistakes with their places.
 
 use super::{FromLeaf, Leaf, Name, Number, Shape, Words};
 use crate::base::{Diagnostic, keep, nearest, suggestion};
@@ -10,10 +10,10 @@ const LONGEST_NAME: usize = 64;
 /// After this many mistakes near names are no longer looked for: that would take long in a large file.
 pub(crate) const MANY_MISTAKES: usize = 100;
 
-/// Reads values and keeps what is wrong with them.
+/// Reads values and keeps the mistakes in them.
 #[derive(Debug, Default)]
 pub struct Reader {
-    /// What was reported, in the order of reading.
+    /// The mistakes, in the order of reading.
     pub errors: Vec<Diagnostic>,
 }
 
@@ -23,7 +23,7 @@ impl Reader {
         keep(&mut self.errors, diagnostic);
     }
 
-    /// Reports `message` at `leaf`, unless that couldn't be read anyway.
+    /// Reports `message` at `leaf`, unless `leaf` couldn't be read anyway.
     pub fn wrong(&mut self, leaf: Leaf<'_>, message: impl Into<String>, help: &str) {
         self.wrong_part(leaf, leaf.text(), message, help);
     }
@@ -91,7 +91,7 @@ impl Reader {
         self.made_of(leaf, what, |c| c == '_', "names are letters, digits and `_`, and begin with a letter or `_`")
     }
 
-    /// The name of a shader, or of what the program records: a `-` is allowed too.
+    /// The name of a shader, or of a callback of the program: a `-` is allowed too.
     pub(crate) fn outside_name(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Name> {
         let form = "these names are letters, digits, `_` and `-`, and begin with a letter or `_`";
         self.made_of(leaf, what, |c| matches!(c, '_' | '-'), form)
@@ -136,7 +136,7 @@ impl Reader {
         None
     }
 
-    /// One of the words of a table, and what stands in its parentheses.
+    /// One of the words of a table, and its parentheses.
     pub(crate) fn one_of<'t>(
         &mut self,
         leaf: Leaf<'t>,
@@ -157,7 +157,7 @@ impl Reader {
         None
     }
 
-    /// What stands in the parentheses after a word.
+    /// The contents of the parentheses after a word.
     pub fn inside<'t, T: FromLeaf<'t>>(&mut self, leaf: Leaf<'t>, rest: Option<Leaf<'t>>, form: &str) -> Option<T> {
         let Some(rest) = rest else {
             let message = format!("`{}` needs something in parentheses", leaf.text());
@@ -172,7 +172,7 @@ impl Reader {
         value
     }
 
-    /// Which name may have been meant, or the few that there are.
+    /// The name that may have been meant, or the few names that there are.
     pub fn known<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
         if self.has_many() { None } else { suggestion(name, known) }
     }
@@ -221,7 +221,7 @@ impl Reader {
         self.number_as(leaf, None)
     }
 
-    /// The same where it is known what it is: "a scale".
+    /// A finite number; `what` names it in messages: "a scale".
     pub(crate) fn number_as(&mut self, leaf: Leaf<'_>, what: Option<&str>) -> Option<f64> {
         #[allow(clippy::cast_precision_loss, reason = "the nearest number is meant")]
         let number = match (leaf.number(), leaf.shape()) {

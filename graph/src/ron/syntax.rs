@@ -1,19 +1,19 @@
 //! From text to a tree in one pass, by RON's grammar.
 //!
 //! After a mistake inside a list, a map or fields, reading goes on behind the next comma of the same brackets. Where
-//! brackets or quotes are amiss it stops: whatever follows would be guessed.
+//! brackets or quotes are amiss it stops: the rest would be a guess.
 
 use super::lexer::{Lexer, Stop};
 use super::node::{Kind, Node};
 use crate::base::{Diagnostic, MOST_KEPT};
 
-/// Brackets are nested at most so deeply.
+/// Brackets are nested at most this deep.
 const DEEPEST: usize = 128;
 
 /// Attributes that a file may begin with: `#![enable(…)]`. They change nothing here.
 const EXTENSIONS: [&str; 4] = ["unwrap_newtypes", "implicit_some", "unwrap_variant_newtypes", "explicit_struct_names"];
 
-/// The nodes of a file's tree; `None` if it can't be told what belongs to what.
+/// The nodes of a file's tree; `None` if a mistake leaves no tree.
 pub(crate) fn nodes(file: u32, text: &str, errors: &mut Vec<Diagnostic>) -> Option<Vec<Node>> {
     let lexer = Lexer { file, text, at: 0, long: None };
     // A node takes six bytes of usual text.
@@ -38,7 +38,7 @@ struct Parser<'t, 'e> {
     nodes: Vec<Node>,
     /// Brackets that are open.
     depth: usize,
-    /// What stood in brackets where it can't. If brackets turn out to be left open, that is where they should have ended.
+    /// Items in brackets where they can't stand. If brackets turn out to be left open, they should have ended there.
     misplaced: Vec<Misplaced>,
     errors: &'e mut Vec<Diagnostic>,
 }
@@ -54,7 +54,7 @@ struct Misplaced {
     closing: u8,
 }
 
-/// What stands between two commas.
+/// An item between two commas.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Item {
     Value,
@@ -84,7 +84,7 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
-    /// Keeps a mistake, unless a text right before it runs over several lines: then that one's quote is the mistake.
+    /// Keeps a mistake, unless a text right before it runs over several lines: then the quote of that text is the mistake.
     fn report(&mut self, error: Diagnostic) -> Result<(), Stop> {
         let at = error.labels.first().map_or(0, |label| label.span.start as usize);
         if let Some(long) = self.lexer.long.clone()
@@ -231,7 +231,7 @@ impl Parser<'_, '_> {
             let start = self.lexer.at;
             self.lexer.at += first;
             self.lexer.blanks()?;
-            // Where a colon is missing, the others tell it.
+            // The name of a field may lack its colon; behind a value stands a comma or a bracket.
             named = !matches!(self.lexer.byte(), None | Some(b',' | b'(' | b')' | b']' | b'}'));
             self.lexer.at = start;
         }
@@ -300,7 +300,7 @@ impl Parser<'_, '_> {
                         self.report_misplaced(wrong, open, closing)?;
                     }
                     comma_missed = true;
-                    // What begins no value would be a second mistake at this place.
+                    // A character that begins no value would be a second mistake at this place.
                     if !byte.is_ascii_alphanumeric() && !b"\"'([{+-._".contains(&byte) {
                         self.skip()?;
                         self.lexer.at += usize::from(self.lexer.byte() == Some(b','));
@@ -314,7 +314,7 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
-    /// Keeps that something stands where it can't in the brackets that were opened at `open`.
+    /// Reports an item that can't stand in the brackets that were opened at `open`.
     fn report_misplaced(&mut self, error: Diagnostic, open: usize, closing: u8) -> Result<(), Stop> {
         let at = error.labels.first().map_or(0, |label| label.span.start as usize);
         self.report(error)?;
@@ -322,8 +322,8 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
-    /// The brackets that were opened at `open` aren't closed by what stands here. Where something within them was misplaced
-    /// before, it was there that brackets should have ended, and what was reported since follows from that.
+    /// The brackets that were opened at `open` aren't closed here. Where an item within them was misplaced before, brackets
+    /// should have ended there, and mistakes that were reported since follow from that.
     fn left_open(&mut self, open: usize) -> Option<Stop> {
         let first = self.misplaced.iter().find(|misplaced| misplaced.at > open)?;
         let (opened, closing, error) = (first.open, char::from(first.closing), first.error);
@@ -364,13 +364,13 @@ impl Parser<'_, '_> {
         self.value()
     }
 
-    /// Passes over the rest of an item: to the next comma or closing bracket that belongs to what is around it.
+    /// Passes over the rest of an item: to the next comma or closing bracket of the brackets around it.
     fn skip(&mut self) -> Result<(), Stop> {
         let mut depth = 0_usize;
         while let Some(byte) = self.lexer.byte() {
             match byte {
                 b'"' => {
-                    // Whatever is wrong within it, it ends at its quote.
+                    // A text with a mistake in it still ends at its quote.
                     if let Some(Err(stop @ Stop::File(_))) = self.lexer.scalar() {
                         return Err(stop);
                     }

@@ -1,4 +1,4 @@
-//! A file's text as a tree: what stands in which brackets, and where.
+//! A file's text as a tree: the values in their brackets, and their places.
 //!
 //! One pass over the text makes it (`syntax`); everything else reads it through [`Leaf`]s. It keeps no copies of the
 //! text: a node is a kind and a range of bytes. Where a pipeline extends another, the trees of their files become one
@@ -12,9 +12,9 @@ use std::sync::Arc;
 /// The values of one file, or of several that were put together. Owns what it needs, so it outlives the reading.
 #[derive(Debug, Clone)]
 pub struct Tree {
-    /// Where the texts of nodes stand.
+    /// The texts that nodes stand in.
     pub(crate) texts: Vec<Text>,
-    /// After each node come its children, then whatever follows it.
+    /// After each node come its children, then the node that follows it.
     pub(crate) nodes: Vec<Node>,
 }
 
@@ -31,7 +31,7 @@ impl Tree {
         self.texts.iter().any(|text| text.text.contains(words))
     }
 
-    /// What stands there, if it is in one of its texts.
+    /// The text at `span`; empty if `span` is in none of its texts.
     pub(crate) fn text_at(&self, span: Span) -> &str {
         let here = |text: &&Text| span.file() == Some(text.file as usize);
         let text = self.texts.iter().find(here).map_or("", |text| &text.text);

@@ -1,4 +1,4 @@
-//! What a shader uses, as data: read off its SPIR-V by a backend, needed by `check` without any device.
+//! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
@@ -27,22 +27,22 @@ pub struct ShaderInterface {
     pub writes_depth: bool,
     /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
     pub workgroup_size: Option<[u32; 3]>,
-    /// What of it goes wrong where the picture that it draws is turned, as far as that can be told.
+    /// The parts of it that go wrong where the picture that it draws is turned, as far as that can be told.
     pub unturned: Vec<Unturned>,
-    /// Names of what it samples of which it asks for the part in use: where it mentions `NAME_st`.
+    /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
 }
 
-/// A pass samples at most this many images of which only a part is in use: where they lie takes all the bytes of push
-/// constants that every device has.
+/// A pass samples at most this many images of which only a part is in use: the places of the parts take all the bytes of
+/// push constants that every device has.
 pub const MOST_PARTS: usize = 8;
 
-/// What of a shader doesn't follow where the picture that it draws is turned; shaders/include/rotation.glsl has what does.
+/// A part of a shader that doesn't follow a turned picture; functions in shaders/include/rotation.glsl follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unturned {
-    /// Where its vertex stage places vertices.
+    /// It places vertices in its vertex stage.
     Vertices,
-    /// It reads where its fragments lie.
+    /// It reads the positions of its fragments.
     FragCoord,
     /// It takes derivatives to the right or down.
     Derivatives,
@@ -63,7 +63,7 @@ pub struct Binding {
     pub name: String,
     /// Kind and shape.
     pub kind: BindingKind,
-    /// Whether the shader leaves to the pass as what it is declared: `uniform TEXTURE_NAME NAME`.
+    /// Whether the pass chooses its type: the shader declares `uniform TEXTURE_NAME NAME`.
     pub adapts: bool,
     /// Stages that use it.
     pub stages: Stages,
@@ -98,7 +98,7 @@ pub enum BindingKind {
     InputAttachment {
         /// Whether single samples are read.
         multisampled: bool,
-        /// What a component is.
+        /// The type of a component.
         component: Component,
     },
     /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
@@ -109,9 +109,9 @@ pub enum BindingKind {
 /// A resource that no pass can give.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Unbindable {
-    /// What it is, in words: `a texel buffer`.
+    /// The name in messages: `a texel buffer`.
     pub what: String,
-    /// What to declare instead.
+    /// The declaration to use instead.
     pub instead: String,
     /// File and line of its declaration, `FILE:LINE`, if they are known.
     pub place: Option<String>,
@@ -155,7 +155,7 @@ pub struct FragmentOutput {
     pub location: u32,
     /// Name in the shader.
     pub name: String,
-    /// What a component is.
+    /// The type of a component.
     pub component: Component,
     /// Number of components.
     pub components: u32,
@@ -173,17 +173,17 @@ pub enum ShaderProblem {
     },
     /// It doesn't compile.
     DoesNotCompile {
-        /// What the compiler says.
+        /// The messages of the compiler.
         messages: Vec<ShaderMessage>,
     },
     /// It can't be read, or uses something that can't be bound or that not every device has.
     Unsupported {
-        /// In words.
+        /// The reason, in words.
         what: String,
     },
 }
 
-/// What the compiler says of a shader. Text from files inside is not yet escaped.
+/// A message of the compiler about a shader. Text from files inside is not yet escaped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ShaderMessage {
     /// The compiler's words, with the shader's own file and line.
@@ -200,28 +200,28 @@ impl fmt::Display for ShaderMessage {
     }
 }
 
-/// How a shader is compiled for a pass: what the macros stand for that depend on what the pass gives it.
+/// How a shader is compiled for a pass: the values of the macros that depend on the pass.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
 pub struct Variant {
-    /// What the macro `TEXTURE_NAME` stands for, by the shader's names for what the pass samples: GLSL's type of such an image.
-    /// Names that are missing here are two-dimensional images of floating point, so that what is wrong with a pass can be
-    /// told from its shader.
+    /// The value of the macro `TEXTURE_NAME`, by the shader's names of sampled images: GLSL's type of such an image. Names
+    /// that are missing here are two-dimensional images of floating point, so that mistakes in a pass can be told from its
+    /// shader.
     pub textures: Vec<(Arc<str>, ImageShape)>,
-    /// The shader's names for what the pass samples: the macro `HAS_NAME` is defined.
+    /// The shader's names of images that the pass samples: the macro `HAS_NAME` is defined.
     pub sampled: Vec<Arc<str>>,
-    /// How many components the formats of these have: the macro `COMPONENTS_NAME`. Of names that are missing here it is 4.
+    /// Numbers of components, by the shader's names of sampled images: the macro `COMPONENTS_NAME`. Names without one have 4.
     pub components: Vec<(Arc<str>, u32)>,
-    /// Those of images of which only a part is in use, at most [`MOST_PARTS`]: `NAME_st` is where it lies then, and else all of
-    /// the image.
+    /// The shader's names of images of which only a part is in use, at most [`MOST_PARTS`]: then `NAME_st` is the place of the
+    /// part, and else all of the image.
     pub parts: Vec<Arc<str>>,
-    /// How its stages learn which eye they draw for; `None`: there is one, or both see the same.
+    /// How its stages learn which eye they draw for; `None`: there is one eye, or both see the same picture.
     pub eye: Option<EyeSource>,
-    /// How what it draws into holds both eyes' parts, if it draws for both at once.
+    /// The form in which its targets hold both eyes' parts, if it draws for both at once.
     pub form: Option<EyeForm>,
-    /// Those of images that hold both eyes' parts, with how and whose is sampled; `None`: that of the eye that is drawn for.
+    /// The shader's names of images that hold both eyes' parts: form, and the eye that is sampled; `None`: the eye drawn for.
     pub eyes: Vec<(Arc<str>, EyeForm, Option<Eye>)>,
-    /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
-    /// macro `LOCAL_READ_NAME` is defined.
+    /// The shader's names of images that are read from the pass's own rendering scope, on devices with local reads: the macro
+    /// `LOCAL_READ_NAME` is defined.
     pub local: Vec<Arc<str>>,
     /// Whether the shader draws nothing but depth: the macro `DEPTH_ONLY` is defined in its fragment stage, which is left out
     /// if it neither discards fragments nor writes depth of its own then.
@@ -233,7 +233,7 @@ pub struct Variant {
 /// How the stages of a shader learn which eye they draw for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum EyeSource {
-    /// They draw for this one only.
+    /// They draw for this eye only.
     One(Eye),
     /// The device draws for each (`gl_ViewIndex`).
     ViewIndex,
@@ -245,9 +245,9 @@ pub enum EyeSource {
 
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.
 pub trait ShaderInterfaces {
-    /// Which shader it is that the file `from` calls `name`, for a draw of `draw` (`None`: a compute shader): the name by
+    /// The shader that the file `from` calls `name`, for a draw of `draw` (`None`: a compute shader). Returns the name by
     /// which the other functions know it, and which stands in Plans. Shaders of one name in different folders have
-    /// different ones.
+    /// different such names.
     ///
     /// # Errors
     /// [`ShaderProblem`] says why there is none.
@@ -268,11 +268,11 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// What the draw source provides for `draw`.
+    /// The interface of the draw source for `draw`.
     fn brought_along(&self, draw: Draw) -> DrawInterface;
 }
 
-/// What the draw source provides for one kind of draw: vertex attributes, and resources in sets from 1 on.
+/// The interface of the draw source for one kind of draw: vertex attributes, and resources in sets from 1 on.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawInterface {
     /// Bytes from vertex to vertex; 0 if there is no vertex buffer.

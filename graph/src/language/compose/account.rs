@@ -38,12 +38,12 @@ pub(crate) struct Removed {
     pub(crate) name: Name,
     /// Where it is removed.
     pub(crate) by: Span,
-    /// Of a pass: the texts that it holds.
+    /// The texts in a pass; empty for other entries.
     pub(crate) texts: Vec<Arc<str>>,
 }
 
 impl ChangeLog {
-    /// Something was done.
+    /// Notes a change.
     pub(crate) fn did(&mut self, span: Span, action: Action) {
         self.changes.push(Change { span, action });
     }
@@ -53,7 +53,7 @@ impl ChangeLog {
         self.last_removed.get(&(kind, name.into())).map(|at| &self.removed[*at])
     }
 
-    /// A thing was removed.
+    /// Notes a removal.
     pub(crate) fn remove(&mut self, removed: Removed) {
         self.last_removed.insert((removed.kind, removed.name.text.clone()), self.removed.len());
         self.removed.push(removed);
@@ -65,7 +65,7 @@ impl ChangeLog {
         passes.map(|pass| RemovedPass { name: pass.name.text.clone(), span: pass.by, texts: pass.texts.clone() })
     }
 
-    /// Adds to mistakes in entries that were changed, or in what refers to removed ones, the other place.
+    /// Adds the other place to mistakes in changed entries, and to mistakes in references to removed entries.
     pub(crate) fn tell(&self, tree: &Tree, errors: &mut [Diagnostic]) {
         if self.changed.is_empty() && self.removed.is_empty() {
             return;
@@ -84,7 +84,7 @@ impl ChangeLog {
         }
     }
 
-    /// The second place of a mistake: of one in a change the changed entry, and of one in a changed entry the change.
+    /// The second place of a mistake: the changed entry of a mistake in a change, the change of a mistake in a changed entry.
     fn beside(&self, places: &ChangeIndex, error: &Diagnostic) -> Option<Label> {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
@@ -136,13 +136,13 @@ impl ChangeIndex {
     }
 }
 
-/// What begins last before `place`, or with it.
+/// The changes that begin last before `place`, or with it.
 fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[usize] {
     let before = places.range(..=(place.file(), place.start)).next_back();
     before.map_or(&[], |(_, numbers)| numbers)
 }
 
-/// Of which kinds a thing is that a mistake misses under the name `named`: in its words, which are all that says so.
+/// The kinds of thing that a mistake misses under the name `named`. Only the words of its message tell them.
 fn missed(message: &str, named: &str) -> &'static [Kind] {
     if message.starts_with("texts in expressions stand in single quotes") {
         return &[Kind::Setting];

@@ -1,4 +1,4 @@
-//! `changes`: what a file sets, removes and inserts.
+//! `changes`: a file sets, removes and inserts entries.
 
 use super::account::{ChangeLog, Changed, Removed};
 use super::changes::{InsertFields, KINDS, RemoveFields, SetFields};
@@ -240,7 +240,7 @@ impl<'t> Change<'_, 't> {
         None
     }
 
-    /// The one thing that is named.
+    /// The kind and name of the one thing that a change names.
     fn one<const N: usize>(&mut self, named: [(Kind, Option<Leaf<'t>>); N]) -> Option<(Kind, Name)> {
         let mut given = named.iter().filter_map(|(kind, leaf)| leaf.map(|leaf| (*kind, leaf)));
         let (Some((kind, leaf)), None) = (given.next(), given.next()) else {

@@ -1,4 +1,4 @@
-//! One tree of all that several files say.
+//! One tree of the entries of several files.
 
 use super::draft::{Draft, LISTS, REPLACED};
 use super::entry::{Entry, Value};
@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 /// A tree whose nodes stand in several texts.
 struct Builder {
-    /// The first holds `words`.
+    /// The texts of the nodes; the first holds `words`.
     texts: Vec<Text>,
     words: String,
     /// Texts by their file's number.
@@ -16,7 +16,7 @@ struct Builder {
     nodes: Vec<Node>,
 }
 
-/// The tree of a pipeline that says what `draft` holds; `base` is the one that it began with.
+/// The tree of the pipeline in `draft`; `base` is the pipeline that it began with.
 pub(crate) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
     let own = Text { file: u32::MAX, text: "".into() };
     let mut builder = Builder { texts: vec![own], words: String::new(), numbers: HashMap::new(), nodes: Vec::new() };

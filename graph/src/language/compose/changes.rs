@@ -1,4 +1,4 @@
-//! `changes`: what a file sets, removes and inserts.
+//! `changes`: the forms in which a file sets, removes and inserts entries.
 
 use crate::fields;
 use crate::language::entries::{body, outputs};
@@ -69,7 +69,7 @@ fields! {
     }
 }
 
-/// What `changes` takes.
+/// The form of `changes`: a list of changes.
 pub(crate) const CHANGES: Form = Form::List(&Form::Words(&KINDS));
 
 pub(crate) static KINDS: Words = Words {

@@ -1,4 +1,4 @@
-//! What a pipeline says while files add to it and change it: lists of entries, each still where it was written.
+//! A pipeline while files add to it and change it: lists of entries, each still where it was written.
 
 use super::account::ChangeLog;
 use super::entry::{Called, Entry};
@@ -22,7 +22,7 @@ pub(crate) const LISTS: [(Kind, Section); 7] = [
     (Kind::Buffer, tables::BUFFERS),
 ];
 
-/// Values of which a later file's takes the place of an earlier one's.
+/// Values that a later file replaces.
 pub(crate) const REPLACED: [Section; 3] = [tables::DEPTH, tables::COLOR, tables::DEPTH_FORMAT];
 
 /// All lists of a pipeline.
@@ -33,7 +33,7 @@ pub(crate) struct Draft<'t> {
     pub(crate) passes_written: Option<Leaf<'t>>,
     pub(crate) outputs: List<'t>,
     pub(crate) outputs_written: Option<Leaf<'t>>,
-    /// Values of [`REPLACED`]: those of the last file that has one.
+    /// Values of [`REPLACED`], each of the last file that has it.
     pub(crate) replaced: [Option<Leaf<'t>>; REPLACED.len()],
     /// Names of settings that were removed, whether or not others of the name were added since.
     pub(crate) removed_settings: HashSet<Arc<str>>,
@@ -65,7 +65,7 @@ impl<'t> List<'t> {
         self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
     }
 
-    /// Adds an entry; of those of one name the first is found.
+    /// Adds an entry. Of several entries of one name the first is found.
     pub(crate) fn add(&mut self, entry: Entry<'t>) {
         if let Some(name) = entry.name {
             self.index.entry(name.text).or_insert(self.entries.len());
@@ -83,7 +83,7 @@ impl<'t> Draft<'t> {
         self.lists.entry(kind).or_default()
     }
 
-    /// Adds what a file says.
+    /// Adds the entries of a file.
     pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut ChangeLog) {
         for (kind, section) in LISTS {
             let Some(leaf) = sections.get(&section) else { continue };
@@ -108,7 +108,7 @@ impl<'t> Draft<'t> {
         for (old, section) in self.replaced.iter_mut().zip(REPLACED) {
             *old = sections.get(&section).or(*old);
         }
-        // Passes of one that extends another were reported.
+        // Passes of a pipeline that extends another were reported.
         if let Some(leaf) = sections.get(&tables::PASSES).filter(|_| role == Role::Whole)
             && let Some(entries) = reader.list(leaf, "`passes`")
         {
@@ -131,7 +131,7 @@ impl<'t> Draft<'t> {
     }
 }
 
-/// An output, by the name of what leaves the frame.
+/// An output, by the name of its image or buffer.
 pub(crate) fn output(leaf: Leaf<'_>) -> Entry<'_> {
     let named = match leaf.shape() {
         Shape::Text => Some(leaf),
@@ -140,7 +140,7 @@ pub(crate) fn output(leaf: Leaf<'_>) -> Entry<'_> {
     Entry { leaf, name: named.and_then(Called::of), fields: None }
 }
 
-/// That a file adds what there is already.
+/// The mistake that a file adds an entry of a name that is taken.
 fn again(kind: Kind, name: Called<'_>, first: Called<'_>) -> Diagnostic {
     let Name { text, span } = name.name();
     let what = kind.word();

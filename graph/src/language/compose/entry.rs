@@ -8,13 +8,13 @@ use std::borrow::Cow;
 /// An entry.
 pub(crate) struct Entry<'t> {
     pub(crate) leaf: Leaf<'t>,
-    /// As it is called; `None` if that can't be read, which will be reported.
+    /// Its name; `None` if that can't be read, which will be reported.
     pub(crate) name: Option<Called<'t>>,
-    /// Once it was changed.
+    /// Its fields, once it was changed.
     pub(crate) fields: Option<Keyed<'t, Value<'t>>>,
 }
 
-/// A name where it stands.
+/// A name with its place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Called<'t> {
     pub(crate) text: &'t str,
@@ -32,7 +32,7 @@ pub(crate) enum Value<'t> {
 }
 
 impl<'t> Called<'t> {
-    /// What stands in quotes.
+    /// The name in quotes at `leaf`.
     pub(crate) fn of(leaf: Leaf<'t>) -> Option<Called<'t>> {
         Some(Called { text: leaf.plain()?, span: leaf.span() })
     }
@@ -43,7 +43,7 @@ impl<'t> Called<'t> {
 }
 
 impl<'t> Entry<'t> {
-    /// One whose name stands in the field `name`.
+    /// An entry whose name stands in the field `name`.
     pub(crate) fn of(leaf: Leaf<'t>) -> Entry<'t> {
         Entry { leaf, name: leaf.field("name").and_then(Called::of), fields: None }
     }

@@ -1,4 +1,4 @@
-//! `extends`, `extensions` and `changes`: a pipeline that begins with what another says.
+//! `extends`, `extensions` and `changes`: a pipeline that begins with the entries of another.
 //!
 //! ```text
 //! files ─► Layers (their turns) ─► Draft: lists of entries (add, then apply changes) ─► one Tree (build) ─► Document
@@ -25,8 +25,8 @@ pub(crate) struct Composed {
     pub(crate) account: ChangeLog,
 }
 
-/// Reads what the pipeline's own file is put together with, and then `further` extensions. `None` if something that was
-/// reported leaves nothing to go on with.
+/// Reads the files that the pipeline's own file is put together with, and then `further` extensions. `None` if a mistake
+/// that was reported leaves nothing to go on with.
 pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, further: Vec<Found>) -> Option<Composed> {
     if !own.is_pipeline(reader) {
         return None;

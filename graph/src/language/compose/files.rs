@@ -11,7 +11,7 @@ pub const LARGEST_FILE: usize = 16 << 20;
 
 /// Provides the files that a pipeline names. An implementation decides which files may be read.
 pub trait Files {
-    /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` what stands there.
+    /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` the path as it stands there.
     ///
     /// # Errors
     /// Why it can't be read.
@@ -32,11 +32,11 @@ pub trait Files {
 pub struct Unread {
     /// A sentence without final stop.
     pub why: String,
-    /// What to do.
+    /// The help.
     pub help: Option<String>,
-    /// What can be chosen otherwise outside of all files.
+    /// The choice outside of all files that would mend it.
     pub choice: Option<OutsideChoice>,
-    /// Whether it is there, and the user has no right to read it: then nothing is wrong with the files.
+    /// Whether the file is there, but the user has no right to read it: then nothing is wrong with the files.
     pub denied: bool,
 }
 
@@ -49,11 +49,11 @@ impl From<String> for Unread {
 /// A file that was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
-    /// As it is shown in diagnostics.
+    /// The path that diagnostics show.
     pub shown: String,
-    /// Which file it is: this stands in Plans.
+    /// The path that stands in Plans.
     pub relative: FilePath,
-    /// What it holds.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
@@ -67,13 +67,13 @@ impl Files for NoFiles {
     }
 }
 
-/// Which byte shows that this is no text.
+/// The first byte that is not UTF-8, in words.
 pub(crate) fn odd_byte(error: &std::string::FromUtf8Error) -> String {
     let at = error.utf8_error().valid_up_to();
     format!("byte {at} is 0x{:02X}, which is not UTF-8", error.as_bytes().get(at).copied().unwrap_or_default())
 }
 
-/// What shows at once that this is not a pipeline.
+/// The mistake in a text that shows at once that it is no pipeline.
 pub(crate) fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
     let span = |start: usize, end: usize| {
         let [start, end] = [start, end].map(|at| u32::try_from(at).unwrap_or(u32::MAX));

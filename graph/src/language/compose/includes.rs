@@ -15,17 +15,17 @@ pub(crate) struct Wanted {
     pub(crate) paths: Vec<(String, Span)>,
 }
 
-/// What reads included files.
+/// The reader of included files.
 pub(crate) struct Included<'l, 'a> {
     loader: &'l mut Loader<'a>,
     known: HashSet<FilePath>,
     /// Files that are being read, and where each is named.
     path: Vec<(FilePath, Span)>,
-    /// What was read, each file after those that it includes.
+    /// Trees of the files that were read, each after those of files that it includes.
     trees: Vec<Tree>,
 }
 
-/// Reads what the files of a pipeline want included, and what that includes.
+/// Reads the files that the files of a pipeline include, and the files that those include.
 pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, wanted: Vec<Wanted>) -> Vec<Tree> {
     let known = wanted.iter().map(|wanted| wanted.from.clone()).collect();
     let mut included = Included { loader, known, path: Vec::new(), trees: Vec::new() };

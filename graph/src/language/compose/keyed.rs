@@ -8,12 +8,12 @@ use std::collections::HashMap;
 pub(crate) struct Keyed<'t, V> {
     /// `None`: it was taken away.
     pairs: Vec<Option<(Leaf<'t>, V)>>,
-    /// Where those of a key are.
+    /// The places of a key's pairs.
     index: HashMap<Cow<'t, str>, Vec<usize>>,
 }
 
 impl<'t, V> Keyed<'t, V> {
-    /// Those of one file; `key` tells what a leaf comes to, if it can be a key.
+    /// The pairs of one file; `key` is the key at a leaf, if it can be one.
     pub(crate) fn new(
         written: impl Iterator<Item = (Leaf<'t>, V)>,
         key: impl Fn(Leaf<'t>) -> Option<Cow<'t, str>>,
@@ -31,7 +31,7 @@ impl<'t, V> Keyed<'t, V> {
         self.pairs[first].as_mut().map(|(_, value)| value)
     }
 
-    /// Puts a value in the place of the one with the same key, or at the end.
+    /// Puts a value in the place of the first with the same key, or at the end.
     pub(crate) fn put(&mut self, name: Leaf<'t>, value: V, key: impl Fn(Leaf<'t>) -> Option<Cow<'t, str>>) {
         let key = key(name);
         let there = key.as_ref().and_then(|key| self.index.get(key)).and_then(|all| all.first());
@@ -41,7 +41,7 @@ impl<'t, V> Keyed<'t, V> {
         }
     }
 
-    /// Takes all of that key away. Whether there were any.
+    /// Takes all values of a key away. Whether there were any.
     pub(crate) fn take(&mut self, key: &str) -> bool {
         let taken = self.index.remove(key).unwrap_or_default();
         for at in &taken {
@@ -50,7 +50,7 @@ impl<'t, V> Keyed<'t, V> {
         !taken.is_empty()
     }
 
-    /// All that is left, in order.
+    /// All pairs that are left, in order.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = &(Leaf<'t>, V)> {
         self.pairs.iter().flatten()
     }

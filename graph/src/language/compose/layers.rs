@@ -12,7 +12,7 @@ use crate::ron::{Reader, Shape, Tree};
 pub(crate) enum Role {
     /// A pipeline that stands by itself.
     Whole,
-    /// A pipeline that begins with what another says.
+    /// A pipeline that extends another.
     Extending,
     /// An extension, which is added to pipelines.
     Extension,
@@ -21,16 +21,16 @@ pub(crate) enum Role {
 /// A file that a pipeline is put together of.
 pub(crate) struct Layer {
     pub(crate) tree: Tree,
-    /// Which file it is.
+    /// The file's path.
     pub(crate) relative: FilePath,
     pub(crate) role: Role,
 }
 
-/// A file's turn: first what it adds, then what it changes.
+/// A file's turn: first its additions, then its changes.
 pub(crate) struct Turn {
-    /// Which file.
+    /// The file: an index into [`Layers::list`].
     pub(crate) layer: usize,
-    /// Where it is named, if another names it.
+    /// The place that names it, if another file does.
     pub(crate) named: Option<Span>,
     pub(crate) adds: bool,
     pub(crate) changes: bool,
@@ -50,7 +50,7 @@ impl Layer {
         Layer { tree, relative: relative.clone(), role }
     }
 
-    /// Whether it isn't an extension, which would be no pipeline. Reports that.
+    /// Whether it is a pipeline. Reports an extension.
     pub(crate) fn is_pipeline(&self, reader: &mut Reader) -> bool {
         let Shape::Word(word @ "Extension", _) = self.tree.root().shape() else { return true };
         let wrong =
@@ -152,7 +152,7 @@ impl Layers {
     }
 }
 
-/// The pipeline, what it extends, what that extends, and so on, each with the place that names it.
+/// The pipeline, the pipeline that it extends, and so on, each with the place that names it.
 fn pipelines(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer) -> Option<Vec<(Layer, Option<Span>)>> {
     let mut path = vec![(own.relative.clone(), Span::NONE)];
     let mut pipelines = vec![(own, None)];

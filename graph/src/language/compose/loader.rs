@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// A pipeline is made of at most this many files.
 const MOST_FILES: usize = 256;
 
-/// Its files name each other at most this often: each time one is read, to see which one it is.
+/// Its files name each other at most this often: each time the named file is read, to find out which file it is.
 const MOST_NAMED: usize = 1024;
 
 /// Reads files, and keeps where each was named.
@@ -22,14 +22,14 @@ pub(crate) struct Loader<'a> {
     read: usize,
     named: usize,
     pub(crate) origins: Origins,
-    /// What was found out about pictures, each of which is opened once.
+    /// The infos of pictures, each of which is opened once.
     pub(super) looked: HashMap<TextureFile, Result<TextureInfo, TextureProblem>>,
     /// The pictures that textures name.
     pub(crate) pictures: Pictures,
 }
 
 impl<'a> Loader<'a> {
-    /// One that has read the pipeline's own file.
+    /// A loader that has read the pipeline's own file.
     pub(crate) fn new(sources: &'a mut Sources, files: &'a mut dyn Files) -> Self {
         let (origins, looked, pictures) = (Origins::default(), HashMap::new(), Pictures::new());
         Loader { sources, files, read: 1, named: 0, origins, looked, pictures }
@@ -51,7 +51,7 @@ impl<'a> Loader<'a> {
         found.map_err(|unread| reader.report(wrong(unread))).ok()
     }
 
-    /// The text of a file that was named at `span`; `words` say what for: "included here".
+    /// The tree of a file that was named at `span`; `words` name the purpose: "included here".
     pub(crate) fn tree(&mut self, reader: &mut Reader, found: Found, span: Span, words: &'static str) -> Option<Tree> {
         let Found { shown, relative, bytes } = found;
         self.read += 1;
@@ -97,8 +97,8 @@ pub(crate) fn path(reader: &mut Reader, leaf: Leaf<'_>) -> Option<(String, Span)
     reader.words(leaf, "the path of a file").map(|path| (path, leaf.span()))
 }
 
-/// Whether a file is written in the version of the language that this library reads. That it isn't is reported, and
-/// nothing else.
+/// Whether a file is written in the version of the language that this library reads. Reports another version, and no
+/// other mistake.
 pub(crate) fn version(reader: &mut Reader, all: Leaf<'_>) -> bool {
     let Some(version) = all.field("version") else { return true };
     match reader.integer(version) {
@@ -113,7 +113,7 @@ pub(crate) fn version(reader: &mut Reader, all: Leaf<'_>) -> bool {
 }
 
 /// Reports files that name each other in a circle: those of `path` from number `first` on, each with the place that
-/// names it, and then at `span` the first again. `verb` says what they do to each other, `named` what is done to one.
+/// names it, and then at `span` the first again. `verb` and `named` are the words for that: "include" and "included".
 pub(crate) fn circle(
     reader: &mut Reader,
     path: &[(FilePath, Span)],

@@ -6,13 +6,13 @@ use std::collections::HashMap;
 
 /// Passes, uses of fragments and anchors.
 ///
-/// What is inserted at a place stays together there, in the order in which it was inserted. So each item keeps what stands
-/// before and after it.
+/// Items that are inserted at one place stay together there, in the order of insertion. So each item keeps the items that
+/// stand before and after it.
 #[derive(Default)]
 pub(crate) struct Order<'t> {
     items: Vec<Item<'t>>,
     start: Vec<usize>,
-    /// Those of the first file, then those that were inserted at the end.
+    /// Items of the first file, then items that were inserted at the end.
     top: Vec<usize>,
     names: HashMap<&'t str, usize>,
     anchors: HashMap<&'t str, usize>,
@@ -26,7 +26,7 @@ struct Item<'t> {
 }
 
 impl<'t> Order<'t> {
-    /// Adds a pass, a use or an anchor at the end of what stands at a place. `false`: there is no such place.
+    /// Adds a pass, a use or an anchor behind all items at a place. `false`: there is no such place.
     pub(crate) fn insert(&mut self, place: &Where, entry: Entry<'t>) -> bool {
         let at = match place {
             Where::Start | Where::End => None,
@@ -57,7 +57,7 @@ impl<'t> Order<'t> {
         Some(&mut self.items[*self.names.get(name)?].entry)
     }
 
-    /// Removes the pass or use of that name. What was inserted before or after it stays.
+    /// Removes the pass or use of that name. Items that were inserted before or after it stay.
     pub(crate) fn remove(&mut self, name: &str) -> Option<&Entry<'t>> {
         let item = &mut self.items[self.names.remove(name)?];
         item.removed = true;
@@ -79,14 +79,14 @@ impl<'t> Order<'t> {
         sorted(&self.anchors)
     }
 
-    /// All that is left, in order.
+    /// All entries that are left, in order.
     pub(crate) fn all(&self) -> Vec<&Entry<'t>> {
         enum Next {
             Around(usize),
             Itself(usize),
         }
         let mut all = Vec::with_capacity(self.items.len());
-        // What comes next stands last.
+        // A stack: the next item is the last.
         let mut next: Vec<Next> = self.start.iter().chain(&self.top).rev().map(|item| Next::Around(*item)).collect();
         while let Some(item) = next.pop() {
             match item {

@@ -1,4 +1,4 @@
-//! Which line brought a file in: a mistake in one that was included shows both places.
+//! The places that name files: a mistake in a file that was included shows both places.
 
 use crate::base::{Diagnostic, FilePath, Label, Sources, Span};
 
@@ -9,7 +9,7 @@ const MOST_SHOWN: usize = 10;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Origins(Vec<(u32, Origin)>);
 
-/// Where a file is named, and what happens there.
+/// The place that names a file, and the words for it.
 #[derive(Debug, Clone, Copy)]
 struct Origin {
     span: Span,
@@ -17,7 +17,7 @@ struct Origin {
 }
 
 impl Origins {
-    /// The file numbered `file` is named at `span`; `words` say what for: "included here".
+    /// The file numbered `file` is named at `span`; `words` name the purpose: "included here".
     pub(crate) fn add(&mut self, file: u32, span: Span, words: &'static str) {
         if span.file().is_some() {
             self.0.push((file, Origin { span, words }));
@@ -44,7 +44,7 @@ impl Origins {
     }
 }
 
-/// What labels say of the place where a fragment is put in, before its name there.
+/// The words of labels at the use of a fragment, before the name of the use.
 pub(crate) const USED_HERE: &str = "used here as ";
 
 /// Lets mistakes that come to light in a shipped file begin with the place in the user's own file that led there: only that

@@ -28,8 +28,8 @@ impl Loader<'_> {
     }
 }
 
-/// Looks at the files that a list of textures names, by what `info` tells of them. What is wrong with the list itself is
-/// reported when it is evaluated.
+/// Looks at the files that a list of textures names; `info` tells of them. Mistakes in the list itself are reported when
+/// it is evaluated.
 fn look(
     reader: &mut Reader,
     sources: &Sources,

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 /// Path and text of files that are shipped with the program.
 pub type Shipped = &'static [(&'static str, &'static str)];
 
-/// What to do about a file that lies outside the root.
+/// The help for a file that lies outside the root.
 pub(crate) const WITHIN_ROOT: &str = "give a folder that holds both";
 
 /// Files beside a pipeline, then shipped ones.
 ///
 /// A path is counted from the file in which it stands. Where there is no such file, the shipped file of that path is
-/// taken. What a shipped file names is counted from it, and shipped too.
+/// taken. A path in a shipped file is counted from it, and leads to a shipped file.
 #[derive(Debug)]
 pub struct PipelineFiles {
     /// `None`: the pipeline is itself shipped, and the user's own files are those that are shipped.
@@ -25,26 +25,26 @@ pub struct PipelineFiles {
 }
 
 impl PipelineFiles {
-    /// Those of the pipeline called `name` in the folder of `root`.
+    /// The files of the pipeline called `name` in the folder of `root`.
     #[must_use]
     pub fn beside(root: Root, name: &str, shipped: Shipped) -> PipelineFiles {
         let paths = root.locate(name).map(|own| (own, name.into())).into_iter().collect();
         PipelineFiles { root: Some(root), shipped, paths }
     }
 
-    /// Those of a shipped pipeline to which files in the folder of `root` are applied.
+    /// The files of a shipped pipeline to which files in the folder of `root` are applied.
     #[must_use]
     pub fn of_shipped(root: Root, shipped: Shipped) -> PipelineFiles {
         PipelineFiles { root: Some(root), shipped, paths: HashMap::new() }
     }
 
-    /// Those of a pipeline that is itself shipped.
+    /// The files of a pipeline that is itself shipped.
     #[must_use]
     pub fn shipped(shipped: Shipped) -> PipelineFiles {
         PipelineFiles { root: None, shipped, paths: HashMap::new() }
     }
 
-    /// Which file it is that the user names `file`, wherever it lies; the path of one that was read already is that one's.
+    /// The path in Plans of the file that the user names `file`, wherever it lies. A file that was read already keeps its path.
     pub fn which(&mut self, file: &Path) -> FilePath {
         let relative = || {
             let relative = self.root.as_ref().and_then(|root| root.relative(file).ok());

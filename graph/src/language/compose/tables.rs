@@ -1,19 +1,19 @@
-//! What a file as a whole is: a pipeline, one that extends another, an extension, a file of fragments.
+//! The kinds of file: a pipeline, a pipeline that extends another, an extension, a file of fragments.
 
 use super::changes;
 use crate::fields;
 use crate::language::entries::{body, fragments, outputs, precision, presets, resolves, settings, textures, views};
 use crate::ron::{Field, Form, Leaf, Plain, Reader, Row, Table, slots};
 
-/// A field of a pipeline, of one that extends another or of an extension.
+/// A field of a pipeline, of a pipeline that extends another, or of an extension.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section {
-    /// As it is written.
+    /// The name in files.
     pub(crate) name: &'static str,
     form: Form,
 }
 
-/// Files that are named.
+/// Paths of files.
 const INCLUDES: Form = Form::List(&Form::Plain(Plain::Text));
 
 /// The version of a file.
@@ -135,7 +135,7 @@ pub(crate) const EXTENDING: Table = Table {
     ]),
 };
 
-/// What may be added to pipelines.
+/// An extension: a file that is added to pipelines.
 pub(crate) const EXTENSION: Table = Table {
     name: "ExtensionFields",
     word: Some("Extension"),
@@ -154,7 +154,7 @@ pub(crate) const EXTENSION: Table = Table {
     ]),
 };
 
-/// What a file adds to another.
+/// Lists that a file adds to another.
 const ADDED: [Row; 8] = [
     INCLUDE.optional(&["Files with fragments."]),
     SETTINGS.optional(&["Settings that are added."]),
@@ -166,7 +166,7 @@ const ADDED: [Row; 8] = [
     BUFFERS.optional(&["Buffers that are added."]),
 ];
 
-/// What a file says in place of what another said.
+/// Values that replace those of another file.
 const REPLACED: [Row; 3] = [
     DEPTH.optional(&["How several samples of depth become one value, in place of what there is."]),
     COLOR.optional(&["What `Color` becomes, in place of what there is."]),
@@ -199,7 +199,7 @@ impl<'t> Sections<'t> {
 }
 
 fields! {
-    /// A file of fragments: what several pipelines have in common.
+    /// A file of fragments: images, buffers and passes that several pipelines have in common.
     /// ```ron
     /// Fragments(version: 1, fragments: [
     ///     (name: "wipe", parameters: [(name: "target", value: Image)],

@@ -1,4 +1,4 @@
-//! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
+//! `sample`, `storage`, `uniform` and `params`: the bindings and parameters of a shader, by the shader's own names.
 
 use super::condition;
 use super::parts::{self, Either, Selected};
@@ -12,7 +12,7 @@ use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;
 
 fields! {
-    /// A sampled image: what a shader samples under a name of its own.
+    /// A sampled image: an image that a shader samples, under the shader's own name for it.
     /// ```ron
     /// (image: Resolved("image"), mip: 1, filter: Nearest)
     /// ```
@@ -27,9 +27,9 @@ fields! {
         layer: Option<Leaf<'src>> => parts::FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => parts::COUNT,
-        /// Depth or stencil; what the shader's declaration asks for if left out.
+        /// Depth or stencil; the plane that the shader's declaration asks for if left out.
         plane: Option<Leaf<'src>> => parts::PLANE,
-        /// Of how many frames before this one; only of what has history.
+        /// How many frames back; only for images with history.
         previous: Option<Leaf<'src>> => parts::PREVIOUS,
         /// Between texels: the nearest, or a weighted mean of those around; `Linear` for colour and else `Nearest` if left out.
         filter: Option<Leaf<'src>> => SAMPLER_FILTER,
@@ -74,13 +74,13 @@ static FACES: Words = Words {
     ],
 };
 
-/// How texels are mixed.
+/// The filter between texels.
 pub(crate) const FILTER: Form = Form::Choice("a filter", || names(&FILTERS));
 
-/// How texels are mixed that are sampled.
+/// The filter of a sampler.
 const SAMPLER_FILTER: Form = Form::Either(&[FILTER, Form::Expression("a filter")]);
 
-/// What lies beyond the edges.
+/// The address mode beyond the edges.
 const ADDRESS: Form =
     Form::Either(&[Form::Choice("an address mode", || names(&ADDRESSES)), Form::Expression("an address mode")]);
 
@@ -95,7 +95,7 @@ pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
 pub(crate) const PARAMS: Form = Form::Map("shader's name", &Form::Either(&[Form::Number, Form::Truth]));
 
 fields! {
-    /// A storage image or buffer: what a shader reads and writes under a name of its own.
+    /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it.
     /// ```ron
     /// (buffer: "buffer", access: ReadWrite)
     /// ```
@@ -110,10 +110,10 @@ fields! {
         layer: Option<Leaf<'src>> => parts::FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => parts::COUNT,
-        /// Of how many frames before this one; only of buffers with history, and only read.
+        /// How many frames back; only for buffers with history, and only to read.
         previous: Option<Leaf<'src>> => parts::PREVIOUS,
-        /// What is done with it; what the shader's declaration says if left out. `Write` promises that all of it is written
-        /// and nothing of it read before: `ReadWrite` is for atomics, and for writes here and there.
+        /// The access; as the shader declares it if left out. `Write` promises that all of it is written and nothing of
+        /// it read before: `ReadWrite` is for atomics, and for writes here and there.
         access: Option<Leaf<'src>> => Form::Choice("an access", || names(&ACCESSES)),
     }
 }
@@ -146,7 +146,7 @@ impl Context<'_> {
                 let sample = evaluator.leniently(is_off, |evaluator| sample.evaluate(evaluator));
                 match off? {
                     None => sample.map(Ok),
-                    // What has no value because it is left out is no mistake.
+                    // An image that has no value because it is left out is no mistake.
                     Some(off) if evaluator.reader.errors.len() == before => {
                         Some(Err(LeftOut { binding: binding.clone(), sample, off }))
                     }
@@ -188,7 +188,7 @@ impl Context<'_> {
         }))
     }
 
-    /// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
+    /// A filter or address mode, if the field is there: `None` if the word is not known.
     fn sampler_word<T: Copy + Kept>(
         &mut self,
         leaf: Option<Leaf<'_>>,
@@ -281,7 +281,7 @@ impl Context<'_> {
 }
 
 impl<'src> SampleFields<'src> {
-    /// What an image's plain name says.
+    /// The fields that an image's plain name stands for.
     const fn plain(image: Leaf<'src>) -> SampleFields<'src> {
         SampleFields {
             image,
@@ -300,7 +300,7 @@ impl<'src> SampleFields<'src> {
     }
 }
 
-/// An image's name, and which of its faces is meant.
+/// An image's name, and the face that is meant.
 fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
     if let Shape::Text | Shape::Word("Eye", _) = leaf.shape() {
         return Some((leaf, Face::Plain));

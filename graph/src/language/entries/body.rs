@@ -28,7 +28,7 @@ pub(crate) struct Body {
     pub(crate) items: Vec<Option<Entry<Item>>>,
 }
 
-/// An entry, and how often it stands there.
+/// An entry, and how often it is repeated.
 pub(crate) struct Entry<T> {
     pub(crate) repeat: Repeat,
     /// The view that it names, if it names one.
@@ -63,7 +63,7 @@ enum ItemFields<'t> {
 }
 
 impl<T> Entry<T> {
-    /// The view that it names, else the one that its whole level is for. `None` if it names none that there is.
+    /// The view that it names, else the view of its whole level. `None` if it names a view that there is not.
     pub(crate) fn view(&self, reader: &mut Reader, level: ViewIndex) -> Option<ViewIndex> {
         self.view.get(reader).map(|view| view.unwrap_or(level))
     }
@@ -102,7 +102,7 @@ pub(crate) struct Lists<'t> {
 }
 
 impl<'t> Tables<'t> {
-    /// Tells the entries apart. `names` are those of settings or parameters.
+    /// Tells the fields of all entries apart. `names` are the names of settings or parameters.
     pub(crate) fn read(
         reader: &mut Reader,
         names: Names,
@@ -133,7 +133,7 @@ impl<'t> Tables<'t> {
         Tables { symbols: Arc::new(symbols), textures, images, buffers, items: items(reader, lists.passes) }
     }
 
-    /// Reads the entries. `views` are those that they may name, of a fragment none.
+    /// Reads the entries. `views` are the views that they may name; `None` in a fragment.
     pub(crate) fn body(
         &self,
         reader: &mut Reader,
@@ -173,7 +173,7 @@ impl<'t> Tables<'t> {
     }
 }
 
-/// What reads the entries of a level.
+/// The reader of the entries of a level.
 struct LevelReader<'c> {
     reader: &'c mut Reader,
     symbols: &'c Symbols,

@@ -21,7 +21,7 @@ fields! {
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// The view whose values of settings it takes; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
-        /// How often it stands there.
+        /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// How many bytes it has, a multiple of 4.
         bytes: Leaf<'src> => Form::Words(&BYTES),
@@ -108,7 +108,7 @@ impl Context<'_> {
         }
     }
 
-    /// How many things a buffer is for.
+    /// The number of elements of a buffer.
     fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<u64>>> {
         if let Some(Parameter { kind: ParameterKind::Value(kind), .. }) = self.setting(leaf)
             && let Some(least) = kind.least().filter(|least| *least < 1.0 && kind.is_whole())

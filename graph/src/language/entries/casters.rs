@@ -1,4 +1,4 @@
-//! `draw: Casters(…)`: what casts the sun's shadow.
+//! `draw: Casters(…)`: objects that cast the sun's shadow.
 
 use super::values::{self, optional};
 use crate::base::Diagnostic;
@@ -11,11 +11,11 @@ use crate::ron::{Described, Leaf, Spanned, Table, names};
 pub(crate) const LISTS: [(&str, DrawList); 3] =
     [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
 
-/// How it is written.
+/// The form of `Casters`.
 pub(crate) const FORM: &str = "Casters(list: Opaque, cascade: 0, of: 1)";
 
 fields! {
-    /// Casters: what casts the sun's shadow onto one of several parts of what is seen, by distance from the camera.
+    /// Casters: objects that cast the sun's shadow onto one of several parts of the view, by distance from the camera.
     struct CastersFields<'src> {
         /// Which objects; light goes through transparent ones.
         list: Leaf<'src> => Form::Choice("a list of casters", || names(&CASTERS)),
@@ -28,16 +28,16 @@ fields! {
     }
 }
 
-/// Its fields.
+/// The fields of `Casters`.
 pub(crate) fn fields() -> Table {
     CastersFields::<'static>::table()
 }
 
-/// Those that light doesn't go through.
+/// Draw lists of objects that light doesn't go through.
 const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
 
 impl Context<'_> {
-    /// What casts the sun's shadow.
+    /// The cascade of `Casters(…)`.
     pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Given<Cascade>> {
         let fields: CastersFields<'_> = self.reader.inside(leaf, rest, FORM)?;
         let most = i64::from(Cascade::MOST);

@@ -6,7 +6,7 @@ use crate::language::scope::{Context, Given, GivenTuple, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
 use std::sync::Arc;
 
-/// What `when` takes.
+/// The form of `when`: a condition.
 pub(crate) const CONDITION: Form = Form::Expression("a condition");
 
 impl Context<'_> {

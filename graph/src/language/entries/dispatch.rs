@@ -6,7 +6,7 @@ use crate::language::model::{Groups, Work};
 use crate::language::scope::{Context, Given, all, given};
 use crate::ron::{Form, Leaf, Takes, Word, Words};
 
-/// What `groups` takes.
+/// The form of `groups`: a number of workgroups.
 pub(crate) const WORKGROUPS: Form = Form::Words(&GROUPS);
 
 static GROUPS: Words = Words {

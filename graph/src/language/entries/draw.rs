@@ -1,4 +1,4 @@
-//! `draw`: what a raster pass draws.
+//! `draw`: the draw of a raster pass.
 
 use super::casters::{self, LISTS};
 use super::parts;
@@ -8,7 +8,7 @@ use crate::language::model::{Draw, Work};
 use crate::language::scope::{Context, Given, given};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
 
-/// What `draw` takes.
+/// The form of `draw`.
 pub(crate) const DRAW: Form = Form::Words(&DRAWS);
 
 static DRAWS: Words = Words {

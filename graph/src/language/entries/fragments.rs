@@ -22,13 +22,13 @@ fields! {
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
         /// The arguments that each use of the fragment gives.
         parameters: Option<Leaf<'src>> => Form::List(&Form::Fields(ParameterFields::<'static>::table)),
-        /// As those of a pipeline.
+        /// The textures, as in a pipeline.
         textures: Option<Leaf<'src>> => textures::TEXTURES,
-        /// As those of a pipeline.
+        /// The images, as in a pipeline.
         images: Option<Leaf<'src>> => body::IMAGES,
-        /// As those of a pipeline.
+        /// The buffers, as in a pipeline.
         buffers: Option<Leaf<'src>> => body::BUFFERS,
-        /// As those of a pipeline; other fragments may be used, not in a circle.
+        /// The passes, as in a pipeline; other fragments may be used, not in a circle.
         passes: Leaf<'src> => body::ITEMS,
     }
 }
@@ -48,14 +48,14 @@ impl<T> Fragments<T> {
         self.list.get(at)?.as_ref()
     }
 
-    /// What the fragment of this number is called; empty if its name couldn't be read.
+    /// The name of the fragment of this number; empty if it couldn't be read.
     pub(crate) fn called(&self, at: usize) -> &str {
         self.names.get(at).map_or("", |name| &*name.text)
     }
 }
 
 impl<'t> Fragments<Tables<'t>> {
-    /// Tells the fields of fragments apart: of lists of them, one after the other.
+    /// Tells the fields of fragments apart, list by list.
     pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Self {
         let mut names = Names::new("fragment");
         let mut list = Vec::new();

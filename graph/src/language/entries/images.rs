@@ -13,7 +13,7 @@ use crate::language::scope::{Context, Given, Kept, Parameter, given, within_view
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
 
-/// Most array layers that a file may ask for: what desktop devices have.
+/// Most array layers that a file may ask for: as many as desktop devices have.
 pub(crate) const MOST_LAYERS: i64 = 2048;
 
 /// Mip levels that an image of the largest size has.
@@ -29,9 +29,9 @@ fields! {
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// The view that it is for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
-        /// How often it stands there.
+        /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
-        /// What a texel holds.
+        /// The format of a texel.
         format: Leaf<'src> => Form::Words(&FORMATS),
         /// Width and height.
         size: Leaf<'src> => sizes::SIZE,
@@ -48,8 +48,8 @@ fields! {
         shape: Option<Leaf<'src>> => Form::Words(&SHAPES),
         /// How long its contents live; `Transient` if left out.
         lifetime: Option<Leaf<'src>> => lifetimes::LIFETIME,
-        /// Whether each eye has one of its own where a frame is drawn for two; if left out as the image whose size it follows,
-        /// and not if it follows none.
+        /// Whether each eye has an image of its own where a frame is drawn for two; if left out as the image whose size it
+        /// follows, and not if it follows none.
         per_eye: Option<Leaf<'src>> => Form::Truth,
     }
 }

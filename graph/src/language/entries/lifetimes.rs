@@ -1,4 +1,4 @@
-//! How long contents live, and in which state they come in and go out.
+//! Lifetimes of contents, and the states in which they come in and go out.
 
 use super::list;
 use super::parts::{self, MOST_FRAMES};
@@ -11,37 +11,37 @@ use crate::vulkan::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
 
 fields! {
-    /// What outlives the frame.
+    /// The fields of `Persistent`: contents that outlive the frame.
     #[derive(Default)]
     struct PersistentFields<'src> {
-        /// What the first frame finds, as in [a fill](#fills); zero if left out.
+        /// The contents in the first frame, as in [a fill](#fills); zero if left out.
         initial: Option<Leaf<'src>> => values::FILL,
     }
 }
 
 fields! {
-    /// What earlier frames left.
+    /// The fields of `History`: contents of earlier frames.
     #[derive(Default)]
     struct HistoryFields<'src> {
-        /// How many frames back it can be read; 1 if left out.
+        /// How many frames back the contents can be read; 1 if left out.
         frames: Option<Leaf<'src>> => Form::Whole(1, MOST_FRAMES),
-        /// What stands for frames before the first, as in [a fill](#fills); zero if left out.
+        /// The contents of frames before the first, as in [a fill](#fills); zero if left out.
         initial: Option<Leaf<'src>> => values::FILL,
     }
 }
 
 fields! {
-    /// What the program hands in.
+    /// The fields of `Imported`: states of an image or buffer that the program hands in.
     struct ImportedFields<'src> {
         /// The state in which it is handed in.
         before: Leaf<'src> => STATE,
-        /// The state in which it is given back; that of its last use if left out.
+        /// The state in which it is given back; the state of its last use if left out.
         after: Option<Leaf<'src>> => STATE,
     }
 }
 
 fields! {
-    /// A state in Vulkan's words: the last or next use of what comes from outside of the frame or leaves it.
+    /// A state in Vulkan's words: the last use before the frame, or the next use after it.
     /// ```ron
     /// (stages: [COPY], accesses: [TRANSFER_WRITE], layout: TRANSFER_DST_OPTIMAL)
     /// ```
@@ -55,7 +55,7 @@ fields! {
     }
 }
 
-/// What `lifetime` takes.
+/// The form of `lifetime`.
 pub(crate) const LIFETIME: Form = Form::Words(&LIFETIMES);
 
 static LIFETIMES: Words = Words {
@@ -120,7 +120,7 @@ fn flag_names<F: Flags>() -> Vec<&'static str> {
     F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| flag.name()).collect()
 }
 
-/// Which of the two a state belongs to.
+/// The kind of thing that a state belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Of {
     /// An image.
@@ -198,7 +198,7 @@ const LAYOUTS: [(&str, Layout); 14] = [
 ];
 
 impl StateWord {
-    /// Whether an image, and whether a buffer can be in it.
+    /// Whether an image or a buffer, as `of` says, can be in this state.
     const fn fits(self, of: Of) -> bool {
         match self {
             StateWord::Storage | StateWord::TransferSource | StateWord::TransferTarget => true,

@@ -2,7 +2,7 @@
 
 use crate::ron::{FromLeaf, Leaf, Name, Names, Reader, Shape};
 
-/// Tells the fields of each entry of a list apart, and takes down the entries' names.
+/// Tells the fields of each entry of a list apart, and keeps the entries' names.
 pub(crate) fn entries<'t, T: FromLeaf<'t>>(
     reader: &mut Reader,
     list: Option<Leaf<'t>>,
@@ -12,14 +12,14 @@ pub(crate) fn entries<'t, T: FromLeaf<'t>>(
 ) -> Vec<Option<T>> {
     let Some(list) = list else { return Vec::new() };
     let Some(leaves) = reader.list(list, field) else {
-        // Whatever is looked for may be in the list that couldn't be read.
+        // Any name may be in the list that couldn't be read.
         names.give(reader, None);
         return Vec::new();
     };
     leaves.into_iter().map(|leaf| entry(reader, leaf, what, what, names)).collect()
 }
 
-/// Tells the fields of an entry apart, and takes down its name.
+/// Tells the fields of an entry apart, and keeps its name.
 pub(crate) fn entry<'t, T: FromLeaf<'t>>(
     reader: &mut Reader,
     leaf: Leaf<'t>,

@@ -1,4 +1,4 @@
-//! One file per kind of entry: its field table and its reading. What depends on values is asked for at each lowering.
+//! One file per kind of entry: its field table and its reading. Parts that depend on values are found at each lowering.
 
 pub(crate) mod bindings;
 pub(crate) mod body;

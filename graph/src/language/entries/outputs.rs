@@ -1,4 +1,4 @@
-//! `outputs`: what leaves the frame, and in which state.
+//! `outputs`: images and buffers that leave the frame, and their states.
 
 use super::values::{self, optional};
 use super::{lifetimes, parts};
@@ -21,7 +21,7 @@ fields! {
         image: Option<Leaf<'src>> => parts::WHOLE_IMAGE,
         /// Or which buffer.
         buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
-        /// The state in which it is left; that of its last use if left out.
+        /// The state in which it is left; the state of its last use if left out.
         after: Option<Leaf<'src>> => lifetimes::STATE,
         /// The encoding of an image's numbers, for display and for files. If left out, the format tells it, as far as it
         /// does. An encoding that the format can't hold is refused.
@@ -29,11 +29,11 @@ fields! {
     }
 }
 
-/// What leaves the frame.
+/// The form of `outputs`: a list of images and buffers.
 pub(crate) const OUTPUTS: Form =
     Form::List(&Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(OutputFields::<'static>::table)]));
 
-/// What the numbers of an output mean, by name.
+/// Encodings of an output's numbers, by name.
 const ENCODINGS: [(&str, Encoding); 4] = [
     (Encoding::Srgb.name(), Encoding::Srgb),
     (Encoding::Unorm.name(), Encoding::Unorm),

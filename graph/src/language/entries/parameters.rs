@@ -18,14 +18,14 @@ fields! {
     pub(crate) struct ParameterFields<'src> as "Parameter" {
         /// Its name, as in `with` and in expressions.
         name: Leaf<'src> => Form::Plain(Plain::Name),
-        /// What it may be. Without `default` it has to be given.
+        /// The kind of its values. A parameter without `default` has to be given.
         value: Leaf<'src> => Form::Words(&KINDS),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
     }
 }
 
-/// What a parameter may be.
+/// The kinds of parameter.
 static KINDS: Words = Words {
     name: "ParameterValue",
     what: "a kind of parameter",
@@ -93,7 +93,7 @@ fields! {
     struct ParameterOneOfFields<'src> {
         /// The value if none is given.
         default: Option<Leaf<'src>> => LISTED,
-        /// All that it may be, each once.
+        /// All allowed values, each once.
         of: Leaf<'src> => Form::List(&LISTED),
     }
 }
@@ -106,9 +106,9 @@ fields! {
         default: Option<Leaf<'src>> => Form::Plain(Plain::Number),
         /// The least value; any if left out.
         min: Option<Leaf<'src>> => Form::Plain(Plain::Number),
-        /// The greatest; any if left out.
+        /// The greatest value; any if left out.
         max: Option<Leaf<'src>> => Form::Plain(Plain::Number),
-        /// How far values lie apart, from `min` on.
+        /// The distance between allowed values, from `min` on.
         step: Option<Leaf<'src>> => Form::Plain(Plain::Number),
     }
 }
@@ -121,9 +121,9 @@ fields! {
         default: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
         /// The least value; any if left out.
         min: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
-        /// The greatest; any if left out.
+        /// The greatest value; any if left out.
         max: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
-        /// How far values lie apart, from `min` on; 1 if left out.
+        /// The distance between allowed values, from `min` on; 1 if left out.
         step: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
     }
 }
@@ -138,7 +138,7 @@ pub(crate) fn parameter<'src>(reader: &mut Reader, fields: &ParameterFields<'src
     Some(Parameter { name: name?, kind, required })
 }
 
-/// What it may be, and whether it has to be given.
+/// The kind of a parameter, and whether it has to be given.
 fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, bool)> {
     let (word, rest) = reader.one_of(leaf, &KINDS)?;
     let (kind, default_at) = match word {
@@ -211,7 +211,7 @@ fn one_of<'src>(
     Some((kind, fields.default))
 }
 
-/// Reports a step where nothing says which value it leads on from.
+/// Reports a step without `min`, where steps begin.
 fn steps_begin(reader: &mut Reader, step: Option<Leaf<'_>>, min: Option<Leaf<'_>>) -> Option<()> {
     let Some(step) = step.filter(|_| min.is_none()) else { return Some(()) };
     reader.wrong(step, "steps begin at `min`, and there is none", "add `min: …`, or leave out `step`");

@@ -32,9 +32,9 @@ fields! {
         layer: Option<Leaf<'src>> => FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => COUNT,
-        /// Depth or stencil; all that the image has if left out.
+        /// Depth or stencil; all planes of the image if left out.
         plane: Option<Leaf<'src>> => PLANE,
-        /// Of how many frames before this one; only of what has history, and only read.
+        /// How many frames back; only for images and buffers with history, and only to read.
         previous: Option<Leaf<'src>> => PREVIOUS,
     }
 }
@@ -48,7 +48,7 @@ pub(crate) const WHOLE_BUFFER: Form = Form::Reference("a buffer");
 /// The name of an image or buffer.
 pub(crate) const WHOLE_RESOURCE: Form = Form::Reference("an image or buffer");
 
-/// The name of an image, or one eye's of it.
+/// The name of an image, or of one eye's part of it.
 pub(crate) const EYE_IMAGE: Form = Form::Words(&EYES);
 
 static EYES: Words = Words {
@@ -122,7 +122,7 @@ pub(crate) enum Either {
 }
 
 impl Either {
-    /// The part, whatever it is of.
+    /// The part, of an image or a buffer.
     pub(crate) fn part(self) -> Given<Part> {
         match self {
             Either::Image(part) => part.map(Part::Image),
@@ -158,7 +158,7 @@ impl Context<'_> {
         self.part_of_either(leaf, image, buffer, selected)
     }
 
-    /// The part of whichever of `image` and `buffer` is there.
+    /// The part of `image` or of `buffer`, one of which has to be there.
     pub(crate) fn part_of_either(
         &mut self,
         whole: Leaf<'_>,
@@ -277,7 +277,7 @@ impl Context<'_> {
         Some(given((first?, count?), |(first, count)| Selection { first, count }))
     }
 
-    /// What `make` makes of the image of `Like("image")`.
+    /// The value that `make` makes of the image in `Like("image")`.
     pub(crate) fn like<T: Kept>(
         &mut self,
         leaf: Leaf<'_>,

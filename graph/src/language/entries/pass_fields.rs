@@ -8,7 +8,7 @@ use crate::fields;
 use crate::ron::{Leaf, Plain};
 
 fields! {
-    /// A pass: one thing that is done.
+    /// A pass: one draw, dispatch, copy, blit or fill, or commands of the program's own.
     /// ```ron
     /// (name: "glass", when: "scene.has_transparent", draw: Objects(Transparent), shader: "lit",
     ///     color: [(image: "image", blend: Premultiplied)], depth: (image: "depth", write: false))
@@ -18,7 +18,7 @@ fields! {
         pub(crate) name: Leaf<'src> => Form::Plain(Plain::Name),
         /// The view that it draws for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
-        /// How often it stands there.
+        /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// It draws.
         pub(crate) draw: Option<Leaf<'src>> => draw::DRAW,
@@ -30,12 +30,12 @@ fields! {
         pub(crate) blit: Option<Leaf<'src>> => transfer::BLIT,
         /// It sets an image or buffer to a value.
         pub(crate) fill: Option<Leaf<'src>> => transfer::FILL,
-        /// It does what the embedding program records under this name: with `color` or `depth` within a rendering scope,
-        /// else outside.
+        /// It runs commands that the embedding program records under this name: with `color` or `depth` within a rendering
+        /// scope, else outside.
         pub(crate) custom: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
-        /// The shader of what it draws.
+        /// The shader of the draw.
         pub(crate) shader: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
-        /// How many workgroups its compute shader runs in.
+        /// The number of workgroups of the dispatch.
         pub(crate) groups: Option<Leaf<'src>> => dispatch::WORKGROUPS,
         /// Images that its shaders sample, by the shader's names.
         pub(crate) sample: Option<Leaf<'src>> => bindings::SAMPLE,
@@ -47,24 +47,24 @@ fields! {
         pub(crate) vertex: Option<Leaf<'src>> => parts::BUFFER,
         /// The buffer of their indices, 32 bits each.
         pub(crate) index: Option<Leaf<'src>> => parts::BUFFER,
-        /// What it draws colour into, by location.
+        /// The colour targets, by location.
         pub(crate) color: Option<Leaf<'src>> => targets::COLOR,
-        /// What it draws depth and stencil into.
+        /// The target for depth and stencil.
         pub(crate) depth: Option<Leaf<'src>> => targets::DEPTH,
-        /// `true`: as many samples of a texel are covered as the alpha says that the shader writes at location 0, where its
+        /// `true`: the alpha that the shader writes at location 0 tells how many samples of a texel are covered, where its
         /// targets have several; not if left out.
         pub(crate) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,
-        /// What it reads by transfer.
+        /// Images and buffers, or parts of them, that it reads by transfer.
         pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
-        /// What it writes by transfer, all of it.
+        /// Images and buffers, or parts of them, that it writes by transfer; all of each is written.
         pub(crate) writes: Option<Leaf<'src>> => transfer::TRANSFERRED,
         /// Values for the members of the shader's block `params`, by name.
         pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
         /// `true`: it is kept although nothing in the frame needs it.
         pub(crate) side_effect: Option<Leaf<'src>> => Form::Truth,
-        /// A condition: if it is false, the pass is off, and nothing that it says needs a value.
+        /// A condition: if it is false, the pass is off, and expressions in it need no values.
         pub(crate) when: Option<Leaf<'src>> => CONDITION,
-        /// What images that it would write take when it is off.
+        /// Stand-ins: contents of the images that it would write, when it is off.
         pub(crate) otherwise: Option<Leaf<'src>> => OTHERWISE,
     }
 }

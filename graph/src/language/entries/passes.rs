@@ -1,4 +1,4 @@
-//! A pass: its work, bindings and targets, and what fills its targets when it is off.
+//! A pass: its work, bindings and targets, and the stand-ins for its targets when it is off.
 
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
@@ -19,7 +19,7 @@ impl Context<'_> {
         Given::asked(move |evaluator| {
             let off = evaluator.put_in(&off);
             let is_off = matches!(off, Some(Some(_)));
-            // What never comes to pass needs no values.
+            // Stand-ins of a pass that runs need no values.
             evaluator.forgave = false;
             let stand_ins = evaluator.leniently(!is_off, |evaluator| match otherwise.as_ref()? {
                 Some(otherwise) => otherwise.stand_ins.evaluate(evaluator),
@@ -43,7 +43,7 @@ impl Context<'_> {
         })
     }
 
-    /// What the pass does, with what. Each field is evaluated, even where another couldn't be read.
+    /// The work, bindings and targets of a pass. Each field is evaluated, even where another couldn't be read.
     fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Given<Pass> {
         let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
         let work = self.work(fields, &what);

@@ -1,14 +1,14 @@
-//! How exactly images hold what they are asked to: colour (`color`) and depth (`depth_format`).
+//! The precision of formats that are chosen by purpose: of colour (`color`) and of depth (`depth_format`).
 
 use super::values::said;
 use crate::language::model::{Decided, Precision, Precisions};
 use crate::language::scope::{Context, Given};
 use crate::ron::{Form, Leaf, Word, Words};
 
-/// What `Color` becomes.
+/// The form of `color`: the precision of `Color`.
 pub(crate) const COLOR: Form = Form::Words(&COLORS);
 
-/// What `Depth` and `DepthStencil` become.
+/// The form of `depth_format`: the precision of `Depth` and `DepthStencil`.
 pub(crate) const DEPTH: Form = Form::Words(&DEPTHS);
 
 static COLORS: Words = Words {
@@ -43,17 +43,17 @@ static DEPTHS: Words = Words {
     ],
 };
 
-/// What each word stands for.
+/// The precision of each word.
 const MEANINGS: [(&str, Precision); 3] =
     [("Smallest", Precision::Smallest), ("Balanced", Precision::Balanced), ("Exact", Precision::Exact)];
 
 impl Context<'_> {
-    /// What a pipeline's `color` says.
+    /// The precision that a pipeline's `color` says.
     pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
         self.precision(leaf, "color", &COLORS)
     }
 
-    /// What a pipeline's `depth_format` says.
+    /// The precision that a pipeline's `depth_format` says.
     pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
         self.precision(leaf, "depth_format", &DEPTHS)
     }

@@ -21,7 +21,7 @@ fields! {
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
-        /// What it chooses; other settings keep what they have.
+        /// The chosen values; other settings keep their values.
         set: Leaf<'src> => SET,
     }
 }
@@ -65,7 +65,7 @@ pub(crate) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Settin
         }
         let named = settings.iter().position(|known| known.as_ref().is_some_and(|known| known.name.text == name.text));
         let Some((at, setting)) = named.and_then(|at| Some((at, settings[at].as_ref()?))) else {
-            // It may be one that couldn't be read.
+            // The setting may be one that couldn't be read.
             if settings.iter().all(Option::is_some) {
                 reader.report(unknown_setting(&name, settings, &given));
             }

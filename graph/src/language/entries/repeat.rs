@@ -1,4 +1,4 @@
-//! `repeat`: how often an entry stands there.
+//! `repeat`: how often an entry is repeated.
 
 use super::told::Told;
 use crate::base::Span;
@@ -11,7 +11,7 @@ pub(crate) const MOST_THINGS: u32 = 1_000_000;
 /// How `repeat` is written.
 pub(crate) const REPEAT: Form = Form::Tuple(&[Form::Plain(Plain::Name), Form::Whole(0, MOST_THINGS as i64)]);
 
-/// How often something stands there.
+/// How often an entry is repeated.
 pub(crate) enum Repeat {
     /// Once, under its own name.
     Once,
@@ -24,7 +24,7 @@ pub(crate) enum Repeat {
         /// The number.
         count: Told<Given<u32>>,
     },
-    /// That couldn't be read, which was reported.
+    /// The field couldn't be read, which was reported.
     Broken,
 }
 

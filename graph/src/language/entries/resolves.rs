@@ -1,4 +1,4 @@
-//! How several samples become one value: those of an image (`resolve`), or of all depth of a pipeline (`depth`).
+//! How several samples become one value: in an image (`resolve`), or in all depth of a pipeline (`depth`).
 
 use super::values;
 use crate::frame::ResolveWay;
@@ -10,7 +10,7 @@ use crate::vulkan::ResolveMode;
 /// How several samples of an image become one value.
 pub(crate) const RESOLVE: Form = Form::Words(&RESOLVES);
 
-/// How several samples of depth become one value, of images that don't say it.
+/// How several samples of depth become one value, in images without `resolve`.
 pub(crate) const DEPTH: Form = Form::Words(&POLICIES);
 
 static RESOLVES: Words = Words {
@@ -45,7 +45,7 @@ static POLICIES: Words = Words {
     ],
 };
 
-/// What each word stands for.
+/// The way to resolve of each word.
 const MEANINGS: [(&str, ResolveWay); 6] = [
     ("DepthOnly", ResolveWay::DepthOnly),
     ("SampleZero", ResolveWay::By(ResolveMode::SampleZero)),
@@ -56,7 +56,7 @@ const MEANINGS: [(&str, ResolveWay); 6] = [
 ];
 
 impl Context<'_> {
-    /// What an image's `resolve` says.
+    /// The way that an image's `resolve` says.
     pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<Given<Resolves>> {
         let span = leaf.span();
         self.bare_word(leaf, &RESOLVES)?.then(move |Decided { value: word, because, .. }| {

@@ -1,4 +1,4 @@
-//! `settings`: what a user may choose.
+//! `settings`: values that a user may choose.
 
 use super::list::entries;
 use crate::fields;
@@ -8,14 +8,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 fields! {
-    /// A setting: what a user may choose.
+    /// A setting: a value that a user may choose.
     /// ```ron
     /// (name: "msaa", value: OneOf(default: 4, of: [1, 2, 4, 8]), about: "samples of colour and depth")
     /// ```
     pub(crate) struct SettingFields<'src> as "Setting" {
         /// Its name, as in `--set NAME=VALUE` and in expressions.
         name: Leaf<'src> => Form::Plain(Plain::Name),
-        /// What it may be, and what it is without a choice.
+        /// The allowed values, and the value without a choice.
         value: Leaf<'src> => Form::Words(&KINDS),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
@@ -26,7 +26,7 @@ fields! {
 pub(crate) const VALUE: Form =
     Form::Either(&[Form::Plain(Plain::Truth), Form::Plain(Plain::Number), Form::Plain(Plain::Text)]);
 
-/// What a setting may be.
+/// The kinds of setting.
 static KINDS: Words = Words {
     name: "SettingValue",
     what: "a setting's value",
@@ -72,12 +72,12 @@ fields! {
     struct OneOfFields<'src> {
         /// The value without a choice.
         default: Leaf<'src> => LISTED,
-        /// All that it may be, each once.
+        /// All allowed values, each once.
         of: Leaf<'src> => Form::List(&LISTED),
     }
 }
 
-/// What a list of values holds.
+/// An element of a list of values: a whole number or a text.
 pub(crate) const LISTED: Form = Form::Either(&[Form::Plain(Plain::Whole), Form::Plain(Plain::Text)]);
 
 fields! {
@@ -87,9 +87,9 @@ fields! {
         default: Leaf<'src> => Form::Plain(Plain::Number),
         /// The least value.
         min: Leaf<'src> => Form::Plain(Plain::Number),
-        /// The greatest.
+        /// The greatest value.
         max: Leaf<'src> => Form::Plain(Plain::Number),
-        /// How far values lie apart, from `min` on; any distance if left out.
+        /// The distance between allowed values, from `min` on; any distance if left out.
         step: Option<Leaf<'src>> => Form::Plain(Plain::Number),
     }
 }
@@ -101,9 +101,9 @@ fields! {
         default: Leaf<'src> => Form::Plain(Plain::Whole),
         /// The least value.
         min: Leaf<'src> => Form::Plain(Plain::Whole),
-        /// The greatest.
+        /// The greatest value.
         max: Leaf<'src> => Form::Plain(Plain::Whole),
-        /// How far values lie apart, from `min` on; 1 if left out.
+        /// The distance between allowed values, from `min` on; 1 if left out.
         step: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
     }
 }
@@ -187,7 +187,7 @@ pub(crate) fn step<'src, T: PartialOrd + std::fmt::Display>(
     Some(Some(step))
 }
 
-/// Reports a step that leads from the least value to none other that is allowed.
+/// Reports a step that is larger than the range.
 fn in_steps<T: std::fmt::Display>(
     reader: &mut Reader,
     leaf: Option<Leaf<'_>>,

@@ -15,12 +15,12 @@ fields! {
         by: Leaf<'src> => Form::Number,
         /// The greatest factor. Changing it takes other memory, changing `by` doesn't.
         up_to: Leaf<'src> => Form::Number,
-        /// Of which image; of the view if left out.
+        /// The image whose size is meant; the size of the view if left out.
         of: Option<Leaf<'src>> => parts::WHOLE_IMAGE,
     }
 }
 
-/// What `size` takes.
+/// The form of `size`.
 pub(crate) const SIZE: Form = Form::Words(&SIZES);
 
 static SIZES: Words = Words {
@@ -55,7 +55,7 @@ static SIZES: Words = Words {
 pub(crate) const EXTENT: Form = Form::Whole(1, LARGEST_SIZE as i64);
 
 impl Context<'_> {
-    /// A size, and what decides its factor.
+    /// A size, and the cause of its factor.
     pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Size>>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
         match word {
@@ -121,7 +121,7 @@ impl Context<'_> {
         }
     }
 
-    /// A factor above 0, and what decides it.
+    /// A factor above 0, and its cause.
     pub(crate) fn scale(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<f64>>> {
         if let Some(parameter) = self.setting(leaf)
             && let Some(least) = parameter.least().filter(|least| *least <= 0.0)

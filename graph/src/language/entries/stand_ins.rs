@@ -1,4 +1,4 @@
-//! `otherwise`: what fills the targets of a pass that is off.
+//! `otherwise`: stand-ins, which fill the targets of a pass that is off.
 
 use super::parts;
 use super::values::{self, optional};
@@ -10,10 +10,10 @@ use crate::language::scope::{Context, Given, given};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
 use std::collections::HashMap;
 
-/// What `otherwise` takes.
+/// The form of `otherwise`: one stand-in or a list of them.
 pub(crate) const OTHERWISE: Form = Form::Either(&[Form::Words(&STAND_INS), Form::List(&Form::Words(&STAND_INS))]);
 
-/// What targets take when a pass is off.
+/// The kinds of stand-in.
 static STAND_INS: Words = Words {
     name: "StandIn",
     what: "a stand-in",
@@ -49,21 +49,21 @@ fields! {
     struct ClearFields<'src> {
         /// The image, which the pass would write.
         image: Leaf<'src> => parts::WHOLE_IMAGE,
-        /// What it gets, as in [a fill](#fills).
+        /// The value, as in [a fill](#fills).
         value: Leaf<'src> => values::FILL,
     }
 }
 
-/// What fills images when a pass or use is off, as a file says it.
+/// The stand-ins of a pass or use, as a file says them.
 pub(crate) struct Otherwise {
     pub(crate) span: Span,
     pub(crate) stand_ins: Vec<Given<StandIn>>,
-    /// Whether it can be off.
+    /// Whether the pass or use can be off.
     pub(crate) conditional: bool,
 }
 
 impl Context<'_> {
-    /// What targets take when the pass is off: one or several.
+    /// The stand-ins of a pass or use: one or several.
     pub(crate) fn otherwise(&mut self, leaf: Option<Leaf<'_>>, when: Option<Leaf<'_>>) -> Option<Option<Otherwise>> {
         optional(leaf, |leaf| {
             let entries = match leaf.shape() {
@@ -89,7 +89,7 @@ impl Context<'_> {
     }
 }
 
-/// What `otherwise` is of.
+/// The kind of entry that `otherwise` belongs to.
 #[derive(Clone, Copy)]
 pub(crate) enum Of {
     Pass,
@@ -113,7 +113,7 @@ impl Of {
     }
 }
 
-/// Stand-ins fill images of the pass's own, each once, from other images.
+/// Reports stand-ins that don't fill images of the pass's own, each once, from other images.
 pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &Otherwise, of: Of, pass: &Pass) {
     if !otherwise.conditional {
         let idle = Diagnostic::new(otherwise.span, "`otherwise` never comes to pass: there is no `when`");

@@ -1,4 +1,4 @@
-//! `color` and `depth`: what a pass draws into, and how.
+//! `color` and `depth`: the targets of a pass, with their clears, blends and tests.
 
 use super::parts::{self, Selected};
 use super::values::{self, at, choice, optional};
@@ -11,7 +11,7 @@ use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
 fields! {
-    /// A colour target: what a pass draws colour into.
+    /// A colour target: an image that a pass draws colour into.
     /// ```ron
     /// (image: "image", mip: 0, clear: (0.0, 0.0, 0.0, 1.0))
     /// ```
@@ -24,15 +24,15 @@ fields! {
         layer: Option<Leaf<'src>> => parts::FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => parts::COUNT,
-        /// What it is cleared to first: red, green, blue and alpha, in linear values.
+        /// The clear value: red, green, blue and alpha, in linear values; not cleared if left out.
         clear: Option<Leaf<'src>> => values::COLOR,
-        /// How new colour meets old; `Replace` if left out.
+        /// The blend of new colour with old; `Replace` if left out.
         blend: Option<Leaf<'src>> => Form::Choice("a blend", || names(&BLENDS)),
     }
 }
 
 fields! {
-    /// A depth target: what a pass draws depth and stencil into.
+    /// A depth target: an image that a pass draws depth and stencil into.
     /// ```ron
     /// (image: "depth", clear: 0.0, stencil: (clear: 0, reference: 1, pass: Replace))
     /// ```
@@ -45,39 +45,39 @@ fields! {
         layer: Option<Leaf<'src>> => parts::FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => parts::COUNT,
-        /// What it is cleared to first, 0 to 1. Depth is reversed: 0 is infinitely far, 1 is nearest.
+        /// The clear value, 0 to 1; not cleared if left out. Depth is reversed: 0 is infinitely far, 1 is nearest.
         clear: Option<Leaf<'src>> => Form::Number,
-        /// Which fragments pass; `GreaterOrEqual` if left out.
+        /// The test that fragments have to pass; `GreaterOrEqual` if left out.
         test: Option<Leaf<'src>> => TEST,
-        /// Whether those that pass write their depth; they do if it is left out.
+        /// Whether fragments that pass write their depth; they do if it is left out.
         write: Option<Leaf<'src>> => Form::Truth,
-        /// What happens to stencil; nothing if left out.
+        /// The stencil state; nothing happens to stencil if left out.
         stencil: Option<Leaf<'src>> => Form::Fields(StencilFields::<'static>::table),
     }
 }
 
 fields! {
-    /// A stencil state: what a pass does to stencil.
+    /// A stencil state: the clear, test and writes of stencil in a pass.
     /// ```ron
     /// (test: Equal, reference: 1)
     /// ```
     struct StencilFields<'src> {
-        /// What it is cleared to first.
+        /// The clear value; not cleared if left out.
         clear: Option<Leaf<'src>> => BYTE,
-        /// Which fragments pass; `Always` if left out.
+        /// The test that fragments have to pass; `Always` if left out.
         test: Option<Leaf<'src>> => TEST,
-        /// What they are compared with, and what `Replace` writes; 0 if left out.
+        /// The value that the test compares with and that `Replace` writes; 0 if left out.
         reference: Option<Leaf<'src>> => BYTE,
-        /// What those that pass do; `Keep` if left out.
+        /// The operation of fragments that pass; `Keep` if left out.
         pass: Option<Leaf<'src>> => Form::Choice("a stencil operation", || names(&OPERATIONS)),
     }
 }
 
-/// What `color` takes.
+/// The form of `color`: a list of targets.
 pub(crate) const COLOR: Form =
     Form::List(&Form::Either(&[parts::EYE_IMAGE, Form::Fields(ColorTargetFields::<'static>::table)]));
 
-/// What `depth` takes.
+/// The form of `depth`: a target.
 pub(crate) const DEPTH: Form = Form::Either(&[parts::EYE_IMAGE, Form::Fields(DepthTargetFields::<'static>::table)]);
 
 const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
@@ -182,7 +182,7 @@ impl Context<'_> {
         }
     }
 
-    /// What happens to the stencil plane.
+    /// The stencil state.
     fn stencil(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<StencilState>>> {
         let Shape::Parentheses = leaf.shape() else {
             self.reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");

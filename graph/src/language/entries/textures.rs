@@ -25,7 +25,7 @@ fields! {
         /// `Srgb`: red, green and blue are encoded with the sRGB curve, as pictures for people are; `Linear`: all values are as
         /// they are, as in tables, noise and light. `Srgb` if left out; HDR and EXR files are linear.
         pub(crate) color_space: Option<Leaf<'src>> => Form::Choice("a colour space", || names(&COLOR_SPACES)),
-        /// The format, if not the one that holds what the file does: `R8G8B8A8_SRGB` or `_UNORM` of 8 bits,
+        /// The format. If left out, a format that holds the file's values: `R8G8B8A8_SRGB` or `_UNORM` of 8 bits,
         /// `R16G16B16A16_UNORM` of 16, `R16G16B16A16_SFLOAT` of floating point.
         format: Option<Leaf<'src>> => Form::Either(&[parameters::FORMAT, Form::Expression("a format")]),
         /// `D3`: the picture is a strip of N squares of N × N texels, one for each slice from left to right; a colour table has
@@ -41,7 +41,7 @@ const COLOR_SPACES: [(&str, ColorSpace); 2] = [("Srgb", ColorSpace::Srgb), ("Lin
 
 const SHAPES: [(&str, vulkan::Shape); 2] = [("D2", vulkan::Shape::D2), ("D3", vulkan::Shape::D3)];
 
-/// What was found behind the paths of pictures, by where they stand; `None` where a mistake was reported.
+/// Pictures, by the places of their paths; `None` where a mistake was reported.
 pub(crate) type Pictures = HashMap<Span, Option<Picture>>;
 
 /// A picture's file.

@@ -1,10 +1,10 @@
-//! What is read of an entry now, and told where it is evaluated.
+//! Values of an entry that are read now, and mistakes in them that are told where the entry is evaluated.
 
 use crate::base::Diagnostic;
 use crate::ron::Reader;
 
-/// What was read of an entry, and what is wrong with it. Mistakes are told where the entry is evaluated, and so with the
-/// uses of its fragment.
+/// A value of an entry, and the mistakes in it. Mistakes are told where the entry is evaluated, and so with the uses of
+/// its fragment.
 pub(crate) struct Told<T> {
     value: Option<T>,
     mistakes: Vec<Diagnostic>,
@@ -18,7 +18,7 @@ impl<T> Told<T> {
         Told { value, mistakes: reader.errors.split_off(before) }
     }
 
-    /// What was read, if anything was. Mistakes are reported to `reader`.
+    /// The value, if it could be read. Mistakes are reported to `reader`.
     pub(crate) fn get(&self, reader: &mut Reader) -> Option<&T> {
         self.mistakes.iter().for_each(|mistake| reader.report(mistake.clone()));
         self.value.as_ref()

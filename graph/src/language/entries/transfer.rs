@@ -1,4 +1,4 @@
-//! `copy`, `blit` and `fill`, and what `custom` reads and writes by transfer.
+//! `copy`, `blit` and `fill`, and the transfers of `custom`.
 
 use super::bindings::{self, FILTERS};
 use super::parts;
@@ -14,14 +14,14 @@ fields! {
     /// (from: "image", to: "target")
     /// ```
     struct CopyFields<'src> {
-        /// What is copied.
+        /// The source.
         from: Leaf<'src> => parts::ANY,
-        /// To where.
+        /// The target.
         to: Leaf<'src> => parts::ANY,
     }
 }
 
-/// What `copy` takes.
+/// The fields of `copy`.
 pub(crate) const COPY: Form = Form::Fields(CopyFields::<'static>::table);
 
 fields! {
@@ -30,16 +30,16 @@ fields! {
     /// (from: (image: "image", mip: 0), to: (image: "image", mip: 1), filter: Linear)
     /// ```
     struct BlitFields<'src> {
-        /// What is copied: one mip level.
+        /// The source: one mip level.
         from: Leaf<'src> => parts::IMAGE,
-        /// To where: one mip level.
+        /// The target: one mip level.
         to: Leaf<'src> => parts::IMAGE,
-        /// How texels are mixed; `Linear` for colour and else `Nearest` if left out.
+        /// The filter between texels; `Linear` for colour and else `Nearest` if left out.
         filter: Option<Leaf<'src>> => bindings::FILTER,
     }
 }
 
-/// What `blit` takes.
+/// The fields of `blit`.
 pub(crate) const BLIT: Form = Form::Fields(BlitFields::<'static>::table);
 
 fields! {
@@ -48,17 +48,17 @@ fields! {
     /// (to: "buffer", value: 0)
     /// ```
     struct FillFields<'src> {
-        /// What is set.
+        /// The target.
         to: Leaf<'src> => parts::ANY,
-        /// To what: a number for every component or word, depth and stencil, or red, green, blue and alpha.
+        /// The value: a number for every component or word, depth and stencil, or red, green, blue and alpha.
         value: Leaf<'src> => values::FILL,
     }
 }
 
-/// What `fill` takes.
+/// The fields of `fill`.
 pub(crate) const FILL: Form = Form::Fields(FillFields::<'static>::table);
 
-/// What `reads` and `writes` take.
+/// The form of `reads` and `writes`: an image or buffer, or a list of them and their parts.
 pub(crate) const TRANSFERRED: Form = Form::Either(&[parts::WHOLE_RESOURCE, Form::List(&parts::ANY)]);
 
 impl Context<'_> {

@@ -22,17 +22,17 @@ fields! {
     pub(crate) struct UseFields<'src> as "Use" {
         /// The fragment's name.
         pub(crate) r#use: Leaf<'src> => Form::Plain(Plain::Name),
-        /// Its own name: what it puts in is named `NAME.…`, in Plans too.
+        /// Its own name: all that it puts in is named `NAME.…`, in Plans too.
         pub(crate) name: Leaf<'src> => Form::Plain(Plain::Name),
         /// The view that all it puts in is for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
-        /// How often it stands there.
+        /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// Values for the fragment's parameters, by their names.
         pub(crate) with: Option<Leaf<'src>> => Form::Map("parameter", &ARGUMENT),
         /// A condition: if it is false, nothing is put in.
         pub(crate) when: Option<Leaf<'src>> => CONDITION,
-        /// What images that it would write take if nothing is put in.
+        /// Stand-ins: contents of the images that it would write, if nothing is put in.
         pub(crate) otherwise: Option<Leaf<'src>> => OTHERWISE,
     }
 }
@@ -51,7 +51,7 @@ pub(crate) struct UseEntry {
     /// The fragment, by number.
     pub(crate) fragment: usize,
     pub(crate) off: Given<Option<Off>>,
-    /// What fills images when it is off.
+    /// The stand-ins for when it is off.
     pub(crate) otherwise: Option<Otherwise>,
     /// Values for the fragment's parameters, in their order.
     pub(crate) arguments: Vec<Option<Argument>>,
@@ -195,7 +195,7 @@ impl Context<'_> {
     }
 }
 
-/// The value of an expression, and all that decided it.
+/// The value of an expression, and all decisions behind it.
 fn evaluated(expression: Expression) -> Given<DecidedValue> {
     Given::asked(move |evaluator| {
         let Outcome { value, decided, .. } = evaluator.evaluate(&expression)?;
@@ -212,7 +212,7 @@ const fn wanted(kind: &SettingKind) -> Wanted<'static> {
     }
 }
 
-/// A value that stands there by itself.
+/// A value that stands by itself, without quotes.
 fn plain(reader: &mut Reader, leaf: Leaf<'_>, parameter: &Parameter, kind: &SettingKind) -> Option<Value> {
     match kind {
         SettingKind::Bool { .. } => reader.truth(leaf).map(Value::Bool),

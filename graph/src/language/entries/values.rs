@@ -1,5 +1,5 @@
-//! Values that several fields take: numbers, truths, words, and what images and buffers are filled with. Each stands
-//! there by itself or as an expression in quotes.
+//! Values that several fields take: numbers, truths, words, and fills of images and buffers. Each stands by itself or as
+//! an expression in quotes.
 
 use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 impl Context<'_> {
-    /// A whole number of `range`. Of a plain setting all values must lie there. `what` names it: "number of mip levels".
+    /// A whole number within `range`; all values of a plain setting must lie there. `what` names it: "number of mip levels".
     pub(crate) fn whole<T: TryFrom<i64> + Kept>(
         &mut self,
         leaf: Leaf<'_>,
@@ -22,7 +22,7 @@ impl Context<'_> {
         self.whole_because(leaf, what, range).map(Given::alone)
     }
 
-    /// The same with its place.
+    /// A whole number as [`Context::whole`] reads it, with its place.
     pub(crate) fn whole_at<T: TryFrom<i64> + Kept>(
         &mut self,
         leaf: Leaf<'_>,
@@ -32,7 +32,7 @@ impl Context<'_> {
         self.whole_because(leaf, what, range).map(Given::spanned)
     }
 
-    /// The same with what decided it.
+    /// A whole number as [`Context::whole`] reads it, with its place and cause.
     pub(crate) fn whole_because<T: TryFrom<i64> + Kept>(
         &mut self,
         leaf: Leaf<'_>,
@@ -69,7 +69,7 @@ impl Context<'_> {
         self.number_because(leaf, "a value to fill with").map(Given::alone)
     }
 
-    /// A number, and what decided it. `what` names it: "a scale".
+    /// A number, and its cause. `what` names it: "a scale".
     pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Given<Decided<f64>>> {
         let Shape::Text = leaf.shape() else {
             return self.reader.number_as(leaf, Some(what)).map(|number| Given::said(leaf, number));
@@ -98,7 +98,7 @@ impl Context<'_> {
         typed(format, |value| if let Value::Format(format) = value { Some(format) } else { None })
     }
 
-    /// A value for a shader's parameter, and what stands for it in the file.
+    /// A value for a shader's parameter, and the words for it in the file.
     pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ParamValue>>> {
         match leaf.shape() {
             Shape::Text => {}
@@ -166,7 +166,7 @@ impl Context<'_> {
         })
     }
 
-    /// What an image or buffer is filled with, and its place.
+    /// The value of a fill, and its place.
     pub(crate) fn fill(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<Fill>>> {
         let fill = if !matches!(leaf.shape(), Shape::Parentheses) {
             self.fill_number(leaf)?.map(Fill::Number)
@@ -218,7 +218,7 @@ pub(crate) fn typed<T: Kept>(
     value.then(move |Decided { value, span, because }| Some(Decided { value: make(value)?, span, because }))
 }
 
-/// The whole number that a value is.
+/// The value as a whole number, if it is one.
 pub(crate) fn whole_number(value: Value) -> Option<i64> {
     if let Value::Integer(number) = value { Some(number) } else { None }
 }
@@ -233,7 +233,7 @@ pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: Given<T>) -> Given<Spanned<T>> 
     value.map(move |value| Spanned { value, span })
 }
 
-/// A whole number of `range` that stands there by itself.
+/// A whole number within `range` that stands by itself.
 fn constant<'src, T: TryFrom<i64>>(
     reader: &mut Reader,
     leaf: Leaf<'src>,
@@ -291,7 +291,7 @@ pub(crate) fn choice<'src, T: Copy>(
     choices.iter().find(|(choice, _)| *choice == word).map(|(_, value)| *value)
 }
 
-/// What an image or buffer is filled with: every component or word, depth and stencil, or a colour.
+/// The form of a fill: a value for every component or word, depth and stencil, or a colour.
 pub(crate) const FILL: Form = Form::Either(&[Form::Number, Form::Tuple(&[Form::Number, Form::Number]), COLOR]);
 
 /// Red, green, blue and alpha.
@@ -299,7 +299,7 @@ pub(crate) const COLOR: Form = Form::Tuple(&[Form::Number, Form::Number, Form::N
 
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";
 
-/// A field with its word, and what decided it.
+/// A field with its word, and the cause of the word.
 pub(crate) fn said(field: &str, word: &str, because: Option<Arc<str>>) -> Arc<str> {
     let because = because.map(|because| format!(" ({because})")).unwrap_or_default();
     format!("`{field}: {word}`{because}").into()

@@ -1,4 +1,4 @@
-//! `views`: from where, how large and with what the parts of a frame are drawn.
+//! `views`: the cameras, sizes and settings with which the parts of a frame are drawn.
 
 use super::values::optional;
 use super::{list, presets, sizes};
@@ -12,13 +12,13 @@ use crate::language::scope::{Context, DecidedValue, Evaluator, Given, GivenTuple
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
-    /// A view: what is seen from one place, at a size and with values of settings of its own.
+    /// A view: a picture from one place, with a size and values of settings of its own.
     ///
     /// ```ron
     /// (name: "preview", size: Scaled(0.25), camera: "top", allows_msaa: false, set: {"bloom": false})
     /// ```
     struct ViewFields<'src> as "View" {
-        /// Its name, by which images, buffers, passes and uses say that they are for it.
+        /// Its name, which images, buffers, passes and uses give in their `view`.
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
@@ -26,23 +26,23 @@ fields! {
         size: Option<Leaf<'src>> => Form::Words(&SIZES),
         /// The scene's camera of that name; the scene's own if left out.
         camera: Option<Leaf<'src>> => Form::Plain(Plain::Text),
-        /// What conditions see as `view.allows_msaa`; true if left out.
+        /// The value of `view.allows_msaa` in conditions; true if left out.
         allows_msaa: Option<Leaf<'src>> => Form::Truth,
-        /// What conditions see as `view.allows_hdr`; true if left out.
+        /// The value of `view.allows_hdr` in conditions; true if left out.
         allows_hdr: Option<Leaf<'src>> => Form::Truth,
-        /// What conditions see as `view.allows_scale`; true if left out.
+        /// The value of `view.allows_scale` in conditions; true if left out.
         allows_scale: Option<Leaf<'src>> => Form::Truth,
-        /// Over how many frames, 1 to 256, what its camera sees is shifted by parts of a texel, each time otherwise; 1, not at
-        /// all, if left out.
+        /// The number of frames, 1 to 256, over which its picture is shifted by parts of a texel, each time otherwise; 1, not
+        /// at all, if left out.
         jitter: Option<Leaf<'src>> => JITTER,
-        /// The size of the picture whose texels are meant, where `Output` is the view's size; that if left out.
+        /// The size of the picture in whose texels the shifts are counted. `Output` is the view's size, and the default.
         jitter_size: Option<Leaf<'src>> => Form::Words(&SIZES),
-        /// Values of settings that hold within it, whatever the user chooses.
+        /// Values of settings within it, in place of the user's choices.
         set: Option<Leaf<'src>> => presets::SET,
     }
 }
 
-/// How often a picture may be shifted otherwise.
+/// The number of frames over which a picture is shifted.
 const JITTER: Form = Form::Whole(1, frame::LONGEST_JITTER as i64);
 
 /// The views of a pipeline.
@@ -82,7 +82,7 @@ pub(crate) struct ViewEntries {
 /// A view, and the values that settings have within it.
 type SetView = (View, Vec<Option<DecidedValue>>);
 
-/// What expressions see that stand in a view.
+/// The inputs of expressions in a view.
 pub(crate) struct ViewInputs<'a> {
     pub(crate) surroundings: Surroundings<'a>,
     /// Values of settings.
@@ -132,12 +132,12 @@ impl ViewEntries {
 }
 
 impl<'a> Views<'a> {
-    /// No views: all is drawn for one that has the frame's size.
+    /// No views: all is drawn for one view, of the frame's size.
     pub(crate) const fn none() -> Views<'a> {
         Views(Vec::new())
     }
 
-    /// Puts in the values of views; `surroundings` are those of the frame.
+    /// Puts in the values of views; `surroundings` belong to the frame.
     pub(crate) fn new(
         entries: &ViewEntries,
         surroundings: &Surroundings<'a>,
@@ -151,7 +151,7 @@ impl<'a> Views<'a> {
         Views(views.collect())
     }
 
-    /// What expressions see within a view; `None`: what they see of the frame.
+    /// The inputs of expressions in a view; `None`: the frame's inputs.
     pub(crate) fn inputs(&self, view: ViewIndex) -> Option<&ViewInputs<'a>> {
         self.0.get(view.0 as usize)?.as_ref().map(|(_, inputs)| inputs)
     }
@@ -162,7 +162,7 @@ impl<'a> Views<'a> {
         Some(&view.name)
     }
 
-    /// All of them. `None` if one has a mistake.
+    /// All views; `None` if one has a mistake.
     pub(crate) fn into_list(self) -> Option<Vec<View>> {
         self.0.into_iter().map(|view| view.map(|(view, _)| view)).collect()
     }
@@ -176,7 +176,7 @@ fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
     }
 }
 
-/// Said of a first view with a size.
+/// The message about a first view with a size.
 const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
 
 /// The size of the frame, or of the view at hand.
@@ -233,7 +233,7 @@ impl Context<'_> {
         }))
     }
 
-    /// How what a view's camera sees is shifted.
+    /// The shifts of a view's picture.
     fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<Given<Option<Jitter>>> {
         let range = 1..=i64::from(frame::LONGEST_JITTER);
         let length = |leaf| self.whole::<u16>(leaf, "number of shifts", range);

@@ -1,4 +1,4 @@
-//! What a pass does: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
+//! The work of a pass: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
 
 use super::draw::DrawFields;
 use super::pass_fields::PassFields;
@@ -24,7 +24,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
 ];
 
 impl Context<'_> {
-    /// The one thing that the pass does. `what` names the pass.
+    /// The work of a pass. `what` names the pass.
     pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<Given<Work>> {
         let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
         let named = [
@@ -77,7 +77,7 @@ impl Context<'_> {
     }
 }
 
-/// Reports fields that have no meaning beside what the pass does.
+/// Reports fields that have no meaning beside the work of the pass.
 fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
     let reads_something = fields.sample.is_some() || fields.uniform.is_some();
     let values = [

@@ -1,4 +1,4 @@
-//! What follows something else may itself be followed, but not in a circle.
+//! Images and buffers may follow each other's properties, but not in a circle.
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;

@@ -13,7 +13,7 @@ use crate::ron::{Name, Reader};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// What an evaluation is for.
+/// The purpose of an evaluation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// The pipeline for one choice of values.
@@ -48,13 +48,13 @@ pub(super) struct Evaluation<'a> {
 pub(super) struct Level<'b> {
     pub(super) body: &'b Body,
     pub(super) values: LevelValues,
-    /// The beginning of the names of what it makes: `glow.`.
+    /// The beginning of the names of its images, buffers and passes: `glow.`.
     pub(super) prefix: Arc<str>,
     /// The view that it is for.
     pub(super) view: ViewIndex,
     /// The fragment's instance: a number in the list of them.
     pub(super) instance: Option<u32>,
-    /// Whether it is off, so that what has no value is no mistake.
+    /// Whether it is off, so that an expression without a value is no mistake.
     pub(super) off: bool,
 }
 
@@ -63,7 +63,7 @@ pub(super) enum Count {
     Known(u32),
     /// It depends on images whose properties aren't known yet.
     Later,
-    /// That was reported.
+    /// A mistake in the number was reported.
     Failed,
 }
 
@@ -125,7 +125,7 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// What finds the values of an entry of a level that is for `view`; `index` is the number of the repetition.
+    /// The evaluator of an entry of a level, for `view`; `index` is the number of the repetition.
     pub(super) fn evaluator<'s>(
         &'s self,
         reader: &'s mut Reader,

@@ -14,7 +14,7 @@ pub(super) struct Flat {
     pub(super) instances: Vec<Instance>,
 }
 
-/// How long the lists are: of images, buffers, passes and instances.
+/// The lengths of the lists of images, buffers, passes and instances.
 #[derive(Clone, Copy)]
 pub(super) struct Lengths {
     images: usize,
@@ -38,7 +38,7 @@ impl Flat {
         Lengths { images: images.len(), buffers: buffers.len(), passes: passes.len(), instances: instances.len() }
     }
 
-    /// Takes back what was made since the lists had these lengths.
+    /// Removes all entries since the lists had these lengths.
     pub(super) fn truncate(&mut self, to: Lengths) {
         self.images.truncate(to.images);
         self.properties.truncate(to.images);
@@ -47,7 +47,7 @@ impl Flat {
         self.instances.truncate(to.instances);
     }
 
-    /// Takes down that something was reported that has no place in the lists: there is no pipeline then.
+    /// Notes that a mistake was reported which has no place in the lists: there is no pipeline then.
     pub(super) fn fail(&mut self) {
         self.passes.push(None);
     }

@@ -1,4 +1,4 @@
-//! A whole pipeline is evaluated: views, then all entries, then what belongs to it alone.
+//! A whole pipeline is evaluated: views, then all entries, then its policies and outputs.
 
 use super::evaluation::{Evaluation, Level, Purpose};
 use super::{circles, previous};
@@ -11,7 +11,7 @@ use crate::language::scope::DecidedValue;
 use crate::ron::Reader;
 use std::collections::HashSet;
 
-/// Evaluates a pipeline for values of its settings. `None` if errors were reported; what a check makes is worth nothing.
+/// Evaluates a pipeline for values of its settings. `None` if errors were reported. The pipeline of a check is not used.
 pub(crate) fn evaluate(
     reader: &mut Reader,
     entries: &Entries,

@@ -1,4 +1,4 @@
-//! What expressions may ask of an image: its size, mip levels, layers and samples, as soon as it is evaluated.
+//! Properties of an image in expressions: its size, mip levels, layers and samples, as soon as it is evaluated.
 
 use crate::base::Diagnostic;
 use crate::language::model::{Image, ImageRef, ImageShape, Layers, Mips, Samples, Size, area};

@@ -17,8 +17,7 @@ const MOST_NESTED: usize = 32;
 const MOST_SHOWN: usize = 10;
 
 impl Evaluation<'_> {
-    /// Puts in what a use asks for. If the use is off, a pass that does nothing stands for it, with what fills its
-    /// targets instead.
+    /// Puts in the fragment of a use. If the use is off, a pass that does nothing stands for it, with the use's stand-ins.
     pub(super) fn put_in(
         &mut self,
         reader: &mut Reader,
@@ -143,7 +142,7 @@ impl Evaluation<'_> {
         true
     }
 
-    /// Says of mistakes from `start` on where the fragment was used. Those that an earlier use showed are taken out.
+    /// Adds the use of the fragment to mistakes from `start` on. Mistakes that an earlier use showed are taken out.
     fn used_here(&mut self, reader: &mut Reader, start: usize, name: &Name) {
         let new: Vec<Diagnostic> = reader.errors.drain(start..).collect();
         for error in new {

@@ -1,4 +1,4 @@
-//! Images and buffers of a level: how many there are, then what each is like.
+//! Images and buffers of a level: how many there are, then the properties of each.
 
 use super::evaluation::{Count, Evaluation, Level};
 use super::properties;
@@ -44,7 +44,7 @@ impl Evaluation<'_> {
         self.each(reader, level, evaluated..images + body.buffers.len());
     }
 
-    /// Evaluates those of a range: images, then buffers.
+    /// Evaluates images and buffers by number: images are counted first, then buffers.
     fn each(&mut self, reader: &mut Reader, level: &Level<'_>, range: Range<usize>) {
         let images = level.body.images.len();
         for at in range {

@@ -1,4 +1,4 @@
-//! What a scene is made of, as far as a pipeline file may ask: one table of names, types, values and meanings.
+//! Facts of a scene that pipeline files may ask for: one table of names, types, values and meanings.
 
 use std::fmt;
 
@@ -27,8 +27,8 @@ pub struct Facts {
     pub objects: u32,
     /// See [`Fact::Triangles`].
     pub triangles: u64,
-    /// How many times as long as the nearest near distance of its cameras anything may be away from a camera that stands among
-    /// all that there is, at least 1; `None`: that isn't known. Formats of depth follow it; pipeline files have no name for it.
+    /// The greatest distance between a camera and anything in the scene, divided by the least near distance of its cameras; at
+    /// least 1. `None`: not known. Formats of depth follow it; pipeline files have no name for it.
     pub depth_range: Option<f64>,
 }
 
@@ -49,13 +49,13 @@ pub enum Fact {
     PeakRadiance,
     /// How many suns shine.
     Suns,
-    /// How many lights with a place shine.
+    /// How many point lights shine.
     PointLights,
     /// How many lights of any kind shine.
     Lights,
     /// How many objects there are.
     Objects,
-    /// How many triangles they have together.
+    /// How many triangles all objects have together.
     Triangles,
 }
 
@@ -134,7 +134,7 @@ impl Fact {
         self.row().1
     }
 
-    /// What it says, without final stop.
+    /// The meaning, without final stop.
     #[must_use]
     pub const fn about(self) -> &'static str {
         self.row().2
@@ -142,7 +142,7 @@ impl Fact {
 }
 
 impl Facts {
-    /// What is assumed of a scene that isn't there: it holds everything, and as much of it as a scene may.
+    /// The facts of an unknown scene: it holds everything, and as much of it as a scene may.
     pub const UNKNOWN: Facts = Facts {
         has_opaque: true,
         has_alpha_clip: true,
@@ -175,8 +175,8 @@ impl Facts {
         }
     }
 
-    /// The same facts, but for `fact`. A value of another type than the fact's changes nothing; counts beyond what is counted
-    /// become the largest. Of so many [`Fact::Lights`] one is a sun.
+    /// These facts with another value of `fact`. A value of another type than the fact's changes nothing; a count that is too
+    /// large becomes the largest. Of several [`Fact::Lights`] one is a sun.
     #[must_use]
     pub fn with(mut self, fact: Fact, value: FactValue) -> Facts {
         let count = |value: i64| u32::try_from(value.max(0)).unwrap_or(u32::MAX);

@@ -1,4 +1,4 @@
-//! What a pipeline is evaluated for, besides the values of its settings: facts of the scene, the view and the device.
+//! The inputs of an evaluation besides values of settings: facts of the scene, the view and the device.
 
 mod facts;
 mod surroundings;

@@ -1,4 +1,4 @@
-//! What a pipeline is made for: the names `scene.…`, `view.…` and `device.…` in expressions, and their values.
+//! The surroundings of a pipeline: the names `scene.…`, `view.…` and `device.…` in expressions, and their values.
 
 use super::facts::{Fact, FactType, FactValue, Facts};
 use crate::device::Profile;
@@ -7,18 +7,18 @@ use crate::expression::{Origin, Type, Value};
 use crate::frame::Allowances;
 use crate::vulkan::Format;
 
-/// What a pipeline is made for, besides the values of its settings.
+/// The scene, view and device that a pipeline is evaluated for.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
-    /// What is known about the scene.
+    /// The facts of the scene.
     pub facts: Facts,
     /// Width and height of the frame, or of the view at hand, in texels.
     pub extent: [u32; 2],
-    /// How many eyes see it: 1 or 2.
+    /// The number of eyes: 1 or 2.
     pub eyes: u32,
-    /// What may be spent on it.
+    /// Costs that the view allows.
     pub allows: Allowances,
-    /// The device; `None`: one that can do just what Vulkan 1.3 demands of every device.
+    /// The device; `None`: a device with the least that Vulkan 1.3 demands.
     pub device: Option<&'a Profile>,
 }
 
@@ -75,7 +75,7 @@ const INPUTS: [Input; 14] = [
     }),
 ];
 
-/// The name, type, kind and meaning of all of them, by number: facts first.
+/// The names that every pipeline may use, by number, facts first: name, type, kind and meaning.
 fn all() -> impl Iterator<Item = (&'static str, Type, Origin, &'static str)> {
     let facts = Fact::ALL.into_iter().map(|fact| {
         let ty = match fact.ty() {
@@ -88,13 +88,13 @@ fn all() -> impl Iterator<Item = (&'static str, Type, Origin, &'static str)> {
     facts.chain(INPUTS.iter().map(|input| (input.name, input.ty, input.origin, input.about)))
 }
 
-/// Every name that begins with `prefix`: "scene", "view" or "device", with its type and what it says.
+/// Every name that begins with `prefix`: "scene", "view" or "device", with its type and meaning.
 pub fn names_of(prefix: &str) -> impl Iterator<Item = (&'static str, Type, &'static str)> {
     let of_it = move |name: &str| name.split_once('.').is_some_and(|(first, _)| first == prefix);
     all().filter(move |(name, ..)| of_it(name)).map(|(name, ty, _, about)| (name, ty, about))
 }
 
-/// Every such name.
+/// Every name of the scene, the view and the device.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     all().map(|(name, ..)| name)
 }

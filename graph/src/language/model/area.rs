@@ -16,14 +16,14 @@ pub(crate) struct Area {
     pub(crate) allocated: Option<[u32; 2]>,
 }
 
-/// A linear filter reads two texels in each direction, the second with weight 0 where the first is met: both must be in use, since
-/// 0 times what was never drawn need not be 0.
+/// The least part in use, in texels. A linear filter reads two texels in each direction, one of them possibly with weight 0:
+/// both must be drawn, since 0 times an undrawn value need not be 0.
 const LEAST_PART: u32 = 2;
 
-/// The area of an image in a view of this size, which follows another image's if its size says so; `None`: that isn't known.
+/// The area of an image in a view of the size `view`; `None`: unknown. `followed` is the area of the image that it follows.
 ///
 /// # Errors
-/// If it is more than an image may have.
+/// If the size is larger than an image may have.
 pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Result<Option<Area>, Diagnostic> {
     let whole = |extent| Area { extent, allocated: None };
     let (by, up_to, of) = match image.size.value {
@@ -38,7 +38,7 @@ pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Res
     if base.allocated.is_none() && up_to.is_none() {
         return Ok(Some(whole(extent)));
     }
-    // What follows an image whose size changes has room for the greatest, too.
+    // An image that follows one of changing size also has room for the greatest size.
     let allocated = scaled(image, base.allocated.unwrap_or(base.extent), up_to.unwrap_or(by))?;
     let least = [0, 1].map(|side| extent[side].max(allocated[side].min(LEAST_PART)));
     Ok(Some(Area { extent: least, allocated: Some(allocated) }))
@@ -47,7 +47,7 @@ pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Res
 /// `base` times a factor, rounded down, at least 1.
 ///
 /// # Errors
-/// If that is more than an image may have.
+/// If the product is larger than an image may have.
 fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagnostic> {
     times(base, factor).map_err(|[width, height]| {
         let name = &image.name.text;
@@ -58,7 +58,7 @@ fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagno
     })
 }
 
-/// `base` times a factor, rounded down, at least 1; or what that would be, as it is shown, if it is too much.
+/// `base` times a factor, rounded down, at least 1. If that is too large, an error with both numbers as messages show them.
 pub(crate) fn times(base: [u32; 2], factor: f64) -> Result<[u32; 2], [String; 2]> {
     let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
     if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {

@@ -11,9 +11,9 @@ use std::sync::Arc;
 pub struct Preset {
     /// Unique name.
     pub name: Name,
-    /// What it is for, for people.
+    /// A description for people.
     pub about: Option<String>,
-    /// What it chooses; no setting twice.
+    /// The chosen values, each setting at most once.
     pub set: Vec<Choice>,
 }
 
@@ -28,12 +28,12 @@ pub struct Choice {
     pub span: Span,
 }
 
-/// What a settings file says to a pipeline: `Settings(version: 1, preset: "low", set: {"msaa": 2})`.
+/// The contents of a settings file, read for a pipeline: `Settings(version: 1, preset: "low", set: {"msaa": 2})`.
 #[derive(Debug, Clone, Default)]
 pub struct SettingsFile {
-    /// The preset that it chooses: an index into [`Document::presets`](crate::language::Document::presets).
+    /// The chosen preset: an index into [`Document::presets`](crate::language::Document::presets).
     pub preset: Option<usize>,
-    /// What it chooses; no setting twice.
+    /// The chosen values, each setting at most once.
     pub set: Vec<Choice>,
 }
 
@@ -55,11 +55,11 @@ pub enum ChosenBy {
     Preset(Arc<str>),
     /// A settings file, at that place.
     File(Span),
-    /// The one who puts the pipeline together, by [`Inputs::set`](crate::expand::Inputs::set): the command line.
+    /// The caller, by [`Inputs::set`](crate::expand::Inputs::set): the command line.
     Set,
 }
 
-/// That a pipeline has no preset of that name.
+/// The mistake that a pipeline has no preset of that name.
 pub(crate) fn unknown_preset(name: &str, presets: &[Preset]) -> Diagnostic {
     let help = suggestion(name, presets.iter().map(|preset| &*preset.name.text))
         .or_else(|| Some("this pipeline has no presets".to_owned()));

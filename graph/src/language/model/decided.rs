@@ -1,17 +1,17 @@
-//! Values that a file says, with what decided them.
+//! Values that a file says, with their causes.
 
 use crate::base::Span;
 use crate::ron::Spanned;
 use std::sync::Arc;
 
-/// A value, its place, and what decided it.
+/// A value, its place, and its cause: the settings and facts that decided it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided<T> {
     /// The value.
     pub value: T,
     /// Where it was written.
     pub span: Span,
-    /// What decided it, if anything did: "msaa = 4".
+    /// The cause, if the value has one: "msaa = 4".
     pub because: Option<Arc<str>>,
 }
 
@@ -21,7 +21,7 @@ impl<T> Decided<T> {
         Decided { value, span, because: None }
     }
 
-    /// What is made of the value; the same decided it.
+    /// A value that is computed from this one, with the same cause.
     pub(crate) fn map<U>(self, make: impl FnOnce(T) -> U) -> Decided<U> {
         Decided { value: make(self.value), span: self.span, because: self.because }
     }
@@ -40,7 +40,7 @@ impl<T> Decided<T> {
         Spanned { value: self.value, span: self.span }
     }
 
-    /// What decided it, as remarks have it.
+    /// The cause as a remark; empty if the value has none.
     pub(crate) fn remark(&self) -> &str {
         self.because.as_deref().unwrap_or_default()
     }

@@ -8,7 +8,7 @@ use crate::vulkan::Aspects;
 /// An image or buffer, or a part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Part {
-    /// Of an image.
+    /// An image or a part of it.
     Image(ImagePart),
     /// A buffer.
     Buffer(BufferPart),
@@ -25,9 +25,9 @@ pub struct ImagePart {
     pub layers: Selection,
     /// Which plane; `None`: all that it has.
     pub plane: Option<Spanned<Aspects>>,
-    /// Of how many frames before this one.
+    /// How many frames back; `None`: this frame.
     pub previous: Option<Spanned<u32>>,
-    /// The eye whose image it is; `None`: whichever the pass is drawn for.
+    /// The eye whose image it is; `None`: the eye that the pass is drawn for.
     pub eye: Option<Spanned<Eye>>,
 }
 
@@ -36,7 +36,7 @@ pub struct ImagePart {
 pub struct BufferPart {
     /// Which buffer.
     pub buffer: BufferRef,
-    /// Of how many frames before this one.
+    /// How many frames back; `None`: this frame.
     pub previous: Option<Spanned<u32>>,
 }
 
@@ -68,7 +68,7 @@ impl ImagePart {
 }
 
 impl Part {
-    /// Which image or buffer, and where it was named.
+    /// The image or buffer, and where it was named.
     #[must_use]
     pub fn resource(&self) -> ResourceRef {
         match self {
@@ -77,7 +77,7 @@ impl Part {
         }
     }
 
-    /// Of how many frames before this one.
+    /// How many frames back; `None`: this frame.
     #[must_use]
     pub const fn previous(&self) -> Option<Spanned<u32>> {
         match self {

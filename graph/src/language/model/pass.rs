@@ -1,4 +1,4 @@
-//! What a pipeline file says of a pass: what it does, with which parts of which images and buffers, and when.
+//! Passes as a pipeline file declares them: their work, their images and buffers, and their conditions.
 
 use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
@@ -14,9 +14,9 @@ use std::sync::Arc;
 pub struct Pass {
     /// Unique name.
     pub name: Name,
-    /// That and why it does not run; `None`: it does.
+    /// Why the pass does not run; `None`: it runs.
     pub off: Option<Off>,
-    /// What it does.
+    /// The work of the pass.
     pub work: Work,
     /// Images that its shaders sample.
     pub sample: Vec<Sample>,
@@ -34,13 +34,13 @@ pub struct Pass {
     pub color: Vec<Color>,
     /// Depth (and stencil) target.
     pub depth: Option<Depth>,
-    /// Where it is said, if the alpha of the first colour says how many samples are covered.
+    /// The place of `alpha_to_coverage`, if it is on: the alpha of the first colour tells how many samples are covered.
     pub alpha_to_coverage: Option<Span>,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
     pub side_effect: bool,
-    /// What its targets take instead when it is off.
+    /// Stand-ins: contents of its targets when the pass is off.
     pub otherwise: Vec<StandIn>,
     /// The view that it draws for.
     pub view: ViewIndex,
@@ -53,7 +53,7 @@ pub struct Pass {
 pub struct Off {
     /// Where its condition stands.
     pub span: Span,
-    /// What made the condition fail: "tone_mapping = false".
+    /// The cause of the failed condition: "tone_mapping = false".
     pub because: String,
 }
 
@@ -62,48 +62,48 @@ pub struct Off {
 pub struct LeftOut {
     /// The shader's name for it.
     pub binding: Name,
-    /// What it would be; `None` if it has no value then.
+    /// The image as the pass would sample it; `None` if it has no value while it is left out.
     pub sample: Option<Sample>,
-    /// Why.
+    /// Why it is left out.
     pub off: Off,
 }
 
-/// What a pass does.
+/// The work of a pass.
 #[derive(Debug, Clone)]
 pub enum Work {
     /// It draws into its targets.
     Draw {
-        /// What.
+        /// The draw.
         draw: Draw,
-        /// By which shader.
+        /// The shader's name.
         shader: Name,
     },
     /// It runs a compute shader.
     Dispatch {
-        /// Which one.
+        /// The shader's name.
         shader: Name,
-        /// How many workgroups.
+        /// The number of workgroups.
         groups: Spanned<Groups>,
     },
     /// It copies.
     Copy {
-        /// What.
+        /// The source.
         from: Part,
-        /// To where.
+        /// The target.
         to: Part,
     },
     /// It copies an image and scales it.
     Blit {
-        /// What.
+        /// The source.
         from: Part,
-        /// To where.
+        /// The target.
         to: Part,
         /// Filter, if the file chooses one.
         filter: Option<Spanned<Filter>>,
     },
     /// It sets an image or buffer to a value.
     Fill {
-        /// Which one.
+        /// The image or buffer.
         to: Part,
         /// The value.
         value: Spanned<Fill>,
@@ -112,19 +112,19 @@ pub enum Work {
     Custom {
         /// The name by which the program knows it.
         callback: Name,
-        /// What it reads by transfer.
+        /// Parts that it reads by transfer.
         reads: Vec<Part>,
-        /// What it writes by transfer.
+        /// Parts that it writes by transfer.
         writes: Vec<Part>,
     },
 }
 
-/// What a raster pass draws.
+/// The draw of a raster pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Draw {
     /// One of the scene's draw lists.
     Objects(DrawList),
-    /// What casts the sun's shadow.
+    /// Casters of the sun's shadow, for one cascade.
     Casters(Cascade),
     /// The sky.
     Sky,
@@ -137,7 +137,7 @@ pub enum Draw {
         /// How many times.
         instances: u32,
     },
-    /// As many as a buffer says.
+    /// An indirect draw: a buffer holds the counts.
     Indirect(BufferPart),
 }
 
@@ -150,11 +150,11 @@ pub enum Groups {
     Invocations([u32; 3]),
     /// As many as cover one invocation for each texel of an image, its layers or depth in z.
     Texels(ImagePart),
-    /// As many as a buffer says.
+    /// An indirect dispatch: a buffer holds the counts.
     Indirect {
-        /// Which one.
+        /// The buffer of the counts.
         buffer: BufferPart,
-        /// Where in it, in bytes.
+        /// Offset in the buffer, in bytes.
         offset: u64,
     },
 }
@@ -166,13 +166,13 @@ pub struct Sample {
     pub binding: Name,
     /// Which part of which image.
     pub part: ImagePart,
-    /// Which of its faces.
+    /// The face of the image.
     pub face: Face,
     /// Filter between texels, if the file chooses one.
     pub filter: Option<Spanned<Filter>>,
     /// Filter between mip levels, if the file chooses one.
     pub mip_filter: Option<Spanned<Filter>>,
-    /// What lies beyond its edges, if the file chooses that.
+    /// Address mode beyond the edges, if the file chooses one.
     pub address: Option<Spanned<AddressMode>>,
     /// Whether each fragment reads only the texel at its own position, if the file says so.
     pub own_pixel: Option<Spanned<bool>>,
@@ -181,13 +181,13 @@ pub struct Sample {
 /// A face of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
-    /// Whichever the shader's declaration asks for.
+    /// The face that the shader's declaration asks for.
     Plain,
     /// Each sample by itself.
     Samples,
     /// One value a texel.
     Resolved,
-    /// One value of depth a texel: where there are several samples, that which drawing it again with one leaves.
+    /// One value of depth a texel. Where there are several samples, the depth is drawn again with one.
     DepthOnly,
 }
 
@@ -198,16 +198,16 @@ pub struct Storage {
     pub binding: Name,
     /// Which part of which image, or which buffer.
     pub part: Part,
-    /// What is done with it; `None`: what the shader's declaration allows.
+    /// The access; `None`: the access that the shader's declaration allows.
     pub access: Option<Spanned<StorageAccess>>,
 }
 
-/// What a shader does with an image or buffer.
+/// The access of a shader to a storage image or buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StorageAccess {
     /// It is read.
     Read,
-    /// It is written anew, all of it.
+    /// All of it is written, and nothing of it is read before.
     Write,
     /// It is read and written, or written in some places and kept in others.
     ReadWrite,
@@ -218,7 +218,7 @@ pub enum StorageAccess {
 pub struct Uniform {
     /// The shader's name for it.
     pub binding: Name,
-    /// Which one.
+    /// The buffer.
     pub part: BufferPart,
 }
 
@@ -229,7 +229,7 @@ pub struct Color {
     pub part: ImagePart,
     /// Clear value (linear red, green, blue, alpha).
     pub clear: Option<[f32; 4]>,
-    /// How new colour meets old.
+    /// The blend of new colour with old.
     pub blend: Spanned<Blend>,
 }
 
@@ -244,7 +244,7 @@ pub struct Depth {
     pub test: CompareOp,
     /// Whether passing fragments write depth.
     pub write: bool,
-    /// What happens to the stencil plane.
+    /// The stencil state; `None`: nothing happens to the stencil plane.
     pub stencil: Option<Spanned<StencilState>>,
 }
 
@@ -255,11 +255,11 @@ pub struct Param {
     pub name: Name,
     /// Its value.
     pub value: Spanned<ParamValue>,
-    /// What stands for it in the file, if that is no plain value: "setting `white_point`".
+    /// The words in the file, if they are no plain value: "setting `white_point`".
     pub written: Option<Arc<str>>,
 }
 
-/// What fills a target of a pass that is off.
+/// A stand-in: it fills a target of a pass that is off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StandIn {
     /// Another image is copied into it.
@@ -273,7 +273,7 @@ pub enum StandIn {
     },
 }
 
-/// What a target takes when its pass is off: `to` gets what `from` holds.
+/// A copy in place of a pass that is off: `to` gets the contents of `from`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forward {
     /// Source.
@@ -283,7 +283,7 @@ pub struct Forward {
 }
 
 impl StandIn {
-    /// What it fills.
+    /// The image that it fills.
     #[must_use]
     pub const fn target(&self) -> ImageRef {
         match self {
@@ -305,7 +305,7 @@ impl Work {
 }
 
 impl Pass {
-    /// One that does nothing.
+    /// A pass that does nothing.
     pub(crate) fn idle(name: Name) -> Pass {
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: Vec::new() };
         Pass {
@@ -337,7 +337,7 @@ impl Pass {
         parts.map(|part| part.resource().resource)
     }
 
-    /// The name of its shader, or of what the embedding program records; copies, blits and fills have none.
+    /// The name of its shader, or of the embedding program's callback; copies, blits and fills have none.
     #[must_use]
     pub const fn shader(&self) -> Option<&Name> {
         match &self.work {

@@ -1,4 +1,4 @@
-//! What a pipeline file says, as owned data: every name is found, every value has its place.
+//! A pipeline as owned data: every name is found, every value has its place.
 
 use super::pass::Pass;
 use super::references::ResourceRef;
@@ -10,7 +10,7 @@ use crate::ron::Spanned;
 use crate::vulkan::Encoding;
 use std::sync::Arc;
 
-/// A pipeline with all that it was made for put in: flat lists, names unique, every reference found, every expression
+/// A pipeline with the values of its surroundings put in: flat lists, names unique, every reference found, every expression
 /// evaluated, nothing follows itself. Made by [`Document::lower`](crate::language::Document::lower).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -24,12 +24,12 @@ pub struct Pipeline {
     pub buffers: Vec<Buffer>,
     /// Passes in the order that gives them meaning.
     pub passes: Vec<Pass>,
-    /// How several samples of depth become one value, of images that don't say it; `None`: whatever drew it is drawn again
-    /// for passes that sample it.
+    /// How several samples of depth become one value, for images without `resolve`; `None`: the depth is drawn again for
+    /// passes that sample it.
     pub depth: Option<Resolves>,
-    /// What `Color` becomes; `None`: [`Precision::Balanced`](super::Precision).
+    /// The precision of the format `Color`; `None`: [`Precision::Balanced`](super::Precision).
     pub color: Option<Precisions>,
-    /// What `Depth` and `DepthStencil` become; `None`: [`Precision::Exact`](super::Precision).
+    /// The precision of the formats `Depth` and `DepthStencil`; `None`: [`Precision::Exact`](super::Precision).
     pub depth_format: Option<Precisions>,
     /// Images and buffers that leave the frame.
     pub outputs: Vec<Output>,
@@ -53,7 +53,7 @@ pub struct RemovedPass {
 /// A fragment that was put in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Instance {
-    /// The whole name: `glow`, `effects.glow[1]`. The names of what it makes begin with it.
+    /// The whole name: `glow`, `effects.glow[1]`. The names of its images, buffers and passes begin with it.
     pub name: Arc<str>,
     /// Where its use is named.
     pub span: Span,
@@ -68,8 +68,8 @@ pub struct Output {
     pub resource: ResourceRef,
     /// The state in which it is to be left, if the file asks for one.
     pub after: Option<Spanned<State>>,
-    /// What its numbers mean, if the file says it.
+    /// The encoding of its numbers, if the file says it.
     pub encoding: Option<Spanned<Encoding>>,
-    /// The eye whose it is; no file says it.
+    /// The eye that it belongs to; no file says it.
     pub eye: Option<Eye>,
 }

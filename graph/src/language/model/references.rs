@@ -1,4 +1,4 @@
-//! What entries refer to: an image, a buffer, either.
+//! References of entries: to an image, to a buffer, or to either.
 
 use crate::base::Span;
 use crate::frame::{BufferIndex, ImageIndex, Resource};

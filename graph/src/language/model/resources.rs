@@ -1,4 +1,4 @@
-//! What a pipeline file says of an image or a buffer: what it is like, and how long it lives.
+//! Images and buffers as a pipeline file declares them: their properties and lifetimes.
 
 use super::decided::Decided;
 use super::references::{BufferRef, ImageRef, ResourceRef};
@@ -15,7 +15,7 @@ pub struct Image {
     pub name: Name,
     /// Texel format.
     pub format: Decided<Format>,
-    /// Width and height, with what decided the factor.
+    /// Width and height, with the cause of the factor.
     pub size: Decided<Size>,
     /// Samples a texel.
     pub samples: Decided<Samples>,
@@ -31,7 +31,7 @@ pub struct Image {
     pub lifetime: Spanned<Lifetime>,
     /// Whether each eye has one of its own, if the file says so; `None`: as the image whose size it follows, else not.
     pub per_eye: Option<Spanned<bool>>,
-    /// How it holds both eyes' parts, if it does; no file says it.
+    /// The form in which it holds both eyes' parts, if it does; no file says it.
     pub eyes: Option<EyeForm>,
     /// The view whose size `Output` and plain factors mean.
     pub view: ViewIndex,
@@ -39,34 +39,34 @@ pub struct Image {
     pub instance: Option<u32>,
 }
 
-/// How several samples become one value, and who says so.
+/// How several samples become one value, and the words that say so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolves {
-    /// How.
+    /// The way to resolve.
     pub resolve: Spanned<ResolveWay>,
-    /// What says so, with what decided it: "`resolve: Min` (quality = 'low')".
+    /// The words in the file, with their cause: "`resolve: Min` (quality = 'low')".
     pub said: Arc<str>,
 }
 
-/// How exactly images of a purpose hold what they are asked to, and who says so.
+/// The precision of all images of one purpose, and the words that say so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precisions {
-    /// How exactly.
+    /// The precision.
     pub precision: Precision,
     /// Where it is said.
     pub span: Span,
-    /// What says so, with what decided it: "`color: Smallest` (quality = 'low')".
+    /// The words in the file, with their cause: "`color: Smallest` (quality = 'low')".
     pub said: Arc<str>,
 }
 
-/// How exactly an image holds what it is asked to.
+/// The precision of a format that is chosen by purpose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Precision {
-    /// In as few bytes as will do.
+    /// The fewest bytes that will do.
     Smallest,
-    /// In as many as are usually enough.
+    /// As many bytes as are usually enough.
     Balanced,
-    /// In as many as there are.
+    /// As many bytes as formats have.
     Exact,
 }
 
@@ -84,24 +84,24 @@ pub enum Format {
     Depth,
     /// Depth and stencil: `D32_SFLOAT_S8_UINT`, unless the pipeline says otherwise.
     DepthStencil,
-    /// What leaves the frame: `R8G8B8A8_SRGB`.
+    /// The format of images that leave the frame: `R8G8B8A8_SRGB`.
     Output,
-    /// Vulkan's name.
+    /// A format by Vulkan's name.
     Named(vulkan::Format),
-    /// That of another image.
+    /// The format of another image.
     Like(ImageRef),
 }
 
 /// Width and height of an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
-    /// That of the image's view.
+    /// The size of the image's view.
     Output,
-    /// That of the image's view or of another image, times a factor greater than 0; rounded down, at least 1.
+    /// The size of the image's view or of another image, times a factor greater than 0; rounded down, at least 1.
     Scaled {
         /// The factor.
         by: f64,
-        /// Of which image; `None`: of the view.
+        /// The image whose size is meant; `None`: the size of the view.
         of: Option<ImageRef>,
     },
     /// As `Scaled`, in an image that has room for a factor as large as `up_to`: the factor may be another one in each frame.
@@ -110,12 +110,12 @@ pub enum Size {
         by: f64,
         /// The greatest factor.
         up_to: f64,
-        /// Of which image; `None`: of the view.
+        /// The image whose size is meant; `None`: the size of the view.
         of: Option<ImageRef>,
     },
     /// Width and height in texels, 1 to 16384 each.
     Fixed([u32; 2]),
-    /// That of another image.
+    /// The size of another image.
     Like(ImageRef),
 }
 
@@ -181,7 +181,7 @@ pub enum Bytes {
     Count(u64),
     /// Bytes of one element, times a number of elements; rounded up to a multiple of 4.
     Times(u64, u64),
-    /// Bytes of one texel, times the number of texels of an image's first mip level, layers and depth included; rounded up to a multiple of 4.
+    /// Bytes of one texel, times the texels of an image's first mip level with layers and depth; rounded up to a multiple of 4.
     PerTexel(u64, ImageRef),
     /// As another buffer has.
     Like(BufferRef),
@@ -194,30 +194,30 @@ pub enum Lifetime {
     Transient,
     /// From frame to frame.
     Persistent {
-        /// What the first frame finds; `None`: zero.
+        /// Contents in the first frame; `None`: zero.
         initial: Option<Spanned<Fill>>,
     },
-    /// What earlier frames left can be read beside what this one writes.
+    /// Contents of earlier frames can be read beside those that this frame writes.
     History {
         /// How many frames back, at least 1.
         frames: u32,
-        /// What stands for frames before the first; `None`: zero.
+        /// Contents of frames before the first; `None`: zero.
         initial: Option<Spanned<Fill>>,
     },
     /// The embedding program hands it in.
     Imported {
-        /// In which state.
+        /// The state in which it is handed in.
         before: Spanned<State>,
-        /// In which state it is to be left, if the file asks for one.
+        /// The state in which it is to be left, if the file asks for one.
         after: Option<Spanned<State>>,
     },
-    /// They come from a file: a texture's.
+    /// The contents come from a file: a texture's.
     File(Arc<TextureFile>),
-    /// As long as those of another image or buffer.
+    /// The lifetime of another image or buffer.
     Like(ResourceRef),
 }
 
-/// A value for all texels or words; what it means is up to what it fills.
+/// A value for all texels or words; its meaning depends on the image or buffer that it fills.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fill {
     /// Every component, the depth (and no stencil), or the word of a buffer.
@@ -228,7 +228,7 @@ pub enum Fill {
     Color([f64; 4]),
 }
 
-/// The last or next use of what comes from outside of the frame or leaves it.
+/// The last or next use of an image or buffer outside of the frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum State {
     /// By purpose.

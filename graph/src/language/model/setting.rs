@@ -11,9 +11,9 @@ use std::sync::Arc;
 pub struct Setting {
     /// Unique name.
     pub name: Name,
-    /// Its type, its default and what is allowed.
+    /// Its type, its default and its allowed values.
     pub kind: SettingKind,
-    /// What it does, for people.
+    /// A description for people.
     pub about: Option<String>,
 }
 
@@ -22,26 +22,26 @@ pub struct Setting {
 pub enum SettingKind {
     /// `true` or `false`.
     Bool {
-        /// Without a choice.
+        /// The value without a choice.
         default: bool,
     },
     /// One of a few whole numbers.
     OneOf {
-        /// Without a choice.
+        /// The value without a choice.
         default: i64,
-        /// What is allowed; not empty.
+        /// The allowed values; not empty.
         of: Vec<i64>,
     },
     /// One of a few texts.
     Choice {
-        /// Without a choice.
+        /// The value without a choice.
         default: Arc<str>,
-        /// What is allowed; not empty.
+        /// The allowed values; not empty.
         of: Vec<Arc<str>>,
     },
     /// A finite number.
     Number {
-        /// Without a choice.
+        /// The value without a choice.
         default: f64,
         /// Least allowed.
         min: f64,
@@ -52,7 +52,7 @@ pub enum SettingKind {
     },
     /// A whole number.
     Integer {
-        /// Without a choice.
+        /// The value without a choice.
         default: i64,
         /// Least allowed.
         min: i64,
@@ -64,7 +64,7 @@ pub enum SettingKind {
 }
 
 impl SettingKind {
-    /// What it is called in messages.
+    /// The name in messages.
     #[must_use]
     pub fn words(&self) -> &'static str {
         match self {
@@ -76,7 +76,7 @@ impl SettingKind {
         }
     }
 
-    /// What it allows, for people.
+    /// The allowed values, for people.
     #[must_use]
     pub fn allowed(&self) -> String {
         match self {
@@ -97,7 +97,7 @@ impl SettingKind {
         }
     }
 
-    /// What it allows, for people who tried `value`: of numbers between two steps also the nearest that it allows.
+    /// The allowed values, for people who tried `value`; if that lies between two steps, with the nearest allowed numbers.
     #[must_use]
     pub fn instead_of(&self, value: &Value) -> String {
         let nearest = match (self, value) {
@@ -157,7 +157,7 @@ impl SettingKind {
                 (min..=max).contains(&value) && step.is_none_or(|step| on_step(value - min, step))
             }
             (SettingKind::Integer { min, max, step, .. }, Value::Integer(value)) => {
-                // Beyond 64 bits only if `min` is far below 0: then the distance is found in more.
+                // The distance is beyond 64 bits if `min` is far below 0.
                 let from_min = i128::from(*value) - i128::from(*min);
                 (min..=max).contains(&value) && from_min % i128::from(*step) == 0
             }
@@ -172,8 +172,7 @@ fn on_step(distance: f64, step: f64) -> bool {
     (steps - steps.round()).abs() <= 1e-9 * steps.abs().max(1.0)
 }
 
-/// How many steps lie between `min` and the greatest value that they reach. A last one that rounding alone takes beyond
-/// `max` counts.
+/// The number of steps from `min` to the greatest value. A last step that only rounding takes beyond `max` counts.
 #[must_use]
 pub fn last_step(min: f64, max: f64, step: f64) -> f64 {
     ((max - min) / step * (1.0 + 1e-9)).floor()
@@ -219,7 +218,7 @@ impl SettingKind {
     }
 }
 
-/// What a range allows, for people; an end of `whole` is none, since the file says none.
+/// The words for a range. An end that is that of `whole` is left out, since the file says none.
 pub(crate) fn between<T: PartialEq + Copy>([min, max]: [T; 2], whole: [T; 2], shown: impl Fn(T) -> String) -> String {
     match (min == whole[0], max == whole[1]) {
         (false, false) => format!(" from {} to {}", shown(min), shown(max)),

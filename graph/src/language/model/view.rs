@@ -12,9 +12,9 @@ pub struct View {
     pub extent: [u32; 2],
     /// The scene's camera of that name; `None`: the scene's own.
     pub camera: Option<Name>,
-    /// What may be spent on it.
+    /// Costs that it allows: several samples, high dynamic range, another size.
     pub allows: Allowances,
-    /// How what its camera sees is shifted; `None`: not at all.
+    /// The shifts of its picture by parts of a texel; `None`: there are none.
     pub jitter: Option<Jitter>,
     /// The eye that it is seen with; no file says it.
     pub eye: Option<ViewEye>,

@@ -16,18 +16,17 @@ pub(crate) struct Context<'c> {
     pub(crate) scope: Scope<'c>,
 }
 
-/// What a text in quotes is, where a value is wanted.
+/// A text in quotes, where a value is wanted.
 pub(crate) enum Quoted<'c> {
     /// The plain name of a setting or parameter, and its number.
     Parameter(&'c Parameter, usize),
-    /// Anything else.
+    /// Any other text.
     Expression(Expression),
 }
 
 impl<'c> Context<'c> {
-    /// The value of a text in quotes: of a setting or parameter whose kind `fits`, or of an expression. `literal` is what may
-    /// stand there without quotes, if anything may. Comes with the setting whose plain name the text is: all that it allows
-    /// has to make sense.
+    /// The value of a text in quotes: of a setting or parameter whose kind `fits`, or of an expression. `words` are as in
+    /// [`Context::quoted`]. Comes with the setting whose plain name the text is: all its allowed values have to make sense.
     pub(crate) fn value(
         &mut self,
         leaf: Leaf<'_>,
@@ -73,8 +72,8 @@ impl<'c> Context<'c> {
         }
     }
 
-    /// What a text in quotes is. Reports a plain name that nothing has, and a setting whose kind doesn't fit; `words`
-    /// says what would, and `literal` what may stand there without quotes, if anything may.
+    /// A plain name or an expression in quotes. Reports a plain name that nothing has, and a setting whose kind doesn't fit.
+    /// `words` name the values that would fit, and `literal` those that may stand there without quotes, if any may.
     pub(crate) fn quoted(
         &mut self,
         leaf: Leaf<'_>,
@@ -110,7 +109,7 @@ impl<'c> Context<'c> {
     }
 }
 
-/// The value of an expression that stands at `span`, and what decided it.
+/// The value of an expression that stands at `span`, and its cause.
 pub(crate) fn decided(expression: Expression, span: Span) -> Given<Decided<Value>> {
     Given::asked(move |evaluator| {
         let outcome = evaluator.evaluate(&expression)?;

@@ -20,7 +20,7 @@ pub(crate) struct ScopeValues<'a> {
     /// Settings as the view at hand has them, or parameters; `None` where one has no value, which was reported.
     pub(crate) values: &'a [Option<DecidedValue>],
     pub(crate) surroundings: &'a Surroundings<'a>,
-    /// Of the images that were evaluated so far, `None` where a mistake was reported; `None`: they are put off.
+    /// Properties of the images that were evaluated so far, each `None` where a mistake was reported; `None`: they are put off.
     pub(crate) properties: Option<&'a [Option<Properties>]>,
     /// The number of the repetition at hand.
     pub(crate) index: Option<u32>,
@@ -28,7 +28,7 @@ pub(crate) struct ScopeValues<'a> {
     pub(crate) view: Option<&'a Name>,
 }
 
-/// What finds the values of an entry: the scope that they are asked of, and the reader that mistakes are reported to.
+/// The evaluator of an entry: the scope in which its values are found, and the reader that mistakes are reported to.
 pub(crate) struct Evaluator<'e, 'a> {
     pub(crate) reader: &'e mut Reader,
     pub(crate) scope: ScopeValues<'a>,
@@ -57,7 +57,7 @@ impl<'e, 'a> Evaluator<'e, 'a> {
         field.as_ref()?.evaluate(self)
     }
 
-    /// The value of an expression, and what decided it.
+    /// The value of an expression, and the decisions behind it.
     pub(crate) fn evaluate(&mut self, expression: &Expression) -> Option<Outcome> {
         match expression.evaluate(&self.scope) {
             Ok(outcome) => Some(outcome),
@@ -117,7 +117,7 @@ impl<'e, 'a> Evaluator<'e, 'a> {
     }
 }
 
-/// What decided a value, with the view that it is of if that isn't the main one.
+/// The cause of a value, with the name of its view unless that is the main one.
 pub(crate) fn within_view(view: Option<&Name>, because: &str) -> String {
     match view {
         Some(name) if !because.is_empty() => format!("{because} in view `{}`", name.text),
@@ -125,7 +125,7 @@ pub(crate) fn within_view(view: Option<&Name>, because: &str) -> String {
     }
 }
 
-/// What decided, for people: "msaa = 4, hdr = true".
+/// The decisions behind a value, for people: "msaa = 4, hdr = true".
 pub(crate) fn joined(decided: &[Decision]) -> Option<Arc<str>> {
     if decided.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! What names in expressions stand for at one level, and their values.
+//! The names in expressions at one level: their declarations and values.
 
 use super::evaluator::ScopeValues;
 use super::level::Elements;
@@ -69,7 +69,7 @@ impl Declarations for Scope<'_> {
             let declared = Span::NONE;
             return Found::Symbol(Symbol { id: SURROUNDINGS | at, ty, list: false, origin, declared });
         }
-        // It may be one of those that couldn't be read.
+        // The name may be one that couldn't be read.
         if self.symbols.complete() { Found::Unknown } else { Found::Reported }
     }
 
@@ -165,7 +165,7 @@ impl Values for ScopeValues<'_> {
 }
 
 impl ScopeValues<'_> {
-    /// Which declaration of this level an image comes from; of an image from elsewhere, one that there is not.
+    /// The declaration of this level that an image comes from; an index beyond all for an image from elsewhere.
     fn declaration(&self, image: ImageIndex) -> usize {
         let within = |block: &Elements| matches!(block, Elements::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));
         self.level.images.iter().position(within).unwrap_or(usize::MAX)

@@ -79,7 +79,7 @@ impl<T: Kept> Given<T> {
 }
 
 impl<T: Kept> Given<Decided<T>> {
-    /// With what decided it as it is told outside of the entry: with the view that it is of, if that isn't the main one.
+    /// The same value. Its cause names the view unless that is the main one, as messages outside of the entry need it.
     pub(crate) fn within_view(self) -> Self {
         let Given::Asked(ask) = self else { return self };
         Given::asked(move |evaluator| {
@@ -121,10 +121,10 @@ pub(crate) trait GivenTuple: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
-    /// All of them; without an evaluator only if all are known. Each is evaluated, so that all mistakes are told.
+    /// All values; without an evaluator only if all are known. Each is evaluated, so that all mistakes are told.
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values>;
 
-    /// All of them.
+    /// All values.
     fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
         self.find(Some(evaluator))
     }
@@ -180,7 +180,7 @@ impl<P: GivenTuple, const N: usize> GivenTuple for [P; N] {
     }
 }
 
-/// All of several values, if there are all.
+/// All of several values; `None` if one is missing.
 pub(crate) fn all<T, const N: usize>(values: [Option<T>; N]) -> Option<[T; N]> {
     let values: Option<Vec<T>> = values.into_iter().collect();
     values?.try_into().ok()

@@ -3,11 +3,11 @@
 use crate::expression::{Decision, Value};
 use crate::language::model::Area;
 
-/// The value of a setting or parameter, and what decided it.
+/// The value of a setting or parameter, and the decisions behind it.
 #[derive(Debug, Clone)]
 pub(crate) struct DecidedValue {
     pub(crate) value: Value,
-    /// Of a parameter: what its argument read. A setting decides by itself.
+    /// The decisions that the argument of a parameter read; empty for a setting, which decides by itself.
     pub(crate) decided: Vec<Decision>,
 }
 

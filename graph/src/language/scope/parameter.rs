@@ -12,16 +12,16 @@ use std::sync::Arc;
 pub(crate) struct Parameter {
     /// Its name.
     pub(crate) name: Name,
-    /// What it may be.
+    /// Its kind.
     pub(crate) kind: ParameterKind,
     /// Whether a use of the fragment has to give it. Settings have values anyway.
     pub(crate) required: bool,
 }
 
-/// What a parameter may be.
+/// The kind of a parameter.
 #[derive(Debug, Clone)]
 pub(crate) enum ParameterKind {
-    /// What a setting may be.
+    /// A value of the kinds that settings have.
     Value(SettingKind),
     /// An image.
     Image,
@@ -29,7 +29,7 @@ pub(crate) enum ParameterKind {
     Buffer,
     /// A texel format.
     Format {
-        /// If none is given.
+        /// The format if none is given.
         default: Option<Format>,
     },
 }
@@ -51,7 +51,7 @@ impl Parameter {
         if let ParameterKind::Value(kind) = &self.kind { kind.whole_beyond(range) } else { None }
     }
 
-    /// The whole numbers that it allows, if there are only some.
+    /// The whole numbers of a list of allowed values; empty for other kinds.
     pub(crate) fn one_of(&self) -> &[i64] {
         match &self.kind {
             ParameterKind::Value(SettingKind::OneOf { of, .. }) => of,
@@ -59,7 +59,7 @@ impl Parameter {
         }
     }
 
-    /// The texts that it may be.
+    /// The texts of a list of allowed values; empty for other kinds.
     pub(crate) fn texts(&self) -> &[Arc<str>] {
         match &self.kind {
             ParameterKind::Value(SettingKind::Choice { of, .. }) => of,

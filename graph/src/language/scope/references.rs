@@ -36,7 +36,7 @@ impl Context<'_> {
         if let Some(plain) = leaf.plain()
             && let Some(declared) = self.scope.plain_reference(plain, wanted)
         {
-            // The expression says what is wrong with one that isn't evaluated yet.
+            // The expression reports an image or buffer that isn't evaluated yet.
             let expression = Expression::new(plain, leaf.span_of(plain), &self.scope, wanted).ok();
             return Some(Given::asked(move |evaluator| {
                 let known = evaluator.declared(declared);
@@ -52,7 +52,7 @@ impl Context<'_> {
         Some(Given::asked(move |evaluator| evaluator.resource(&expression).map(found)))
     }
 
-    /// Reports a name of another kind, or that nothing has.
+    /// Reports a name of another kind, or a name that nothing has.
     fn unknown(&mut self, name: &Name, wanted: Wanted<'_>) {
         let (image, buffer) = (wanted.types.contains(&Type::Image), wanted.types.contains(&Type::Buffer));
         let others =

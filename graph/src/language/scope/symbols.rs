@@ -1,5 +1,5 @@
-//! The names that stand at one level of a file: those of the pipeline itself, or of one fragment. They are the same
-//! whatever the values, so that expressions are checked once.
+//! The names at one level of a file: of the pipeline itself, or of one fragment. They don't depend on values, so
+//! expressions are checked once.
 
 use super::parameter::Parameter;
 use crate::base::Diagnostic;
@@ -10,7 +10,7 @@ use crate::ron::{Name, Names, Reader};
 pub(crate) struct Symbols {
     /// Settings, or parameters of a fragment.
     pub(crate) names: Names,
-    /// What they are; `None` where one couldn't be read.
+    /// The settings or parameters of these names; `None` where one couldn't be read.
     pub(crate) parameters: Vec<Option<Parameter>>,
     /// Whether they are settings.
     pub(crate) settings: bool,
@@ -25,7 +25,7 @@ pub(crate) struct Symbols {
 }
 
 impl Symbols {
-    /// What settings or parameters are called.
+    /// The word for a setting or parameter in messages.
     pub(crate) const fn parameter_word(&self) -> &'static str {
         if self.settings { "setting" } else { "parameter" }
     }
@@ -47,8 +47,8 @@ impl Symbols {
         self.parameters.get(at).and_then(Option::as_ref).is_some_and(|parameter| parameter.kind.ty() == ty)
     }
 
-    /// Reports names that two kinds of things have, the second time that they stand there. A setting may have the name of
-    /// an image or buffer: values mean the setting, references the other.
+    /// Reports names that two kinds of things have, at the second thing. A setting may have the name of an image or buffer:
+    /// values mean the setting, references the image or buffer.
     pub(crate) fn differ(&self, reader: &mut Reader) {
         let lists = [(&self.names, "a parameter"), (&self.images, "an image"), (&self.buffers, "a buffer")];
         let lists = if self.settings { &lists[1..] } else { &lists };
