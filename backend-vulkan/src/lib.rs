@@ -50,7 +50,7 @@ pub mod shaders;
 
 /// Vulkan's own types, for programs that record commands of their own or import images and buffers.
 pub use ash;
-pub use base::{Blame, Error, INSTALL, end_process};
+pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions};
 pub use gpu::{

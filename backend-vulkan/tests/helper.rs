@@ -6,7 +6,7 @@ use framewright_graph::device::Profile;
 use framewright_graph::frame::{Draw, Stereo};
 use framewright_graph::shader::{DrawInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Variant};
 use framewright_vulkan::helper::Limits;
-use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
+use framewright_vulkan::{Cache, Device, DeviceOptions, Helper, ShaderLibrary};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -49,7 +49,8 @@ fn a_device_whose_self_test_dies_is_used_without_the_feature_and_that_is_kept() 
     let _alone = alone();
     let folder = tempfile::tempdir().expect("a folder");
     let dies = program(folder.path(), "kill -SEGV $$");
-    let helper = Helper::program(&dies, Limits::default()).with_cache(Some(folder.path().join("cache")));
+    let helper =
+        Helper::program(&dies, Limits::default()).with_cache(Some(Cache::in_folder(folder.path().join("cache"))));
     let Some(device) = tested_by(&helper) else { return };
     let profile = device.profile();
     assert_eq!((profile.max_multiview_views, profile.refuted_multiview), (1, true));
@@ -93,14 +94,15 @@ fn a_self_test_that_hangs_is_told_of_and_given_up_and_not_tried_again_until_its_
     let folder = tempfile::tempdir().expect("a folder");
     let (hangs, cache) = (program(folder.path(), "exec sleep 1000"), folder.path().join("cache"));
     let limits = Limits { self_test: Duration::from_secs(2), ..Limits::default() };
-    let helper = Helper::program(&hangs, limits).with_cache(Some(cache.clone()));
+    let helper = Helper::program(&hangs, limits).with_cache(Some(Cache::in_folder(&cache)));
     let told = Arc::new(Mutex::new(Vec::new()));
     let tell = told.clone();
     helper.when_a_test_takes_long(move |test| tell.lock().expect("no panic").push(test.clone()));
     let told = || told.lock().expect("no panic").clone();
     let Some(device) = tested_by(&helper) else { return };
     let without = device.used_without();
-    let file = fs::read_dir(&cache).expect("a folder").next().expect("a file").expect("a file").path();
+    let file =
+        fs::read_dir(cache.join("self-tests")).expect("a folder").next().expect("a file").expect("a file").path();
     let said = format!(
         "its self-test took longer than 2 s, which is its limit; to have it tested again, remove {}",
         file.display()
@@ -130,7 +132,8 @@ fn a_self_test_that_can_not_be_started_leaves_the_device_without_the_feature_and
     let _alone = alone();
     let folder = tempfile::tempdir().expect("a folder");
     let cache = folder.path().join("cache");
-    let helper = Helper::program(folder.path().join("nothing"), Limits::default()).with_cache(Some(cache.clone()));
+    let helper =
+        Helper::program(folder.path().join("nothing"), Limits::default()).with_cache(Some(Cache::in_folder(&cache)));
     let Some(device) = tested_by(&helper) else { return };
     let without = device.used_without();
     assert!(

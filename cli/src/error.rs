@@ -147,6 +147,9 @@ pub(crate) enum Error {
         text::path(path)
     )]
     NoName { path: PathBuf },
+    /// The cache can't be read or cleared.
+    #[error("the cache `{}` can't be {done}: {}", text::path(folder), text::escape(&source.to_string()))]
+    Cache { folder: PathBuf, done: &'static str, source: io::Error },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -234,9 +237,12 @@ impl Error {
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedWriting { .. } => Exit::Interrupted,
-            Error::Write { .. } | Error::Print(_) | Error::Restart(_) | Error::Helper(_) | Error::Stereo { .. } => {
-                Exit::Environment
-            }
+            Error::Write { .. }
+            | Error::Cache { .. }
+            | Error::Print(_)
+            | Error::Restart(_)
+            | Error::Helper(_)
+            | Error::Stereo { .. } => Exit::Environment,
         }
     }
 }

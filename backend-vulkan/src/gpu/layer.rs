@@ -5,7 +5,7 @@
 //! change its environment soundly, since other threads may be reading it. So the program starts itself anew: `main` calls
 //! [`reexecution`] before anything else and runs the command that it gets.
 
-use crate::base::{Error, cache_folder, path_variable, replace_file};
+use crate::base::{Cache, Error, path_variable, replace_file};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs, io};
@@ -39,8 +39,8 @@ pub fn manifest_folder() -> Result<Option<PathBuf>, Error> {
     if user_layer_path().is_some() || !Path::new(CURRENT_LAYER).exists() {
         return Ok(None);
     }
-    let Some(cache) = cache_folder() else { return Ok(None) };
-    let folder = cache.join("vulkan-layer");
+    let Some(cache) = Cache::of_user() else { return Ok(None) };
+    let folder = cache.layer();
     write_manifest(&folder)
         .map_err(|error| Error::CantWrite { path: folder.display().to_string(), reason: error.to_string() })?;
     Ok(Some(folder))

@@ -4,7 +4,7 @@
 //! feature.
 
 use super::claims::depth_resolve_modes;
-use crate::base::replace_file;
+use crate::base::{identity_of, replace_file};
 use crate::gpu::Device;
 use crate::probe::{depth_resolve, multiview};
 use crate::process::{DepthResolve, DeviceName, Helper, NoAnswer};
@@ -14,7 +14,6 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
 
 /// The findings of a device's self-tests.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -196,19 +195,14 @@ fn outcome_of(end: &NoAnswer) -> Outcome {
 /// All that what is found depends on: the device, its driver and that one's version, and the program that tests it, which
 /// another build replaces.
 fn key(device: &Device, helper: &Helper) -> String {
-    let program = fs::metadata(helper.path()).ok();
-    let written = program.as_ref().and_then(|it| it.modified().ok());
-    let written = written.and_then(|it| it.duration_since(UNIX_EPOCH).ok()).map_or(0, |it| it.as_nanos());
-    let bytes = program.map_or(0, |it| it.len());
-    let (identity, path, version) = (&device.summary().identity, helper.path().display(), env!("CARGO_PKG_VERSION"));
-    format!("{identity}; framewright {version}; {path}, {bytes} bytes, written {written}")
+    format!("{}; {}", device.summary().identity, identity_of(helper.path()))
 }
 
 /// The file of the findings: one for each device and program, which all versions of them share.
 fn file(device: &Device, helper: &Helper) -> Option<PathBuf> {
     let mut hasher = DefaultHasher::new();
     (&device.summary().name, helper.path()).hash(&mut hasher);
-    helper.cache().map(|cache| cache.join(format!("{:016x}.json", hasher.finish())))
+    helper.cache().map(|cache| cache.self_tests().join(format!("{:016x}.json", hasher.finish())))
 }
 
 /// The findings of a file, if it can be read and `key` is its own.

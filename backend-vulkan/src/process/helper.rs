@@ -3,7 +3,7 @@
 use super::limits::Limits;
 use super::protocol::{Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, Request, SelfTest};
 use super::running::{NoAnswer, Running, Streams};
-use crate::base::{Cancel, cache_folder};
+use crate::base::{Cache, Cancel};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
@@ -27,7 +27,7 @@ pub struct LongTest {
 pub struct Helper {
     program: PathBuf,
     limits: Limits,
-    cache: Option<PathBuf>,
+    cache: Option<Cache>,
     /// The process that compiles, once one was started and as long as it lives.
     compiler: Arc<Mutex<Option<Running>>>,
     /// Cancels waits for the helper process.
@@ -58,15 +58,13 @@ pub(crate) struct DeviceName<'d> {
 impl Helper {
     /// The program at `program`, whose `main` calls [`serve`](crate::helper::serve).
     ///
-    /// Findings of the drivers' self-tests are kept in the user's cache folder (`$XDG_CACHE_HOME/framewright` or
-    /// `~/.cache/framewright`).
+    /// Findings of the drivers' self-tests and compiled shaders are kept in the user's cache: [`Cache::of_user`].
     #[must_use]
     pub fn program(program: impl Into<PathBuf>, limits: Limits) -> Helper {
-        let cache = cache_folder().map(|cache| cache.join("self-tests"));
         Helper {
             program: program.into(),
             limits,
-            cache,
+            cache: Cache::of_user(),
             compiler: Arc::default(),
             cancel: Arc::default(),
             tell: Arc::default(),
@@ -81,9 +79,9 @@ impl Helper {
         Ok(Helper::program(std::env::current_exe()?, limits))
     }
 
-    /// With another folder for what the self-tests find; `None`: they run anew in each process.
+    /// With another cache; `None`: nothing is kept, so each process compiles and tests anew.
     #[must_use]
-    pub fn with_cache(self, cache: Option<PathBuf>) -> Helper {
+    pub fn with_cache(self, cache: Option<Cache>) -> Helper {
         Helper { cache, ..self }
     }
 
@@ -108,9 +106,14 @@ impl Helper {
         &self.program
     }
 
-    /// Where the findings of self-tests are kept.
-    pub(crate) fn cache(&self) -> Option<&Path> {
-        self.cache.as_deref()
+    /// The limits of its processes.
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The cache, if anything is kept.
+    pub(crate) fn cache(&self) -> Option<&Cache> {
+        self.cache.as_ref()
     }
 
     /// Compiles one stage. `includes` finds the files that it includes.

@@ -1,8 +1,9 @@
 //! Where GLSL is compiled: in this process, or in a helper process.
 
-use super::compile::compile;
+use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
+use super::spirv_cache::{Included, SpirvCache};
 use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
@@ -13,11 +14,17 @@ use std::collections::HashMap;
 pub(super) enum Compilers {
     /// In this process, by a compiler that is made for the first shader.
     Here(Option<Compiler>),
-    /// In a helper process.
-    Helper(Helper),
+    /// In a helper process, unless the cache holds it.
+    Helper(Helper, Option<SpirvCache>),
 }
 
 impl Compilers {
+    /// In processes of this helper, and with its cache.
+    pub(super) fn of(helper: &Helper) -> Compilers {
+        let cache = helper.cache().map(|cache| SpirvCache::new(cache, helper.path(), helper.limits()));
+        Compilers::Helper(helper.clone(), cache)
+    }
+
     /// Compiles a stage whose own file is `source`.
     pub(super) fn compile(
         &mut self,
@@ -45,7 +52,9 @@ impl Compilers {
                 };
                 compile(compiler, job, &mut includes)
             }
-            Compilers::Helper(helper) => helper.compile(job, &mut includes).map_err(|end| no_answer(source, &end))?,
+            Compilers::Helper(helper, cache) => {
+                compile_cached(helper, cache.as_mut(), job, &mut includes).map_err(|end| no_answer(source, &end))?
+            }
         };
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
@@ -60,6 +69,29 @@ impl Compilers {
             },
         })
     }
+}
+
+/// Takes a stage from the cache, or compiles it and keeps it there.
+fn compile_cached(
+    helper: &Helper,
+    cache: Option<&mut SpirvCache>,
+    job: &CompileJob,
+    includes: &mut Includes<'_>,
+) -> Result<Result<Vec<u32>, CompileFailure>, NoAnswer> {
+    let Some(cache) = cache else { return helper.compile(job, includes) };
+    if let Some(spirv) = cache.find(job, includes) {
+        return Ok(Ok(spirv));
+    }
+    let mut included = Vec::new();
+    let compiled = helper.compile(job, &mut |from, name| {
+        let file = includes(from, name)?;
+        included.push(Included { from: from.to_owned(), name: name.to_owned(), file: file.clone() });
+        Ok(file)
+    })?;
+    if let Ok(spirv) = &compiled {
+        cache.keep(job, included, spirv);
+    }
+    Ok(compiled)
 }
 
 /// That the helper process gave no answer about a file.

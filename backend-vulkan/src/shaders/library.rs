@@ -96,11 +96,11 @@ impl ShaderLibrary {
         ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
     }
 
-    /// Has shaders compiled in a helper process, which bounds what they can take. Without one a shader can end this process,
-    /// or keep it busy forever: see [`crate::helper`].
+    /// Has shaders compiled in a helper process, which bounds what they can take, and keeps them in its cache. Without a helper
+    /// a shader can end this process, or keep it busy forever: see [`crate::helper`].
     #[must_use]
     pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
-        ShaderLibrary { compilers: Compilers::Helper(helper.clone()), ..self }
+        ShaderLibrary { compilers: Compilers::of(helper), ..self }
     }
 
     /// The shader `name` when it draws `draw`, compiled as `variant` says.

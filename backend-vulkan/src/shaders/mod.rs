@@ -14,6 +14,7 @@ mod messages;
 mod module;
 mod reflect;
 mod rotation;
+mod spirv_cache;
 mod stages;
 mod text;
 

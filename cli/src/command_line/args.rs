@@ -46,6 +46,8 @@ pub(crate) enum Command {
     Schema(SchemaArguments),
     /// List the Vulkan devices of this machine, or save the profile of one.
     Devices(DevicesArguments),
+    /// Print what is kept from one call to the next: compiled shaders, and findings about drivers; or remove it.
+    Cache(CacheArguments),
 }
 
 /// `framewright check`.
@@ -180,6 +182,27 @@ pub(crate) struct DevicesArguments {
     /// Form of the list.
     #[arg(long, value_enum, default_value_t, conflicts_with = "save")]
     pub(crate) format: AnswerFormat,
+    #[command(flatten)]
+    pub(crate) caching: CachingArguments,
+}
+
+/// `framewright cache`.
+#[derive(Debug, Args)]
+pub(crate) struct CacheArguments {
+    /// Remove all of it.
+    #[arg(long)]
+    pub(crate) clear: bool,
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: AnswerFormat,
+}
+
+/// The use of the cache.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct CachingArguments {
+    /// Compile all shaders and test the driver anew, and keep nothing: see `framewright cache`.
+    #[arg(long)]
+    pub(crate) no_cache: bool,
 }
 
 /// A pipeline and its settings.
@@ -213,6 +236,8 @@ pub(crate) struct PipelineArguments {
     /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
     #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
     pub(crate) stereo: Modes,
+    #[command(flatten)]
+    pub(crate) caching: CachingArguments,
     #[command(flatten)]
     pub(crate) limits: ShaderLimits,
 }

@@ -50,7 +50,7 @@ pub(crate) fn devices(arguments: &DevicesArguments) -> Result<Exit, Error> {
     if let Some(file) = &arguments.save {
         return save(arguments, file);
     }
-    let helper = helper::usual()?;
+    let helper = helper::usual(arguments.caching)?;
     let found: Vec<_> = Device::list()?.into_iter().map(|device| (used_without(&device, &helper), device)).collect();
     let shown = match arguments.format {
         AnswerFormat::Human => table(&found),
@@ -64,7 +64,7 @@ fn save(arguments: &DevicesArguments, file: &Path) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     outputs::prepare(std::iter::once(file), &read)?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;
-    let helper = Some(helper::usual()?);
+    let helper = Some(helper::usual(arguments.caching)?);
     let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
     let profile = device.profile().with_usual_needs(&mut device.memory());
     let text = profile.to_ron().map_err(|problem| Error::Unwritable(problem.to_string()))?;
@@ -152,6 +152,7 @@ fn table(devices: &[(Opened, DeviceSummary)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command_line::args::CachingArguments;
 
     /// The devices of this machine, and one that is listed and is gone when it is opened.
     fn with_one_that_is_gone() -> Option<Vec<(Opened, DeviceSummary)>> {
@@ -159,7 +160,7 @@ mod tests {
         let mut gone = list()?.swap_remove(0);
         gone.index = 99;
         gone.missing.clear();
-        let helper = helper::usual().expect("this program");
+        let helper = helper::usual(CachingArguments { no_cache: false }).expect("this program");
         let there = list()?.into_iter().map(|device| (Ok(Vec::new()), device));
         Some(there.chain([(used_without(&gone, &helper), gone)]).collect())
     }

@@ -1,5 +1,6 @@
 //! The commands.
 
+mod cache;
 mod check;
 mod devices;
 mod facts;
@@ -25,5 +26,6 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::New(arguments) => new::new(arguments),
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Devices(arguments) => devices::devices(arguments),
+        Command::Cache(arguments) => cache::cache(arguments),
     }
 }

@@ -1,6 +1,6 @@
 //! The helper process: this program, started again, compiles shaders and tests drivers. It may crash without harm.
 
-use crate::command_line::args::ShaderLimits;
+use crate::command_line::args::{CachingArguments, ShaderLimits};
 use crate::error::Error;
 use crate::system::{interrupt, text};
 use framewright_vulkan::Helper;
@@ -12,7 +12,7 @@ use std::time::Duration;
 ///
 /// # Errors
 /// If the system doesn't tell where this program lies.
-pub(crate) fn with(limits: &ShaderLimits) -> Result<Helper, Error> {
+pub(crate) fn with(limits: &ShaderLimits, caching: CachingArguments) -> Result<Helper, Error> {
     let mebibytes = |number: u32| u64::from(number) << 20;
     let limits = Limits {
         time: Duration::from_secs(limits.shader_seconds.into()),
@@ -20,20 +20,21 @@ pub(crate) fn with(limits: &ShaderLimits) -> Result<Helper, Error> {
         stack: usize::try_from(mebibytes(limits.shader_stack)).unwrap_or(usize::MAX),
         ..Limits::default()
     };
-    within(limits)
+    within(limits, caching)
 }
 
 /// A helper with the usual limits.
 ///
 /// # Errors
 /// Those of [`with`].
-pub(crate) fn usual() -> Result<Helper, Error> {
-    within(Limits::default())
+pub(crate) fn usual(caching: CachingArguments) -> Result<Helper, Error> {
+    within(Limits::default(), caching)
 }
 
 /// A helper that Ctrl-C ends, and that says so when a self-test takes long.
-fn within(limits: Limits) -> Result<Helper, Error> {
+fn within(limits: Limits, caching: CachingArguments) -> Result<Helper, Error> {
     let helper = Helper::this_program(limits).map_err(Error::Helper)?;
+    let helper = if caching.no_cache { helper.with_cache(None) } else { helper };
     helper.cancel_when(interrupt::asked);
     let told = Mutex::new(String::new());
     helper.when_a_test_takes_long(move |LongTest { device, limit, .. }| {

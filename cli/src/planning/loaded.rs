@@ -104,7 +104,7 @@ pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Res
         Error::mistakes(sources.clone(), diagnostics, exit)
     })?;
     choose(arguments, &mut pipeline, &mut sources, read)?;
-    let helper = helper::with(&arguments.limits)?;
+    let helper = helper::with(&arguments.limits, arguments.caching)?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),

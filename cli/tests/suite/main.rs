@@ -5,6 +5,7 @@ mod bad_shaders;
 mod beginning;
 mod book;
 mod broken_environment;
+mod cache;
 mod deferred;
 mod depth_ladder;
 mod encodings;

@@ -66,7 +66,7 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
     let mut drawn = HashMap::new();
     let pipelines = shipped_pipelines();
     let cases = ways.into_iter().flat_map(|way| pipelines.iter().map(move |pipeline| (way, pipeline)));
-    for (way, pipeline) in sweep::of("ways to make Plans", cases.collect(), 10) {
+    for (way, pipeline) in sweep::of("ways to make Plans", cases.collect(), 6) {
         let picture_of = |way: &[&str]| {
             let outcome = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&["--frames", "3", "-o", "a.png"], way].concat())?;
             outcome.exits(0);
@@ -88,7 +88,7 @@ fn silent(name: &str, vulkan: Vulkan) {
         };
         sets.map(|set| (pipeline.clone(), set))
     });
-    for (pipeline, set) in sweep::of(name, cases.collect(), 6) {
+    for (pipeline, set) in sweep::of(name, cases.collect(), 4) {
         let place = Place::new();
         let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
         let Some(outcome) = draw(&place, vulkan, &pipeline, &more) else { return };

@@ -1,0 +1,188 @@
+//! The cache of compiled stages: one file for each text with its macros.
+//!
+//! A file holds all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was included.
+//! It is taken only where all of that is the same now.
+
+use super::compile::Includes;
+use crate::base::{Cache, files_in, identity_of, replace_file};
+use crate::process::{
+    CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
+};
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// Bytes of all files above which the files that were used least recently are removed. A stage takes some 50 KiB.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The last use of a file is known to this precision.
+const PRECISION: Duration = Duration::from_secs(3600);
+
+/// Compiled stages in a folder.
+pub(super) struct SpirvCache {
+    folder: PathBuf,
+    /// The compiling program, and its limits: a shader that exceeds other ones is a mistake, however it was compiled before.
+    compiler: String,
+    /// Bytes of all files; `None` until this process keeps something.
+    bytes: Option<u64>,
+}
+
+/// The beginning of a file. The SPIR-V stands behind it.
+#[derive(Debug, Serialize, Deserialize)]
+struct Header {
+    compiler: String,
+    job: CompileJob,
+    includes: Vec<Included>,
+    /// Of the SPIR-V.
+    checksum: u64,
+}
+
+/// An included file: how it was asked for, and what was found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Included {
+    /// The name of the file that includes it.
+    pub(super) from: String,
+    /// Its name there.
+    pub(super) name: String,
+    pub(super) file: IncludedFile,
+}
+
+impl SpirvCache {
+    /// The stages in `cache` that this program compiled within these limits.
+    pub(super) fn new(cache: &Cache, program: &Path, limits: &Limits) -> SpirvCache {
+        let Limits { time, memory, stack, self_test: _ } = limits;
+        let compiler = format!("{}; {time:?}, {memory:?}, {stack}", identity_of(program));
+        SpirvCache { folder: cache.spirv(), compiler, bytes: None }
+    }
+
+    /// The SPIR-V of a stage, if it was compiled before and `includes` finds the same files as then.
+    pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<Vec<u32>> {
+        let path = self.path(job);
+        let file = fs::read(&path).ok()?;
+        let mut rest = &*file;
+        let header: Header = parse(&read_frame(&mut rest, LARGEST_FRAME).ok()?).ok()?;
+        let spirv = read_frame(&mut rest, LARGEST_SPIRV).ok()?;
+        let (words, end) = spirv.as_chunks();
+        let whole = end.is_empty() && rest.is_empty() && header.checksum == checksum(&spirv);
+        let mut same = |it: &Included| includes(&it.from, &it.name).is_ok_and(|found| found == it.file);
+        if !(whole && header.compiler == self.compiler && header.job == *job && header.includes.iter().all(&mut same)) {
+            return None;
+        }
+        used_now(&path);
+        Some(words.iter().map(|word| u32::from_le_bytes(*word)).collect())
+    }
+
+    /// Keeps the SPIR-V of a stage that includes these files. Where that isn't possible it is compiled again next time.
+    pub(super) fn keep(&mut self, job: &CompileJob, includes: Vec<Included>, spirv: &[u32]) {
+        let spirv: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+        let header = Header { compiler: self.compiler.clone(), job: job.clone(), includes, checksum: checksum(&spirv) };
+        let mut file = Vec::new();
+        let written = write(&mut file, &header)
+            .and_then(|()| write_frame(&mut file, &spirv))
+            .and_then(|()| replace_file(&self.folder, &self.path(job), &file));
+        if written.is_ok() {
+            let before = self.bytes.map(|bytes| bytes + file.len() as u64);
+            let bytes = before.unwrap_or_else(|| shrink(&self.folder, u64::MAX));
+            self.bytes = Some(if bytes > MOST_BYTES { shrink(&self.folder, MOST_BYTES / 4 * 3) } else { bytes });
+        }
+    }
+
+    /// The file of a stage. Others may have the same name: each file says what it is of.
+    fn path(&self, job: &CompileJob) -> PathBuf {
+        let mut hasher = DefaultHasher::new();
+        (&self.compiler, job).hash(&mut hasher);
+        self.folder.join(format!("{:016x}", hasher.finish()))
+    }
+}
+
+fn checksum(bytes: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// Notes that a file was used, unless that was noted a short time ago.
+fn used_now(path: &Path) {
+    let now = SystemTime::now();
+    let last = fs::metadata(path).and_then(|file| file.modified());
+    if last.is_ok_and(|last| now.duration_since(last).is_ok_and(|ago| ago > PRECISION)) {
+        // Without this it only looks as if it had not been used.
+        let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(now));
+    }
+}
+
+/// Removes the files that were used least recently until all take at most `bytes`. Returns the bytes of the others.
+fn shrink(folder: &Path, bytes: u64) -> u64 {
+    let mut files = files_in(folder).unwrap_or_default();
+    files.sort_by_cached_key(|(_, file)| file.modified().ok());
+    let mut left: u64 = files.iter().map(|(_, file)| file.len()).sum();
+    for (path, file) in files {
+        if left <= bytes {
+            break;
+        }
+        // Another process may have removed it.
+        let _ = fs::remove_file(path);
+        left -= file.len();
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process::ShaderStage;
+
+    fn job(text: &str) -> CompileJob {
+        CompileJob { stage: ShaderStage::Vertex, shown: "a.vert".to_owned(), text: text.to_owned(), macros: Vec::new() }
+    }
+
+    fn found(cache: &SpirvCache, text: &str) -> bool {
+        cache.find(&job(text), &mut |_, _| unreachable!("nothing is included")).is_some()
+    }
+
+    /// A cache in a folder, with four stages of the same size; the first was used least recently.
+    fn cache(folder: &Path) -> SpirvCache {
+        let mut cache = SpirvCache::new(&Cache::in_folder(folder), Path::new("compiler"), &Limits::default());
+        for (hours, text) in ["a", "b", "c", "d"].into_iter().enumerate() {
+            cache.keep(&job(text), Vec::new(), &[7; 1000]);
+            let used = SystemTime::now() - Duration::from_secs(3600 * (10 - hours as u64));
+            let file = File::options().append(true).open(cache.path(&job(text))).expect("it is kept");
+            file.set_modified(used).expect("its time is set");
+        }
+        cache
+    }
+
+    #[test]
+    fn files_that_were_used_least_recently_are_removed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = cache(folder.path());
+        let all = cache.bytes.expect("counted");
+        assert_eq!(shrink(&cache.folder, u64::MAX), all);
+        // Being found is being used.
+        assert!(found(&cache, "a"));
+        assert_eq!(shrink(&cache.folder, all / 2), all / 2);
+        assert_eq!(["a", "b", "c", "d"].map(|text| found(&cache, text)), [true, false, false, true]);
+        assert_eq!(shrink(&cache.folder, 0), 0);
+    }
+
+    #[test]
+    fn another_build_of_the_compiler_compiles_anew_and_has_files_of_its_own() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = cache(folder.path());
+        let program = folder.path().join("compiler");
+        let of_build = |contents: &str| {
+            fs::write(&program, contents).expect("written");
+            SpirvCache::new(&Cache::in_folder(folder.path()), &program, &Limits::default())
+        };
+        let mut one = of_build("one");
+        assert!(!found(&one, "a"));
+        one.keep(&job("a"), Vec::new(), &[1]);
+        let other = of_build("other");
+        assert!(found(&one, "a") && !found(&other, "a") && found(&cache, "a"));
+        // Files of two builds may have one name.
+        fs::copy(one.path(&job("a")), other.path(&job("a"))).expect("copied");
+        assert!(!found(&other, "a"));
+    }
+}
