@@ -47,7 +47,7 @@ fn every_whole_file_of_the_reference_is_fine() {
 }
 
 /// The commands.
-const COMMANDS: [&str; 7] = ["check", "inspect", "run", "facts", "new", "schema", "devices"];
+const COMMANDS: [&str; 8] = ["check", "inspect", "run", "facts", "new", "schema", "devices", "cache"];
 
 /// The options of all commands, as their helps list them.
 fn options() -> BTreeSet<String> {
