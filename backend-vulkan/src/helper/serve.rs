@@ -7,7 +7,6 @@ use crate::process::{
     self, ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, Request, SelfTest,
 };
 use crate::shaders::compile;
-use shaderc::Compiler;
 use std::fs::File;
 use std::sync::mpsc;
 use std::sync::mpsc::Receiver;
@@ -70,23 +69,16 @@ fn output() -> io::Result<File> {
 
 /// Answers requests.
 fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
-    let mut compiler = None;
     while let Ok(frame) = requests.recv() {
         match process::parse(&frame)? {
-            Request::Compile(job) => {
-                let compiler = match &mut compiler {
-                    Some(compiler) => compiler,
-                    none => none.insert(Compiler::new().map_err(io::Error::other)?),
-                };
-                match compiled(compiler, &job, requests, &output) {
-                    Ok(words) => {
-                        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-                        process::write(&mut output, &Answer::Spirv)?;
-                        process::write_frame(&mut output, &bytes)?;
-                    }
-                    Err(failure) => process::write(&mut output, &Answer::CompileFailure(failure))?,
+            Request::Compile(job) => match compiled(&job, requests, &output) {
+                Ok(words) => {
+                    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+                    process::write(&mut output, &Answer::Spirv)?;
+                    process::write_frame(&mut output, &bytes)?;
                 }
-            }
+                Err(failure) => process::write(&mut output, &Answer::CompileFailure(failure))?,
+            },
             Request::SelfTest { test, device } => process::write(&mut output, &tested(test, &device))?,
             Request::Included(_) => return Err(process::invalid()),
         }
@@ -95,12 +87,7 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
 }
 
 /// Compiles, and asks the program for what is included.
-fn compiled(
-    compiler: &Compiler,
-    job: &CompileJob,
-    requests: &Receiver<Vec<u8>>,
-    output: &File,
-) -> Result<Vec<u32>, CompileFailure> {
+fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Vec<u32>, CompileFailure> {
     let ask = |from: &str, name: &str| -> io::Result<Result<IncludedFile, String>> {
         let (from, name) = (from.to_owned(), name.to_owned());
         process::write(&mut &*output, &Answer::Include { from, name })?;
@@ -110,7 +97,7 @@ fn compiled(
         }
     };
     let mut includes = |from: &str, name: &str| ask(from, name).unwrap_or_else(|error| Err(error.to_string()));
-    compile(compiler, job, &mut includes)
+    compile(job, &mut includes)
 }
 
 /// Tests a device, and closes it: drivers crash then too.

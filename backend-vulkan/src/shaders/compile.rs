@@ -6,6 +6,7 @@ use shaderc::{
     SpirvVersion, TargetEnv,
 };
 use std::cell::{Cell, RefCell};
+use std::sync::LazyLock;
 
 /// A file may include others this deep.
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -13,6 +14,10 @@ const MAX_INCLUDE_DEPTH: usize = 16;
 pub(super) const MAX_INCLUDES: usize = 256;
 /// Finds the file that the file of one name includes by another name.
 pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, String> + 'a;
+
+/// The compiler of this process. Its tables of GLSL's own functions take a quarter of a second to make, and are dropped with the
+/// last compiler.
+static COMPILER: LazyLock<shaderc::Result<Compiler>> = LazyLock::new(Compiler::new);
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
@@ -22,10 +27,10 @@ pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, Str
 /// # Errors
 /// The compiler's messages, or that it failed itself.
 pub(crate) fn compile(
-    compiler: &Compiler,
     CompileJob { stage, shown, text, macros }: &CompileJob,
     includes: &mut Includes<'_>,
 ) -> Result<Vec<u32>, CompileFailure> {
+    let compiler = COMPILER.as_ref().map_err(|error| CompileFailure::Internal(error.to_string()))?;
     let (stage, includes) = (*stage, RefCell::new(includes));
     let included = Cell::new(0);
     let mut options = CompileOptions::new().map_err(|error| CompileFailure::Internal(error.to_string()))?;

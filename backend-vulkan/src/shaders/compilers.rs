@@ -7,13 +7,12 @@ use super::spirv_cache::{Included, SpirvCache};
 use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
-use shaderc::Compiler;
 use std::collections::HashMap;
 
 /// Where GLSL is compiled.
 pub(super) enum Compilers {
-    /// In this process, by a compiler that is made for the first shader.
-    Here(Option<Compiler>),
+    /// In this process.
+    Here,
     /// In a helper process, unless the cache holds it.
     Helper(Helper, Option<SpirvCache>),
 }
@@ -43,15 +42,7 @@ impl Compilers {
             Ok(IncludedFile { shown, text })
         };
         let compiled = match self {
-            Compilers::Here(compiler) => {
-                let compiler = match compiler {
-                    Some(compiler) => compiler,
-                    none => none.insert(Compiler::new().map_err(|error| ShaderProblem::Unsupported {
-                        what: format!("the shader compiler doesn't start: {error}"),
-                    })?),
-                };
-                compile(compiler, job, &mut includes)
-            }
+            Compilers::Here => compile(job, &mut includes),
             Compilers::Helper(helper, cache) => {
                 compile_cached(helper, cache.as_mut(), job, &mut includes).map_err(|end| no_answer(source, &end))?
             }

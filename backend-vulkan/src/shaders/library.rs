@@ -92,7 +92,7 @@ impl ShaderLibrary {
         draws: fn(Draw) -> DrawInterface,
     ) -> ShaderLibrary {
         let files = ShaderFiles { roots, shipped };
-        let compilers = Compilers::Here(None);
+        let compilers = Compilers::Here;
         ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
     }
 
