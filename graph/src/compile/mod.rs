@@ -12,7 +12,7 @@ use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
-use emit::Parts;
+use emit::StageResults;
 use structure::Structure;
 
 mod adapt;
@@ -61,5 +61,5 @@ pub fn compile(
     let resources = emit::resources(frame, &structure, &settled);
     // Only `resources` needs these.
     (structure.timeline.states, settled.placed.placements) = (Vec::new(), Vec::new());
-    Ok(emit::emit(&Parts::new(frame, device, &structure, &settled), resources))
+    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), resources))
 }

@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, FilePath, Sources};
 use crate::expression::Value;
 use crate::frame::Allowances;
 use crate::frame::change::{Change, Kind};
-use crate::language::compose::account::ChangeLog;
+use crate::language::compose::change_log::ChangeLog;
 use crate::language::compose::extend::Composed;
 use crate::language::compose::includes::{self, Wanted};
 use crate::language::compose::loader::{self, Loader};
@@ -41,7 +41,7 @@ pub struct Document {
     /// The pipeline, as it was put together of its files.
     tree: Tree,
     /// Changes that files made to the pipeline that they extend.
-    account: ChangeLog,
+    change_log: ChangeLog,
     origins: Origins,
 }
 
@@ -52,7 +52,7 @@ impl Document {
         mut reader: Reader,
         loader: &mut Loader<'_>,
         relative: &FilePath,
-        Composed { tree, mut wanted, account }: Composed,
+        Composed { tree, mut wanted, change_log }: Composed,
     ) -> Result<Document, Vec<Diagnostic>> {
         let mut entries = None;
         if let Some(sections) = Sections::read(&mut reader, tree.root(), "the pipeline", &PIPELINE) {
@@ -63,7 +63,7 @@ impl Document {
             let included = includes::read(&mut reader, loader, wanted);
             loader.look(&mut reader, sections.get(&tables::TEXTURES));
             loader.look_in_fragments(&mut reader, tree.root());
-            let removed_view = account.changes.iter().find(|change| change.removes(Kind::View));
+            let removed_view = change_log.changes.iter().find(|change| change.removes(Kind::View));
             let read =
                 read_entries(&mut reader, (names, &settings), &sections, &included, removed_view, &loader.pictures);
             let asks_device = [&tree].into_iter().chain(&included).any(|tree| tree.mentions("device."));
@@ -81,10 +81,10 @@ impl Document {
                 && reader.errors.is_empty()
             {
                 let (in_force, entries) = (in_force(&settings, None, &[]), Arc::new(entries));
-                return Ok(Document { settings, presets, in_force, entries, asks_device, tree, account, origins });
+                return Ok(Document { settings, presets, in_force, entries, asks_device, tree, change_log, origins });
             }
         }
-        account.tell(&tree, &mut reader.errors);
+        change_log.tell(&tree, &mut reader.errors);
         origins.tell(&mut reader.errors);
         Err(never_none(reader.errors))
     }
@@ -143,7 +143,7 @@ impl Document {
         let values = values.iter().map(|value| Some(value.clone().into())).collect();
         match evaluate(&mut reader, &self.entries, values, surroundings, Purpose::Pipeline) {
             Some(pipeline) if reader.errors.is_empty() => {
-                let removed = self.account.removed_passes().collect();
+                let removed = self.change_log.removed_passes().collect();
                 Ok(Pipeline { removed, ..pipeline })
             }
             _ => {
@@ -156,12 +156,12 @@ impl Document {
     /// Changes that files made to the pipeline that they extend, in the order in which they were made.
     #[must_use]
     pub fn changes(&self) -> &[Change] {
-        &self.account.changes
+        &self.change_log.changes
     }
 
     /// Adds the other place to mistakes in changed entries, and to mistakes in files that others brought in.
     pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
-        self.account.tell(&self.tree, errors);
+        self.change_log.tell(&self.tree, errors);
         self.origins.tell(errors);
     }
 }

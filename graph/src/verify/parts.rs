@@ -1,6 +1,6 @@
 //! Which subresources stand for which parts of images.
 //!
-//! Parts that every range of the Plan names together are one subresource: an image that is only used as a whole has one, a mip
+//! SubresourceMap that every range of the Plan names together are one subresource: an image that is only used as a whole has one, a mip
 //! chain that is built level by level has one a level. So the work grows with what the Plan tells apart, not with the
 //! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one subresource.
 
@@ -25,7 +25,7 @@ pub(super) struct Ranges {
 
 /// The subresources of all images and buffers.
 #[derive(Debug)]
-pub(super) struct Parts {
+pub(super) struct SubresourceMap {
     /// The first subresource of each image and buffer, and behind all of them the number of subresources.
     first: Vec<u32>,
     grids: BTreeMap<u32, Grid>,
@@ -133,9 +133,9 @@ impl Grid {
     }
 }
 
-impl Parts {
+impl SubresourceMap {
     /// Subresources, cut so that each of `ranges` is made of whole subresources. Images that become each other are cut alike.
-    pub(super) fn new(plan: &Plan, ranges: &Ranges) -> Parts {
+    pub(super) fn new(plan: &Plan, ranges: &Ranges) -> SubresourceMap {
         let mut grids = BTreeMap::new();
         for (id, range) in &ranges.ranges {
             let mut image = *id;
@@ -157,7 +157,7 @@ impl Parts {
             subresources += grids.get(&resource).map_or(1, Grid::count);
         }
         first.push(subresources);
-        let mut parts = Parts { first, grids, ranges: vec![[0, 0]], listed: Vec::new() };
+        let mut parts = SubresourceMap { first, grids, ranges: vec![[0, 0]], listed: Vec::new() };
         for (image, range) in &ranges.ranges {
             let start = parts.listed.len() as u32;
             parts.grids[image].list(parts.first[*image as usize], *range, &mut parts.listed);

@@ -6,7 +6,7 @@ use super::dependencies::{before_access, before_layout_change, makes_available};
 use super::findings::{Finding, Findings, role};
 use super::frames::Frames;
 use super::memory::{Memory, Taking};
-use super::parts::Parts;
+use super::parts::SubresourceMap;
 use super::program::{Access, Barrier, Program, Span};
 use super::scopes::{PairSet, StageSet};
 use super::subresources::{Contents, Lost, Owner, SubresourceState, Write};
@@ -19,7 +19,7 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     pub(super) plan: &'p Plan,
     pub(super) found: &'w mut Findings<'p>,
     pub(super) program: &'w Program,
-    pub(super) parts: Parts,
+    pub(super) parts: SubresourceMap,
     pub(super) subresources: Vec<SubresourceState<Q>>,
     pub(super) memory: Memory,
     pub(super) clocks: Clocks<Q>,
@@ -44,7 +44,7 @@ pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found:
 
 impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     fn new(plan: &'p Plan, program: &'w Program, found: &'w mut Findings<'p>) -> Self {
-        let parts = Parts::new(plan, &program.ranges);
+        let parts = SubresourceMap::new(plan, &program.ranges);
         Walk {
             plan,
             found,

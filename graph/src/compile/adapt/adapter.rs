@@ -3,7 +3,7 @@
 use super::access;
 use super::demote::Demotions;
 use super::input::Input;
-use super::later::LastAccesses;
+use super::last_accesses::LastAccesses;
 use crate::base::{Diagnostic, Place, Span};
 use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, Use};
 use crate::frame::{ImageIndex, ResolveWay};
@@ -34,7 +34,7 @@ pub(super) struct Adapter<'a> {
     /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
     pub(super) known_as: BTreeMap<PhysicalIndex, Vec<ImageIndex>>,
     /// The last accesses of images, if any is forwarded.
-    pub(super) later: LastAccesses,
+    pub(super) last_accesses: LastAccesses,
     /// Full-screen draws that move to single-sampled images.
     pub(super) demotions: Demotions,
     /// Whether any physical image has another name than its image.
@@ -67,7 +67,7 @@ impl<'a> Adapter<'a> {
             is_output: vec![false; frame.images.len()],
             inserted_for: BTreeMap::new(),
             known_as: BTreeMap::new(),
-            later: LastAccesses::default(),
+            last_accesses: LastAccesses::default(),
             demotions: Demotions::default(),
             renamed: false,
             images: 0,

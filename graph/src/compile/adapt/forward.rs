@@ -132,7 +132,7 @@ impl Adapter<'_> {
         if cut || [from, to].iter().any(|image| images[image.0 as usize].lifetime.outlives_frame()) {
             return false;
         }
-        let Adapter { later, resource_of, resolved_of, is_output, known_as, adapted, .. } = self;
+        let Adapter { last_accesses, resource_of, resolved_of, is_output, known_as, adapted, .. } = self;
         let after = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
         let held = |image: ImageIndex| resource_of[image.0 as usize] == Some(resource) || image == to;
         let first = match adapted.resources[resource as usize].of {
@@ -141,7 +141,7 @@ impl Adapter<'_> {
         };
         let known = known_as.entry(resource).or_insert(first);
         // Names that are not used any more are dropped, so that a long chain of forwards makes no long list.
-        let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
+        let used = |image: &ImageIndex| after(last_accesses.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
         let resolved = |image: ImageIndex| {
             resource_of[image.0 as usize].and_then(|held| resolved_of[held as usize]).map(|(_, resolved)| resolved)
@@ -150,7 +150,7 @@ impl Adapter<'_> {
         known.push(to);
         let both_leave = known.iter().filter(|image| is_output[image.0 as usize]).count() > 1;
         let told_apart =
-            known.len() > 1 && known.iter().any(|image| held(*image) && after(later.write[image.0 as usize]));
+            known.len() > 1 && known.iter().any(|image| held(*image) && after(last_accesses.write[image.0 as usize]));
         !both_leave && !told_apart
     }
 }

@@ -9,7 +9,7 @@ mod demote;
 mod depth_only;
 mod forward;
 mod input;
-mod later;
+mod last_accesses;
 mod pass;
 mod resolve;
 mod resources;
@@ -23,7 +23,7 @@ use crate::base::Diagnostic;
 use crate::frame::{Resource, Work};
 use crate::plan::Note;
 use adapter::Adapter;
-use later::LastAccesses;
+use last_accesses::LastAccesses;
 
 /// The physical resources and operations of a frame, with notes of what was decided.
 pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagnostic>> {
@@ -35,7 +35,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagno
         }
     }
     if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
-        adapter.later = LastAccesses::of(frame, live);
+        adapter.last_accesses = LastAccesses::of(frame, live);
     }
     adapter.demotions = demote::find(&input, &mut adapter.notes);
     adapter.adapted.resources.reserve(frame.images.len());

@@ -1,14 +1,14 @@
 //! Rendering scopes of the Plan, and why their attachments are loaded and stored as they are.
 
-use super::parts::{Parts, cause};
 use super::passes;
+use super::stage_results::{StageResults, cause};
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
 use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
 use crate::vulkan::{Layout, LoadOp, StoreOp};
 
-pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
+pub(super) fn scope(parts: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(parts, scope);
     let attachments = parts.load_store.of(step);
     let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
@@ -30,7 +30,7 @@ pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope 
 
 /// The passes of a scope with local reads. A local barrier stands before the first pass that reads a drawn or cleared target,
 /// and before a pass that draws over a target that was read, unless a barrier stands between already.
-fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
+fn local_passes(parts: &StageResults<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
     let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();
     let mut read: Vec<Target> = Vec::new();
@@ -63,7 +63,7 @@ fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps])
 }
 
 /// Width and height, layers and samples of a scope's attachments.
-pub(super) fn shape(parts: &Parts<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
+pub(super) fn shape(parts: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
     let resources = &parts.adapted.resources;
     let first = scope.targets().next();
     let shape = first.and_then(|target| Some((resources[target.resource as usize].image()?, target.range)));
@@ -73,7 +73,7 @@ pub(super) fn shape(parts: &Parts<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
     })
 }
 
-fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
+fn attachment(parts: &StageResults<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
     let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
     let used = uses.find(|used| used.role == ops.role && Target::of(parts.adapted, used) == ops.target);
     Attachment {
@@ -88,7 +88,7 @@ fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Op
     }
 }
 
-fn attachment_resolve(parts: &Parts<'_>, number: u32) -> Option<AttachmentResolve> {
+fn attachment_resolve(parts: &StageResults<'_>, number: u32) -> Option<AttachmentResolve> {
     let op = &parts.adapted.ops[number as usize];
     let OpKind::Resolve { mode, .. } = op.kind else { return None };
     let target = parts.adapted.uses(number).get(1)?;
@@ -106,11 +106,11 @@ fn attachment_resolve(parts: &Parts<'_>, number: u32) -> Option<AttachmentResolv
     })
 }
 
-fn name<'n>(parts: &'n Parts<'_>, op: u32) -> &'n str {
+fn name<'n>(parts: &'n StageResults<'_>, op: u32) -> &'n str {
     op_name(parts.frame, parts.adapted, op).map_or("", |name| name)
 }
 
-fn load_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
+fn load_reason(parts: &StageResults<'_>, ops: &AttachmentOps) -> String {
     let name = if ops.first == u32::MAX { "" } else { name(parts, ops.first) };
     match ops.load {
         LoadOp::Clear => format!("`{name}` clears it"),
@@ -119,7 +119,7 @@ fn load_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
     }
 }
 
-fn store_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
+fn store_reason(parts: &StageResults<'_>, ops: &AttachmentOps) -> String {
     let words = match ops.next {
         Next::Op(op) => match op_name(parts.frame, parts.adapted, op) {
             Some(name) => Some(format!("`{name}` uses it next")),

@@ -1,7 +1,7 @@
 //! Barriers of each step: those of neighbouring subresources become one.
 
-use super::parts::{Parts, resource_id};
-use crate::compile::parts::join;
+use super::stage_results::{StageResults, resource_id};
+use crate::compile::stage_results::join;
 use crate::compile::steps::NEVER;
 use crate::compile::sync::{Batched, SubresourceBarrier};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
@@ -9,13 +9,13 @@ use crate::vulkan::{Accesses, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct StepBarriers<'p, 'a> {
-    parts: &'p Parts<'a>,
+    parts: &'p StageResults<'a>,
     batched: &'p [Batched],
     memory: usize,
 }
 
 impl<'p, 'a> StepBarriers<'p, 'a> {
-    pub(super) fn new(parts: &'p Parts<'a>) -> StepBarriers<'p, 'a> {
+    pub(super) fn new(parts: &'p StageResults<'a>) -> StepBarriers<'p, 'a> {
         StepBarriers { parts, batched: &parts.sync.batched, memory: 0 }
     }
 

@@ -5,14 +5,14 @@ mod barriers;
 mod notes;
 mod outputs;
 mod ownership;
-mod parts;
 mod passes;
 mod plan;
 mod resources;
 mod revise;
+mod stage_results;
 mod values;
 
-pub(super) use parts::Parts;
 pub(super) use plan::emit;
 pub(super) use resources::resources;
 pub(super) use revise::{barriers, sizes, values};
+pub(super) use stage_results::StageResults;

@@ -1,10 +1,10 @@
 //! Notes of the Plan.
 
-use super::parts::Parts;
+use super::stage_results::StageResults;
 use crate::plan::{Note, Stage};
 
 /// Notes by stage.
-pub(super) fn notes(parts: &Parts<'_>) -> Vec<Note> {
+pub(super) fn notes(parts: &StageResults<'_>) -> Vec<Note> {
     let frame = parts.frame;
     let off = frame.switched_off.iter().map(|off| Note {
         stage: Stage::Expand,

@@ -1,12 +1,12 @@
 //! Outputs of the Plan, and where each gets its encoding.
 
-use super::parts::{Parts, resource_id};
+use super::stage_results::{StageResults, resource_id};
 use crate::frame::{Frame, ImageIndex, Pass, Resource as Declared, Work};
 use crate::plan::Output;
 use crate::vulkan::{Encoding, Format, Numeric};
 
 /// The outputs in the frame's order.
-pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
+pub(super) fn outputs(parts: &StageResults<'_>) -> Vec<Output> {
     let frame = parts.frame;
     let resources = parts.adapted.outputs.iter().map(|resource| &parts.adapted.resources[*resource as usize]);
     let outputs = resources.zip(&frame.outputs).map(|(resource, declared)| {

@@ -1,8 +1,8 @@
 //! Queue family ownership transfers: their two halves, release and acquire, name the same subresources.
 
-use super::parts::Parts;
-use crate::compile::parts::join;
+use super::stage_results::StageResults;
 use crate::compile::queues::OwnershipTransfer;
+use crate::compile::stage_results::join;
 use crate::plan::{Hazard, ImageBarrier, ImageId, StepId};
 use crate::vulkan::{Accesses, Stages};
 
@@ -28,7 +28,7 @@ impl Transfer {
 }
 
 /// All ownership transfers, in the order of the steps that acquire.
-pub(super) fn transfers(parts: &Parts<'_>) -> Vec<Transfer> {
+pub(super) fn transfers(parts: &StageResults<'_>) -> Vec<Transfer> {
     let mut transfers: Vec<Transfer> = Vec::new();
     for of_subresource in parts.sync.queues.transfers() {
         let mut new = transfer(parts, of_subresource);
@@ -41,7 +41,7 @@ pub(super) fn transfers(parts: &Parts<'_>) -> Vec<Transfer> {
     transfers
 }
 
-fn transfer(parts: &Parts<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
+fn transfer(parts: &StageResults<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
     let (queues, acquiring) = (&parts.sync.queues, &parts.sync.barriers[of_subresource.barrier as usize]);
     let image = ImageId(parts.subjects[acquiring.resource as usize].id);
     let range = parts.subresources(acquiring.resource, acquiring.subresource);

@@ -1,6 +1,6 @@
 //! Passes, copies, blits, fills and resolves of the Plan.
 
-use super::parts::{Parts, cause, frame_work};
+use super::stage_results::{StageResults, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, ViewIndex, Work as FrameWork};
@@ -18,7 +18,7 @@ const COPY_SHADER: &str = "shipped:copy";
 const COPY_SOURCE: &str = "source";
 
 /// The work of an operation that is not drawn.
-pub(super) fn single(parts: &Parts<'_>, number: u32) -> Work {
+pub(super) fn single(parts: &StageResults<'_>, number: u32) -> Work {
     let op = &parts.adapted.ops[number as usize];
     if matches!(op.kind, OpKind::Resolve { .. }) {
         return Work::Resolve(transfer(parts, op, number, None));
@@ -40,22 +40,22 @@ pub(super) fn single(parts: &Parts<'_>, number: u32) -> Work {
 /// The side of a transfer without sides: validation refuses these.
 const NOTHING: Side = Side::Buffer { buffer: BufferId(0), bytes: 0 };
 
-fn name(parts: &Parts<'_>, op: &Op) -> Option<Arc<str>> {
+fn name(parts: &StageResults<'_>, op: &Op) -> Option<Arc<str>> {
     op.kind.pass().map(|pass| parts.frame.passes[pass as usize].name.clone())
 }
 
-fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
+fn transfer(parts: &StageResults<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
     let [source, target] = sides(parts, number);
     Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
 }
 
 /// The target of a fill.
-pub(super) fn filled(parts: &Parts<'_>, number: u32) -> Side {
+pub(super) fn filled(parts: &StageResults<'_>, number: u32) -> Side {
     parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used))
 }
 
 /// Source and target of a transfer.
-pub(super) fn sides(parts: &Parts<'_>, number: u32) -> [Side; 2] {
+pub(super) fn sides(parts: &StageResults<'_>, number: u32) -> [Side; 2] {
     let uses = parts.adapted.uses(number);
     let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(parts, used)));
     // Beside an image only the bytes of its texels count; between buffers those of the source.
@@ -74,13 +74,13 @@ pub(super) fn sides(parts: &Parts<'_>, number: u32) -> [Side; 2] {
 }
 
 /// Bytes of the texels that a transfer moves from or to the image that is used here.
-fn texel_bytes(parts: &Parts<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
+fn texel_bytes(parts: &StageResults<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
     let image = parts.adapted.resources[used.resource as usize].image();
     let bytes = image.and_then(|image| image.format.plane_bytes(parts.adapted.range(used).aspects)).unwrap_or(0);
     extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
 }
 
-fn side(parts: &Parts<'_>, used: &Use) -> Side {
+fn side(parts: &StageResults<'_>, used: &Use) -> Side {
     let resource = &parts.adapted.resources[used.resource as usize];
     match &resource.kind {
         Kind::Image(image) => {
@@ -93,7 +93,7 @@ fn side(parts: &Parts<'_>, used: &Use) -> Side {
 }
 
 /// A pass of the Plan.
-pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
+pub(super) fn pass(parts: &StageResults<'_>, number: u32) -> Pass {
     let op = &parts.adapted.ops[number as usize];
     let uses = parts.adapted.uses(number);
     let nothing = || Arc::clone(&parts.nothing);
@@ -148,19 +148,19 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
 }
 
 /// The view that a pass is for, if the frame has any.
-fn view(parts: &Parts<'_>, view: ViewIndex) -> Option<ViewId> {
+fn view(parts: &StageResults<'_>, view: ViewIndex) -> Option<ViewId> {
     (!parts.frame.views.is_empty()).then_some(ViewId(view.0))
 }
 
 /// The accesses of an inserted full-screen draw that samples one image.
-fn from_source(parts: &Parts<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
+fn from_source(parts: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
     let kind = BindingKind::Sampled(Sampler::new(filter));
     let binding = || Binding { name: COPY_SOURCE.into(), kind, texture: None };
     uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding))).collect()
 }
 
 /// A draw of the frame again, of nothing but its depth.
-fn depth_only(parts: &Parts<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
+fn depth_only(parts: &StageResults<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
     let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
     let (draw, shader) = match &declared.work {
         FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
@@ -180,7 +180,7 @@ fn depth_only(parts: &Parts<'_>, number: u32, declared: &FramePass, name: &Arc<s
 }
 
 /// A full-screen draw that resolves depth or colour.
-fn resolve_draw(parts: &Parts<'_>, number: u32, by: ResolveShader, name: &Arc<str>, of: ViewIndex) -> Pass {
+fn resolve_draw(parts: &StageResults<'_>, number: u32, by: ResolveShader, name: &Arc<str>, of: ViewIndex) -> Pass {
     let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
     let shader = match by {
         ResolveShader::Depth(ResolveMode::SampleZero) => "shipped:depth_resolve_zero",
@@ -246,7 +246,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
     }
 }
 
-fn binding(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
+fn binding(parts: &StageResults<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
     let entry = used.entry as usize;
     let bound = |name: &Arc<str>, kind| Some(Binding { name: name.clone(), kind, texture: None });
     match used.role {
@@ -262,20 +262,20 @@ fn binding(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> Option<Bindin
 }
 
 /// The texture that an adapting shader declares: multisampled only if the image has several samples.
-fn adapted(parts: &Parts<'_>, used: &Use, texture: ImageShape) -> ImageShape {
+fn adapted(parts: &StageResults<'_>, used: &Use, texture: ImageShape) -> ImageShape {
     let samples = parts.adapted.resources[used.resource as usize].image().map_or(1, |image| image.samples);
     ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }
 }
 
 /// One access of a pass; load, store and resolve operations are the scope's.
-fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
+fn access(parts: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
     let subject = &parts.subjects[used.resource as usize];
     let range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     let image = ImageId(subject.id);
     Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }
 
-fn buffer_access(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
+fn buffer_access(parts: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
     let named = declared.buffers.get(used.entry as usize).filter(|_| used.role == Role::Buffer);
     BufferAccess {
         buffer: BufferId(parts.adapted.resources[used.resource as usize].id),

@@ -2,8 +2,8 @@
 
 use super::barriers::StepBarriers;
 use super::ownership::Transfer;
-use super::parts::Parts;
 use super::resources::Resources;
+use super::stage_results::StageResults;
 use super::values::{changes, settings, views, with_bytes};
 use super::{attachments, notes, outputs, ownership, passes};
 use crate::compile::scope::Step as Grouped;
@@ -11,7 +11,7 @@ use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 
 /// The Plan, with the images and buffers that `resources` made.
-pub(in crate::compile) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
+pub(in crate::compile) fn emit(parts: &StageResults<'_>, (images, buffers): Resources) -> Plan {
     let steps = steps(parts);
     Plan {
         format_version: FORMAT_VERSION,
@@ -30,7 +30,7 @@ pub(in crate::compile) fn emit(parts: &Parts<'_>, (images, buffers): Resources) 
     }
 }
 
-fn steps(parts: &Parts<'_>) -> Vec<Step> {
+fn steps(parts: &StageResults<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = parts.sync;
     let mut barriers = StepBarriers::new(parts);
     let step = |number| {

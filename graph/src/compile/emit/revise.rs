@@ -1,7 +1,7 @@
 //! Brings a Plan up to date where the structure is the same: new values, or new sizes too.
 
 use super::barriers::StepBarriers;
-use super::parts::{Parts, frame_work};
+use super::stage_results::{StageResults, frame_work};
 use super::values::{settings, views, with_bytes};
 use super::{attachments, passes};
 use crate::compile::model::{Kind, OpKind};
@@ -10,7 +10,7 @@ use crate::frame::Work as FrameWork;
 use crate::plan::{Param, Pass, Plan, Role, Totals, Work};
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
-pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
+pub(in crate::compile) fn values(parts: &StageResults<'_>, plan: &mut Plan) {
     plan.settings = settings(parts);
     plan.views = views(parts);
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
@@ -35,7 +35,7 @@ pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
     }
 }
 
-fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
+fn pass_values(parts: &StageResults<'_>, op: u32, planned: &mut Pass) {
     let kind = &parts.adapted.ops[op as usize].kind;
     let (OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::DepthOnly { pass, .. }) = kind else { return };
     let declared = &parts.frame.passes[*pass as usize];
@@ -53,7 +53,7 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
 }
 
 /// Brings sizes and values up to date. Steps and barriers are the same.
-pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
+pub(in crate::compile) fn sizes(parts: &StageResults<'_>, plan: &mut Plan) {
     values(parts, plan);
     let Plan { images, buffers, .. } = plan;
     for ((resource, placement), index) in parts.adapted.resources.iter().zip(&parts.placed.placements).zip(0..) {
@@ -99,7 +99,7 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
 }
 
 /// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
-pub(in crate::compile) fn barriers(parts: &Parts<'_>, plan: &mut Plan) {
+pub(in crate::compile) fn barriers(parts: &StageResults<'_>, plan: &mut Plan) {
     let mut barriers = StepBarriers::new(parts);
     for (step, number) in plan.steps.iter_mut().zip(0..) {
         (step.memory_barriers, step.image_barriers) = barriers.of(number);

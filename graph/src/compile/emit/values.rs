@@ -1,21 +1,21 @@
 //! Settings, views and totals of the Plan.
 
-use super::parts::Parts;
+use super::stage_results::StageResults;
 use crate::frame::{self, Frame};
 use crate::plan::{Change, SettingUsed, Totals, View, ViewEye, ViewId};
 
-pub(super) fn settings(parts: &Parts<'_>) -> Vec<SettingUsed> {
+pub(super) fn settings(parts: &StageResults<'_>) -> Vec<SettingUsed> {
     let settings = parts.frame.settings.iter();
     settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect()
 }
 
-pub(super) fn changes(parts: &Parts<'_>) -> Vec<Change> {
+pub(super) fn changes(parts: &StageResults<'_>) -> Vec<Change> {
     let Frame { sources, changes, .. } = parts.frame;
     changes.iter().map(|change| Change { action: change.action.clone(), at: sources.place(change.span) }).collect()
 }
 
 /// Totals with the sizes of memory.
-pub(super) fn with_bytes(parts: &Parts<'_>, totals: Totals) -> Totals {
+pub(super) fn with_bytes(parts: &StageResults<'_>, totals: Totals) -> Totals {
     Totals {
         transient_bytes: parts.placed.transient_bytes,
         placed_bytes: parts.placed.heaps.iter().map(|heap| heap.bytes).sum(),
@@ -25,7 +25,7 @@ pub(super) fn with_bytes(parts: &Parts<'_>, totals: Totals) -> Totals {
     }
 }
 
-pub(super) fn views(parts: &Parts<'_>) -> Vec<View> {
+pub(super) fn views(parts: &StageResults<'_>) -> Vec<View> {
     let view = |view: &frame::View| View {
         name: view.name.clone(),
         extent: view.extent,

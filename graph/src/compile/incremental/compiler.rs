@@ -2,7 +2,7 @@
 
 use super::difference::{self, Difference};
 use crate::base::Diagnostic;
-use crate::compile::emit::{self, Parts};
+use crate::compile::emit::{self, StageResults};
 use crate::compile::model::OpKind;
 use crate::compile::options::Options;
 use crate::compile::structure::{Settled, Settling, Structure};
@@ -124,7 +124,7 @@ impl Last {
         let settled = structure.settle(barriers, device, memory, options)?;
         let planned = substitute.as_ref().unwrap_or(frame);
         let resources = emit::resources(planned, &structure, &settled);
-        let plan = emit::emit(&Parts::new(planned, device, &structure, &settled), resources);
+        let plan = emit::emit(&StageResults::new(planned, device, &structure, &settled), resources);
         Ok(Last {
             given: frame.clone(),
             frame: frame.clone(),
@@ -179,7 +179,7 @@ impl Last {
         }
         let Last { structure, settled, device, plan, .. } = self;
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
-        emit::values(&Parts::new(frame, device, structure, settled), plan);
+        emit::values(&StageResults::new(frame, device, structure, settled), plan);
         true
     }
 
@@ -196,7 +196,7 @@ impl Last {
         }
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
         let settling = structure.settle_again(settled, device, memory, options)?;
-        let parts = Parts::new(frame, device, structure, settled);
+        let parts = StageResults::new(frame, device, structure, settled);
         match settling {
             Settling::Same => {
                 self.reuse = Reuse::Barriers;

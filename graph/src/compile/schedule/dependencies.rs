@@ -17,7 +17,7 @@ pub(super) struct Dependencies {
 
 /// The last write of a subresource, and a list of the reads since.
 #[derive(Debug, Clone, Copy)]
-struct SubresourceState {
+struct WriterAndReaders {
     writer: u32,
     /// Into a list of readers, each with the next one's place.
     readers: u32,
@@ -26,7 +26,7 @@ struct SubresourceState {
 impl Dependencies {
     /// The dependencies between `runs`.
     pub(super) fn between(accesses: &Accesses, runs: &Runs) -> Dependencies {
-        let mut subresources = vec![SubresourceState { writer: NONE, readers: NONE }; accesses.subresources];
+        let mut subresources = vec![WriterAndReaders { writer: NONE, readers: NONE }; accesses.subresources];
         let mut readers: Vec<(u32, u32)> = Vec::new();
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {

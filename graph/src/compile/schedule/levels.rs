@@ -94,13 +94,13 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 struct Walk<'a> {
     accesses: &'a Accesses,
     runs: &'a Runs,
-    subresources: Vec<SubresourceState>,
+    subresources: Vec<LastLevels>,
 }
 
 /// The accesses to a subresource so far: one more than their highest level, 0 if there are none. Reads in one layout don't
 /// depend on each other, as in `runs`.
 #[derive(Debug, Clone, Copy)]
-struct SubresourceState {
+struct LastLevels {
     before: u32,
     readers: u32,
     layout: Layout,
@@ -108,7 +108,7 @@ struct SubresourceState {
 
 impl<'a> Walk<'a> {
     fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
-        let state = SubresourceState { before: 0, readers: 0, layout: Layout::Undefined };
+        let state = LastLevels { before: 0, readers: 0, layout: Layout::Undefined };
         Walk { accesses, runs, subresources: vec![state; accesses.subresources] }
     }
 
@@ -131,11 +131,11 @@ impl<'a> Walk<'a> {
         for Access { subresource, writes, layout } in self.accesses.op(op).iter().copied() {
             let state = &mut self.subresources[subresource as usize];
             if writes {
-                *state = SubresourceState { before: behind, readers: 0, layout };
+                *state = LastLevels { before: behind, readers: 0, layout };
             } else if state.readers != 0 && state.layout == layout {
                 state.readers = state.readers.max(behind);
             } else {
-                *state = SubresourceState { before: state.before.max(state.readers), readers: behind, layout };
+                *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
             }
         }
     }

@@ -33,7 +33,7 @@ impl Runs {
             runs: Vec::new(),
             run_of: Vec::with_capacity(adapted.ops.len()),
             subresources: vec![
-                SubresourceState { before: NONE, readers: NONE, layout: Layout::Undefined };
+                LastRuns { before: NONE, readers: NONE, layout: Layout::Undefined };
                 accesses.subresources
             ],
             places: 0,
@@ -84,7 +84,7 @@ impl Runs {
 /// The accesses to a subresource so far: a write, then reads in one layout. A read in another layout than the one before it
 /// comes behind it, as a write would: changing the order of layouts could only add barriers.
 #[derive(Debug, Clone, Copy)]
-struct SubresourceState {
+struct LastRuns {
     /// The run that wrote it, or read it in an earlier layout.
     before: u32,
     /// The rearmost of the runs that read it since.
@@ -107,7 +107,7 @@ struct Gatherer<'a> {
     accesses: &'a Accesses,
     runs: Vec<Run>,
     run_of: Vec<u32>,
-    subresources: Vec<SubresourceState>,
+    subresources: Vec<LastRuns>,
     places: u32,
 }
 
@@ -118,7 +118,7 @@ impl Gatherer<'_> {
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
         for Access { subresource, writes, layout } in accesses.op(op) {
-            let SubresourceState { before, readers, layout: current } = subresources[*subresource as usize];
+            let LastRuns { before, readers, layout: current } = subresources[*subresource as usize];
             let readers = if *writes || current != *layout { readers } else { NONE };
             for run in [before, readers] {
                 if run != NONE && Some(run) != candidate {
@@ -153,12 +153,12 @@ impl Gatherer<'_> {
 }
 
 /// Notes the access of a run to a subresource.
-fn note(runs: &mut [Run], state: &mut SubresourceState, run: u32, writes: bool, layout: Layout) {
+fn note(runs: &mut [Run], state: &mut LastRuns, run: u32, writes: bool, layout: Layout) {
     if writes {
-        *state = SubresourceState { before: run, readers: NONE, layout };
+        *state = LastRuns { before: run, readers: NONE, layout };
     } else if state.readers == NONE || state.layout != layout {
         let before = if state.readers == NONE { state.before } else { state.readers };
-        *state = SubresourceState { before, readers: run, layout };
+        *state = LastRuns { before, readers: run, layout };
     } else if state.readers != run {
         // Only the rearmost reader is known from here on, so none of them may move any more.
         runs[state.readers as usize].fixed = true;
@@ -170,7 +170,7 @@ fn note(runs: &mut [Run], state: &mut SubresourceState, run: u32, writes: bool, 
 }
 
 /// The run whose last write an operation draws on top of.
-fn candidate(adapted: &Adapted, subresources: &[SubresourceState], op: u32) -> Option<u32> {
+fn candidate(adapted: &Adapted, subresources: &[LastRuns], op: u32) -> Option<u32> {
     if !adapted.ops[op as usize].kind.draws() {
         return None;
     }

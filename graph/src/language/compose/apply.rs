@@ -1,6 +1,6 @@
 //! `changes`: a file sets, removes and inserts entries.
 
-use super::account::{ChangeLog, Changed, Removed};
+use super::change_log::{ChangeLog, Changed, Removed};
 use super::changes::{InsertFields, KINDS, RemoveFields, SetFields};
 use super::draft::{self, Draft};
 use super::entry::Entry;
@@ -20,10 +20,10 @@ const INSERT: &str = "Insert(before: \"name\", passes: […])";
 const OF_VALUES: [&str; 5] = ["default", "min", "max", "step", "of"];
 
 /// Applies a list of changes, one after the other.
-pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf<'t>, account: &mut ChangeLog) {
+pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf<'t>, change_log: &mut ChangeLog) {
     for leaf in reader.list(list, "`changes`").into_iter().flatten() {
         let Some((word, rest)) = reader.one_of(leaf, &KINDS) else { continue };
-        let mut change = Change { reader, draft, account, leaf };
+        let mut change = Change { reader, draft, change_log, leaf };
         match word {
             "Set" => change.set(rest),
             "Remove" => change.remove(rest),
@@ -36,7 +36,7 @@ pub(crate) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf
 struct Change<'c, 't> {
     reader: &'c mut Reader,
     draft: &'c mut Draft<'t>,
-    account: &'c mut ChangeLog,
+    change_log: &'c mut ChangeLog,
     leaf: Leaf<'t>,
 }
 
@@ -83,10 +83,10 @@ impl<'t> Change<'_, 't> {
             self.reader.report(wrong.label(stands, format!("`{}` stands here", name.text)));
         }
         let by = self.leaf.span();
-        self.account.changed.push(Changed { entry, name: Name { text: name.text.clone(), span: stands }, by });
+        self.change_log.changed.push(Changed { entry, name: Name { text: name.text.clone(), span: stands }, by });
         let fields = given.iter().map(|(field, _)| field.text().into()).collect();
         let without = taken.into_iter().map(|(field, _)| field.into()).collect();
-        self.account.did(by, Action::Set { of: kind, name: name.text, fields, without });
+        self.change_log.did(by, Action::Set { of: kind, name: name.text, fields, without });
         Some(())
     }
 
@@ -156,10 +156,10 @@ impl<'t> Change<'_, 't> {
         let by = self.leaf.span();
         if let Some(outputs) = self.draft.outputs_written.filter(|_| kind == Kind::Output) {
             let (entry, span) = (outputs.span(), outputs.start());
-            self.account.changed.push(Changed { entry, name: Name { text: "outputs".into(), span }, by });
+            self.change_log.changed.push(Changed { entry, name: Name { text: "outputs".into(), span }, by });
         }
-        self.account.remove(Removed { kind, name: name.clone(), by, texts });
-        self.account.did(by, Action::Remove { of: kind, name: name.text });
+        self.change_log.remove(Removed { kind, name: name.clone(), by, texts });
+        self.change_log.did(by, Action::Remove { of: kind, name: name.text });
         Some(())
     }
 
@@ -171,7 +171,7 @@ impl<'t> Change<'_, 't> {
                 let new: Vec<_> = self.reader.list(outputs, "`outputs`")?.into_iter().map(draft::output).collect();
                 let names = new.iter().filter_map(|entry| Some(entry.name?.text.into())).collect();
                 new.into_iter().for_each(|output| self.draft.outputs.add(output));
-                self.account.did(by, Action::Add { of: Kind::Output, names });
+                self.change_log.did(by, Action::Add { of: Kind::Output, names });
             }
             InsertFields { before, after, at, passes: Some(passes), outputs: None } => {
                 let place = self.place(before, after, at)?;
@@ -181,7 +181,7 @@ impl<'t> Change<'_, 't> {
                 for entry in entries {
                     self.draft.passes.insert(&place, entry);
                 }
-                self.account.did(by, Action::Insert { place, names });
+                self.change_log.did(by, Action::Insert { place, names });
             }
             _ => {
                 let wrong = "passes are inserted at a place, or outputs by themselves";
@@ -256,7 +256,7 @@ impl<'t> Change<'_, 't> {
     /// Reports that there is nothing of that name to change.
     fn missing(&mut self, kind: Kind, name: &Name) {
         let (word, text) = (kind.word(), &name.text);
-        if let Some(removed) = self.account.removed(kind, text) {
+        if let Some(removed) = self.change_log.removed(kind, text) {
             let gone = Diagnostic::new(name.span, format!("{word} `{text}` is removed already"));
             self.reader.report(gone.label(removed.by, "removed here"));
             return;

@@ -1,6 +1,6 @@
 //! A pipeline while files add to it and change it: lists of entries, each still where it was written.
 
-use super::account::ChangeLog;
+use super::change_log::ChangeLog;
 use super::entry::{Called, Entry};
 use super::layers::Role;
 use super::order::Order;
@@ -84,7 +84,7 @@ impl<'t> Draft<'t> {
     }
 
     /// Adds the entries of a file.
-    pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut ChangeLog) {
+    pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, change_log: &mut ChangeLog) {
         for (kind, section) in LISTS {
             let Some(leaf) = sections.get(&section) else { continue };
             let Some(entries) = reader.list(leaf, &format!("`{}`", section.name)) else { continue };
@@ -102,7 +102,7 @@ impl<'t> Draft<'t> {
                 list.add(entry);
             }
             if !names.is_empty() {
-                account.did(leaf.start(), Action::Add { of: kind, names });
+                change_log.did(leaf.start(), Action::Add { of: kind, names });
             }
         }
         for (old, section) in self.replaced.iter_mut().zip(REPLACED) {
@@ -125,7 +125,7 @@ impl<'t> Draft<'t> {
             entries.into_iter().map(output).for_each(|output| self.outputs.add(output));
             if role != Role::Whole {
                 let names = self.outputs.names().into_iter().map(Arc::from).collect();
-                account.did(leaf.start(), Action::Outputs { names });
+                change_log.did(leaf.start(), Action::Outputs { names });
             }
         }
     }

@@ -8,7 +8,7 @@
 //!
 //! The order: the pipeline that is extended, then extensions as they are listed, then the file's own lists and changes.
 
-use super::account::ChangeLog;
+use super::change_log::ChangeLog;
 use super::draft::Draft;
 use super::files::Found;
 use super::includes::Wanted;
@@ -22,7 +22,7 @@ use crate::ron::{Reader, Tree};
 pub(crate) struct Composed {
     pub(crate) tree: Tree,
     pub(crate) wanted: Vec<Wanted>,
-    pub(crate) account: ChangeLog,
+    pub(crate) change_log: ChangeLog,
 }
 
 /// Reads the files that the pipeline's own file is put together with, and then `further` extensions. `None` if a mistake
@@ -32,7 +32,7 @@ pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, fur
         return None;
     }
     if own.is_all() && further.is_empty() {
-        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), account: ChangeLog::default() });
+        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), change_log: ChangeLog::default() });
     }
     let layers = layers::read(reader, loader, own, further)?;
     compose(reader, &layers)
@@ -43,24 +43,24 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
     let sections: Vec<Option<Sections<'_>>> = layers.list.iter().map(|layer| layer.sections(reader)).collect();
     let sections: Vec<Sections<'_>> = sections.into_iter().collect::<Option<_>>()?;
     let base = layers.list.iter().find(|layer| layer.role == Role::Whole)?.tree.root();
-    let mut account = ChangeLog::default();
+    let mut change_log = ChangeLog::default();
     let mut draft = Draft::default();
     let mut wanted = Vec::new();
     for Turn { layer: at, named, adds, changes } in &layers.turns {
         let (layer, sections) = (&layers.list[*at], &sections[*at]);
         if let Some(named) = named {
-            account.did(*named, layer.action());
+            change_log.did(*named, layer.action());
         }
         if *adds {
             let paths = loader::paths(reader, sections.get(&tables::INCLUDE), "`include`");
             wanted.push(Wanted { from: layer.relative.clone(), paths });
-            draft.add(reader, sections, layer.role, &mut account);
+            draft.add(reader, sections, layer.role, &mut change_log);
         }
         if let Some(list) = sections.get(&tables::CHANGES).filter(|_| *changes) {
-            apply::changes(reader, &mut draft, list, &mut account);
+            apply::changes(reader, &mut draft, list, &mut change_log);
         }
     }
     let removed = std::mem::take(&mut draft.removed_settings);
     unset::everywhere(&mut draft, &removed);
-    Some(Composed { tree: build::tree(&draft, base), wanted, account })
+    Some(Composed { tree: build::tree(&draft, base), wanted, change_log })
 }

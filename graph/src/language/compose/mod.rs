@@ -1,8 +1,8 @@
 //! The files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.
 
-pub(crate) mod account;
 pub(crate) mod apply;
 pub(crate) mod build;
+pub(crate) mod change_log;
 pub(crate) mod changes;
 pub(crate) mod draft;
 pub(crate) mod entry;

@@ -6,7 +6,7 @@ use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::{Context, Given, GivenTuple, Kept, given};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;
@@ -129,7 +129,7 @@ const ACCESSES: [(&str, StorageAccess); 3] =
 
 impl Context<'_> {
     /// Images by the shader's names, and those that conditions leave out.
-    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<Given<(Vec<Sample>, Vec<LeftOut>)>> {
+    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<(Vec<Sample>, Vec<LeftOut>)>> {
         let all = self.entries(leaf, "`sample`", "a sampled image", |context, binding, value| {
             let fields = match value.shape() {
                 Shape::Parentheses => context.reader.read(value, "a sampled image")?,
@@ -139,7 +139,7 @@ impl Context<'_> {
             let sample = context.sampled_image(binding.clone(), fields);
             let (binding, off, sample) = (binding?, off?, sample?);
             let Some(off) = off else { return Some(sample.map(Ok)) };
-            Some(Given::asked(move |evaluator| {
+            Some(FieldValue::computed(move |evaluator| {
                 let off = off.evaluate(evaluator);
                 let is_off = matches!(off, Some(Some(_)));
                 let before = evaluator.reader.errors.len();
@@ -154,7 +154,7 @@ impl Context<'_> {
                 }
             }))
         })?;
-        Some(given(all, |all| {
+        Some(combined(all, |all| {
             let (mut samples, mut left_out) = (Vec::with_capacity(all.len()), Vec::new());
             for sample in all {
                 match sample {
@@ -166,7 +166,7 @@ impl Context<'_> {
         }))
     }
 
-    fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Given<Sample>> {
+    fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<FieldValue<Sample>> {
         let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
         let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
         let selected = Selected { mip, mips, layer, layers, plane, previous };
@@ -174,10 +174,10 @@ impl Context<'_> {
         let filter = self.sampler_word(filter, "a filter", &FILTERS);
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
         let address = self.sampler_word(address, "an address mode", &ADDRESSES);
-        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(Given::spanned));
+        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (part, face) = image?;
         let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, own_pixel?));
-        Some(given(parts, move |(part, filter, mip_filter, address, own_pixel)| Sample {
+        Some(combined(parts, move |(part, filter, mip_filter, address, own_pixel)| Sample {
             binding: binding.clone(),
             part,
             face,
@@ -194,12 +194,12 @@ impl Context<'_> {
         leaf: Option<Leaf<'_>>,
         what: &'static str,
         choices: &'static [(&'static str, T)],
-    ) -> Option<Option<Given<Spanned<T>>>> {
-        optional(leaf, |leaf| self.word(leaf, what, choices).map(Given::spanned))
+    ) -> Option<Option<FieldValue<Spanned<T>>>> {
+        optional(leaf, |leaf| self.word(leaf, what, choices).map(FieldValue::spanned))
     }
 
     /// Images and buffers that the shader reads and writes, by its names.
-    pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Storage>>> {
+    pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Storage>>> {
         self.entries(leaf, "`storage`", "a storage image or buffer", |context, binding, value| {
             let Shape::Parentheses = value.shape() else {
                 let part = context.part(value);
@@ -232,7 +232,7 @@ impl Context<'_> {
     }
 
     /// Buffers that the shader reads as uniform blocks, by its names.
-    pub(crate) fn uniforms(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Uniform>>> {
+    pub(crate) fn uniforms(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Uniform>>> {
         self.entries(leaf, "`uniform`", "a uniform block", |context, binding, value| {
             let (part, binding) = (context.buffer_part(value), binding?);
             Some(part?.map(move |part| Uniform { binding: binding.clone(), part }))
@@ -240,7 +240,7 @@ impl Context<'_> {
     }
 
     /// Values by the names of the shader's parameters.
-    pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Param>>> {
+    pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Param>>> {
         self.entries(leaf, "`params`", "a parameter", |context, name, leaf| {
             let (value, name) = (context.param(leaf)?, name?);
             Some(value.map(move |value| Param {

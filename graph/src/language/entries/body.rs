@@ -1,20 +1,20 @@
 //! The body of a pipeline or of a fragment: its textures, images, buffers and passes, field by field.
 
 use super::buffers::BufferFields;
+use super::diagnosed::Diagnosed;
 use super::fragments::Fragments;
 use super::images::ImageFields;
 use super::list::{entries, entry};
 use super::pass_fields::PassFields;
 use super::repeat::Repeat;
 use super::textures::{Pictures, TextureFields};
-use super::told::Told;
 use super::uses::{UseEntry, UseFields};
 use super::views::ViewEntries;
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::ViewIndex;
 use crate::language::model::{Buffer, Image, Pass};
-use crate::language::scope::{Context, Given, Parameter, Scope, Symbols};
+use crate::language::scope::{Context, FieldValue, Parameter, Scope, Symbols};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -23,8 +23,8 @@ use std::sync::Arc;
 pub(crate) struct Body {
     pub(crate) symbols: Arc<Symbols>,
     /// Textures first.
-    pub(crate) images: Vec<Option<Entry<Given<Image>>>>,
-    pub(crate) buffers: Vec<Option<Entry<Given<Buffer>>>>,
+    pub(crate) images: Vec<Option<Entry<FieldValue<Image>>>>,
+    pub(crate) buffers: Vec<Option<Entry<FieldValue<Buffer>>>>,
     pub(crate) items: Vec<Option<Entry<Item>>>,
 }
 
@@ -32,14 +32,14 @@ pub(crate) struct Body {
 pub(crate) struct Entry<T> {
     pub(crate) repeat: Repeat,
     /// The view that it names, if it names one.
-    view: Told<Option<ViewIndex>>,
-    pub(crate) value: Told<T>,
+    view: Diagnosed<Option<ViewIndex>>,
+    pub(crate) value: Diagnosed<T>,
 }
 
 /// An entry of `passes`.
 pub(crate) enum Item {
     /// A pass.
-    Pass(Box<Given<Pass>>),
+    Pass(Box<FieldValue<Pass>>),
     /// A fragment is used.
     Use(Box<UseEntry>),
     /// A place that extensions may name.
@@ -189,7 +189,7 @@ impl LevelReader<'_> {
         read: impl FnOnce(&mut Context<'_>) -> Option<T>,
     ) -> Entry<T> {
         let LevelReader { reader, symbols, views } = self;
-        let view = Told::read(reader, |reader| match (view, views) {
+        let view = Diagnosed::read(reader, |reader| match (view, views) {
             (None, _) => Some(None),
             (Some(leaf), Some(views)) => views.find(reader, leaf).map(Some),
             (Some(leaf), None) => {
@@ -200,7 +200,7 @@ impl LevelReader<'_> {
         });
         let repeat = Repeat::read(&mut Context { reader, scope: Scope { symbols, index: None } }, repeat);
         let scope = Scope { symbols, index: repeat.index() };
-        let value = Told::read(reader, |reader| read(&mut Context { reader, scope }));
+        let value = Diagnosed::read(reader, |reader| read(&mut Context { reader, scope }));
         Entry { repeat, view, value }
     }
 }

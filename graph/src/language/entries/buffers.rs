@@ -5,7 +5,7 @@ use super::{lifetimes, parts, views};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
-use crate::language::scope::{Context, Given, Parameter, ParameterKind, given};
+use crate::language::scope::{Context, FieldValue, Parameter, ParameterKind, combined};
 use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
 
 /// Most bytes that a buffer may have: 1 TiB.
@@ -59,14 +59,15 @@ static BYTES: Words = Words {
 
 impl Context<'_> {
     /// A buffer.
-    pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<Given<Buffer>> {
+    pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<FieldValue<Buffer>> {
         let name = self.reader.name(fields.name, "a buffer");
         let bytes = self.bytes(fields.bytes);
         let transient = Spanned { value: Lifetime::Transient, span: fields.name.span() };
-        let lifetime =
-            fields.lifetime.map_or(Some(Given::Known(transient)), |leaf| self.lifetime(leaf, lifetimes::Of::Buffer));
+        let lifetime = fields
+            .lifetime
+            .map_or(Some(FieldValue::Constant(transient)), |leaf| self.lifetime(leaf, lifetimes::Of::Buffer));
         let (name, bytes) = (name?, bytes?.at(fields.bytes));
-        Some(given((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
+        Some(combined((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
             name: name.clone(),
             bytes,
             lifetime,
@@ -74,12 +75,12 @@ impl Context<'_> {
         }))
     }
 
-    fn bytes(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Bytes>>> {
+    fn bytes(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Bytes>>> {
         let (what, span) = ("size of a buffer in bytes", leaf.span());
         match leaf.shape() {
             Shape::Text | Shape::Number => {
                 let bytes = self.whole_because(leaf, what, 4..=LARGEST_BUFFER)?;
-                if let Given::Known(Decided { value: bytes, .. }) = &bytes
+                if let FieldValue::Constant(Decided { value: bytes, .. }) = &bytes
                     && !u64::is_multiple_of(*bytes, 4)
                 {
                     let help = format!("the next is {}", bytes.next_multiple_of(4));
@@ -98,18 +99,18 @@ impl Context<'_> {
                 let each = self.whole(each, "number of bytes", 1..=LARGEST_BUFFER);
                 if word == "PerTexel" {
                     let image = self.image(of);
-                    return Some(given((each?, image?), move |(each, image)| {
+                    return Some(combined((each?, image?), move |(each, image)| {
                         Decided::said(span, Bytes::PerTexel(each, image))
                     }));
                 }
                 let count = self.bytes_times(of)?;
-                Some(given((each?, count), |(each, count)| count.map(|count| Bytes::Times(each, count))))
+                Some(combined((each?, count), |(each, count)| count.map(|count| Bytes::Times(each, count))))
             }
         }
     }
 
     /// The number of elements of a buffer.
-    fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<u64>>> {
+    fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<u64>>> {
         if let Some(Parameter { kind: ParameterKind::Value(kind), .. }) = self.setting(leaf)
             && let Some(least) = kind.least().filter(|least| *least < 1.0 && kind.is_whole())
         {
@@ -117,7 +118,7 @@ impl Context<'_> {
             self.reader.wrong(leaf, message, "let the setting begin at 1");
             return None;
         }
-        let count: Given<Decided<i64>> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
+        let count: FieldValue<Decided<i64>> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
         count.checked(self.reader, move |count, _| match u64::try_from(count.value) {
             Ok(value @ 1..) => Ok(count.map(|_| value)),
             _ => {

@@ -4,7 +4,7 @@ use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Leaf, Spanned, Table, names};
 
 /// Draw lists, by name.
@@ -38,7 +38,7 @@ const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
 
 impl Context<'_> {
     /// The cascade of `Casters(…)`.
-    pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Given<Cascade>> {
+    pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<FieldValue<Cascade>> {
         let fields: CastersFields<'_> = self.reader.inside(leaf, rest, FORM)?;
         let most = i64::from(Cascade::MOST);
         let list = values::choice(self.reader, fields.list, "a list of casters", &CASTERS);
@@ -46,8 +46,8 @@ impl Context<'_> {
         let of = self.whole_at(fields.of, "number of cascades", 1..=most);
         let reach = optional(fields.reach, |leaf| self.reach(leaf));
         let (list, index) = (list?, index?);
-        let said = index.is_known();
-        let numbers = given((index, of?, reach?), |numbers| numbers);
+        let said = index.is_constant();
+        let numbers = combined((index, of?, reach?), |numbers| numbers);
         numbers.checked_as(self.reader, said, move |(index, of, reach): (Spanned<u8>, Spanned<u8>, _), _| {
             if index.value >= of.value {
                 let beyond = format!("there is no cascade {} of {}", index.value, of.value);
@@ -59,7 +59,7 @@ impl Context<'_> {
     }
 
     /// How far shadows reach; `None`: through the whole scene.
-    fn reach(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Metres>>> {
+    fn reach(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Option<Metres>>> {
         self.number_because(leaf, "how far shadows reach")?.checked(self.reader, move |metres, _| {
             if metres.value == 0.0 {
                 return Ok(None);

@@ -3,7 +3,7 @@
 use super::values::{MANY, at};
 use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
-use crate::language::scope::{Context, Given, all, given};
+use crate::language::scope::{Context, FieldValue, all, combined};
 use crate::ron::{Form, Leaf, Takes, Word, Words};
 
 /// The form of `groups`: a number of workgroups.
@@ -56,7 +56,7 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         groups_at: Option<Leaf<'_>>,
         what: &str,
-    ) -> Option<Given<Work>> {
+    ) -> Option<FieldValue<Work>> {
         let shader = self.reader.outside_name(leaf, "a shader");
         let Some(groups_at) = groups_at else {
             self.reader.wrong(
@@ -71,15 +71,15 @@ impl Context<'_> {
         Some(at(groups_at, groups?).map(move |groups| Work::Dispatch { shader: shader.clone(), groups }))
     }
 
-    fn groups(&mut self, leaf: Leaf<'_>) -> Option<Given<Groups>> {
+    fn groups(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Groups>> {
         let (word, rest) = self.reader.one_of(leaf, &GROUPS)?;
         match word {
             "Count" => self
                 .three_numbers(leaf, rest, "number of workgroups", MOST_GROUPS)
-                .map(|numbers| given(numbers, Groups::Count)),
+                .map(|numbers| combined(numbers, Groups::Count)),
             "Invocations" => self
                 .three_numbers(leaf, rest, "number of invocations", i64::from(u32::MAX))
-                .map(|numbers| given(numbers, Groups::Invocations)),
+                .map(|numbers| combined(numbers, Groups::Invocations)),
             "Texels" => {
                 let image = match rest {
                     // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
@@ -101,10 +101,10 @@ impl Context<'_> {
                     ),
                 };
                 let buffer = self.buffer_part(buffer);
-                let offset = offset.map_or(Some(Given::Known(0)), |leaf| {
+                let offset = offset.map_or(Some(FieldValue::Constant(0)), |leaf| {
                     self.whole(leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER)
                 });
-                Some(given((buffer?, offset?), |(buffer, offset)| Groups::Indirect { buffer, offset }))
+                Some(combined((buffer?, offset?), |(buffer, offset)| Groups::Indirect { buffer, offset }))
             }
         }
     }
@@ -116,7 +116,7 @@ impl Context<'_> {
         rest: Option<Leaf<'_>>,
         what: &'static str,
         most: i64,
-    ) -> Option<[Given<u32>; 3]> {
+    ) -> Option<[FieldValue<u32>; 3]> {
         let probed = rest.and_then(|rest| {
             let one = rest.tuple().map(|[x]| (x, None, None));
             one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
@@ -128,7 +128,7 @@ impl Context<'_> {
                 (x, Some(y), Some(z))
             }
         };
-        let one = || Some(Given::Known(1));
+        let one = || Some(FieldValue::Constant(1));
         all([Some(x), y, z].map(|leaf| leaf.map_or_else(one, |leaf| self.whole(leaf, what, 1..=most))))
     }
 }

@@ -5,7 +5,7 @@ use super::parts;
 use super::values::{self, MANY};
 use crate::frame::DrawList;
 use crate::language::model::{Draw, Work};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
 
 /// The form of `draw`.
@@ -65,7 +65,7 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         DrawFields { shader, vertex, index }: DrawFields<'_>,
         what: &str,
-    ) -> Option<Given<Work>> {
+    ) -> Option<FieldValue<Work>> {
         let (word, rest) = self.reader.one_of(leaf, &DRAWS)?;
         if !matches!(word, "Vertices" | "Indirect") {
             for (field, foreign) in [("vertex", vertex), ("index", index)] {
@@ -86,17 +86,17 @@ impl Context<'_> {
                     return None;
                 }
                 let shader = self.reader.outside_name(own, "a shader")?;
-                return Some(Given::Known(Work::Draw { draw: Draw::FullScreen, shader }));
+                return Some(FieldValue::Constant(Work::Draw { draw: Draw::FullScreen, shader }));
             }
             "Sky" => {
                 self.reader.bare(word, rest)?;
                 if shader.is_none() {
                     let shader = Name { text: "sky".into(), span: leaf.span() };
-                    return Some(Given::Known(Work::Draw { draw: Draw::Sky, shader }));
+                    return Some(FieldValue::Constant(Work::Draw { draw: Draw::Sky, shader }));
                 }
-                (Given::Known(Draw::Sky), "draws the sky")
+                (FieldValue::Constant(Draw::Sky), "draws the sky")
             }
-            "Objects" => (Given::Known(Draw::Objects(list(self.reader, leaf, rest)?)), "draws objects"),
+            "Objects" => (FieldValue::Constant(Draw::Objects(list(self.reader, leaf, rest)?)), "draws objects"),
             "Casters" => (self.casters(leaf, rest)?.map(Draw::Casters), "draws objects"),
             "Vertices" => {
                 let (count, instances) = match rest.and_then(Leaf::tuple) {
@@ -109,10 +109,10 @@ impl Context<'_> {
                 };
                 let range = 1..=i64::from(u32::MAX);
                 let count = self.whole(count, "number of vertices", range.clone());
-                let once = Some(Given::Known(1));
+                let once = Some(FieldValue::Constant(1));
                 let instances = instances.map_or(once, |leaf| self.whole(leaf, "number of instances", range));
                 let vertices = (count?, instances?);
-                (given(vertices, |(count, instances)| Draw::Vertices { count, instances }), "draws vertices")
+                (combined(vertices, |(count, instances)| Draw::Vertices { count, instances }), "draws vertices")
             }
             _ => {
                 let [buffer]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Indirect(\"buffer\")")?;

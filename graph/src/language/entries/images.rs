@@ -9,7 +9,7 @@ use crate::frame::{SAMPLE_COUNTS, ViewIndex};
 use crate::language::model::{
     Decided, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
 };
-use crate::language::scope::{Context, Given, Kept, Parameter, given, within_view};
+use crate::language::scope::{Context, FieldValue, Kept, Parameter, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
 
@@ -138,7 +138,7 @@ static SHAPES: Words = Words {
 
 impl Context<'_> {
     /// An image.
-    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Given<Image>> {
+    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<FieldValue<Image>> {
         let name = self.reader.name(fields.name, "an image");
         let span = name.as_ref().map_or(Span::NONE, |name| name.span);
         let format = self.image_format(fields.format);
@@ -148,30 +148,32 @@ impl Context<'_> {
         let mips = or(fields.mips, span, Mips::Count(1), |leaf| self.mips(leaf));
         let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
         let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
-        let transient = Given::Known(Spanned { value: Lifetime::Transient, span });
+        let transient = FieldValue::Constant(Spanned { value: Lifetime::Transient, span });
         let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, lifetimes::Of::Image));
-        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(Given::spanned));
+        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (format, size) = (in_field(fields.format, format?), in_field(fields.size, size?));
         let (name, how_many) = (name?, (samples?, mips?, layers?));
         let parts = ((format, size, shape?), how_many, resolve?, lifetime?, per_eye?);
-        Some(given(parts, move |((format, size, shape), (samples, mips, layers), resolve, lifetime, per_eye)| Image {
-            name: name.clone(),
-            format,
-            size,
-            samples,
-            resolve,
-            mips,
-            layers,
-            shape,
-            lifetime,
-            eyes: None,
-            per_eye,
-            view: ViewIndex::default(),
-            instance: None,
+        Some(combined(parts, move |((format, size, shape), (samples, mips, layers), resolve, lifetime, per_eye)| {
+            Image {
+                name: name.clone(),
+                format,
+                size,
+                samples,
+                resolve,
+                mips,
+                layers,
+                shape,
+                lifetime,
+                eyes: None,
+                per_eye,
+                view: ViewIndex::default(),
+                instance: None,
+            }
         }))
     }
 
-    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
+    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Format>>> {
         if let Shape::Text = leaf.shape() {
             if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
                 self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
@@ -191,11 +193,11 @@ impl Context<'_> {
                 };
                 let mut truth = |field: Option<Leaf<'_>>, absent: bool| match field {
                     Some(field) => self.truth(field),
-                    None => Some(Given::said(leaf, absent)),
+                    None => Some(FieldValue::said(leaf, absent)),
                 };
                 let (hdr, alpha) = fields.map_or((None, None), |fields| (fields.hdr, fields.alpha));
                 let (hdr, alpha) = (truth(hdr, false), truth(alpha, true));
-                Some(given((hdr?, alpha?), |(hdr, alpha)| hdr.and(alpha, |hdr, alpha| Format::Color { hdr, alpha })))
+                Some(combined((hdr?, alpha?), |(hdr, alpha)| hdr.and(alpha, |hdr, alpha| Format::Color { hdr, alpha })))
             }
             "Like" => self.like(leaf, rest, Format::Like),
             name => {
@@ -206,12 +208,12 @@ impl Context<'_> {
                     "Output" => Format::Output,
                     name => Format::Named(vulkan::Format::from_name(name)?),
                 };
-                Some(Given::said(leaf, format))
+                Some(FieldValue::said(leaf, format))
             }
         }
     }
 
-    fn samples(&mut self, leaf: Leaf<'_>, image: Option<&Name>) -> Option<Given<Decided<Samples>>> {
+    fn samples(&mut self, leaf: Leaf<'_>, image: Option<&Name>) -> Option<FieldValue<Decided<Samples>>> {
         let known = |count: i64| u32::try_from(count).ok().filter(|count| SAMPLE_COUNTS.contains(count));
         let count = match leaf.shape() {
             Shape::Text => {
@@ -231,7 +233,7 @@ impl Context<'_> {
                     self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                     return None;
                 }
-                Given::said(leaf, count)
+                FieldValue::said(leaf, count)
             }
             _ => {
                 let (_, rest) = self.reader.one_of(leaf, &SAMPLES)?;
@@ -250,18 +252,18 @@ impl Context<'_> {
         })
     }
 
-    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Mips>>> {
+    fn mips(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Mips>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
             return Some(self.whole_because(leaf, "number of mip levels", 1..=MOST_MIPS)?.of(Mips::Count));
         }
         let (word, rest) = self.reader.one_of(leaf, &MIPS)?;
         match word {
-            "Full" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Mips::Full)),
+            "Full" => self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, Mips::Full)),
             _ => self.like(leaf, rest, Mips::Like),
         }
     }
 
-    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Layers>>> {
+    fn layers(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Layers>>> {
         if let Shape::Text | Shape::Number = leaf.shape() {
             return Some(self.whole_because(leaf, "number of layers", 1..=MOST_LAYERS)?.of(Layers::Count));
         }
@@ -269,11 +271,11 @@ impl Context<'_> {
         self.like(leaf, rest, Layers::Like)
     }
 
-    fn shape(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ImageShape>>> {
+    fn shape(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<ImageShape>>> {
         let (word, rest) = self.reader.one_of(leaf, &SHAPES)?;
         match word {
-            "D2" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::D2)),
-            "Cube" => self.reader.bare(word, rest).map(|()| Given::said(leaf, ImageShape::Cube)),
+            "D2" => self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, ImageShape::D2)),
+            "Cube" => self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, ImageShape::Cube)),
             _ => {
                 let [depth]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "D3(64)")?;
                 Some(self.whole_because(depth, "depth", 1..=i64::from(LARGEST_SIZE))?.of(ImageShape::D3))
@@ -287,15 +289,15 @@ fn or<'src, T: Kept>(
     leaf: Option<Leaf<'src>>,
     name: Span,
     absent: T,
-    read: impl FnOnce(Leaf<'src>) -> Option<Given<Decided<T>>>,
-) -> Option<Given<Decided<T>>> {
+    read: impl FnOnce(Leaf<'src>) -> Option<FieldValue<Decided<T>>>,
+) -> Option<FieldValue<Decided<T>>> {
     match leaf {
         Some(leaf) => Some(in_field(leaf, read(leaf)?)),
-        None => Some(Given::Known(Decided::said(name, absent))),
+        None => Some(FieldValue::Constant(Decided::said(name, absent))),
     }
 }
 
 /// The value of a field of an image, as it is told outside of its entry.
-fn in_field<T: Kept>(leaf: Leaf<'_>, value: Given<Decided<T>>) -> Given<Decided<T>> {
+fn in_field<T: Kept>(leaf: Leaf<'_>, value: FieldValue<Decided<T>>) -> FieldValue<Decided<T>> {
     value.at(leaf).within_view()
 }

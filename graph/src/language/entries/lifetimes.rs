@@ -5,7 +5,7 @@ use super::parts::{self, MOST_FRAMES};
 use super::values::{self, at, optional};
 use crate::fields;
 use crate::language::model::{Lifetime, State, StateWord};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
@@ -131,29 +131,29 @@ pub(crate) enum Of {
 
 impl Context<'_> {
     /// A lifetime.
-    pub(crate) fn lifetime(&mut self, leaf: Leaf<'_>, of: Of) -> Option<Given<Spanned<Lifetime>>> {
+    pub(crate) fn lifetime(&mut self, leaf: Leaf<'_>, of: Of) -> Option<FieldValue<Spanned<Lifetime>>> {
         let (word, rest) = self.reader.one_of(leaf, &LIFETIMES)?;
         let lifetime = match word {
-            "Transient" => self.reader.bare(word, rest).map(|()| Given::Known(Lifetime::Transient))?,
+            "Transient" => self.reader.bare(word, rest).map(|()| FieldValue::Constant(Lifetime::Transient))?,
             "Persistent" => {
                 let fields: PersistentFields<'_> = list::within(self.reader, leaf, rest, "Persistent(initial: …)")?;
                 let initial = optional(fields.initial, |leaf| self.fill(leaf));
-                given(initial?, |initial| Lifetime::Persistent { initial })
+                combined(initial?, |initial| Lifetime::Persistent { initial })
             }
             "History" => {
                 let fields: HistoryFields<'_> =
                     list::within(self.reader, leaf, rest, "History(frames: 1, initial: …)")?;
-                let frames = fields.frames.map_or(Some(Given::Known(1)), |frames| {
+                let frames = fields.frames.map_or(Some(FieldValue::Constant(1)), |frames| {
                     self.whole(frames, "number of frames to look back", 1..=MOST_FRAMES)
                 });
                 let initial = optional(fields.initial, |leaf| self.fill(leaf));
-                given((frames?, initial?), |(frames, initial)| Lifetime::History { frames, initial })
+                combined((frames?, initial?), |(frames, initial)| Lifetime::History { frames, initial })
             }
             "Imported" => {
                 let fields: ImportedFields<'_> = self.reader.inside(leaf, rest, "Imported(before: …, after: …)")?;
                 let before = state(self.reader, fields.before, of);
                 let after = optional(fields.after, |after| state(self.reader, after, of));
-                Given::Known(Lifetime::Imported { before: before?, after: after? })
+                FieldValue::Constant(Lifetime::Imported { before: before?, after: after? })
             }
             _ => {
                 let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"name\")")?;

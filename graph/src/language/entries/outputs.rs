@@ -6,7 +6,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Output, ResourceRef};
-use crate::language::scope::{Context, Evaluator, Given};
+use crate::language::scope::{Context, Evaluator, FieldValue};
 use crate::ron::{Described, Form, Leaf, Shape, names};
 use crate::vulkan::Encoding;
 use std::collections::HashMap;
@@ -45,7 +45,7 @@ const NAME_ONE: &str = "name the image that is shown: `outputs: [\"…\"]`, in a
 
 impl Context<'_> {
     /// The images and buffers that leave the frame.
-    pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Option<Given<Output>>>> {
+    pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Option<FieldValue<Output>>>> {
         let leaves = self.reader.list(list, "`outputs`")?;
         if leaves.is_empty() {
             self.reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
@@ -54,7 +54,7 @@ impl Context<'_> {
         Some(leaves.into_iter().map(|leaf| self.output(leaf)).collect())
     }
 
-    fn output(&mut self, leaf: Leaf<'_>) -> Option<Given<Output>> {
+    fn output(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Output>> {
         let Shape::Parentheses = leaf.shape() else {
             let resource = self.resource(leaf)?;
             return Some(resource.map(|resource| Output { resource, after: None, encoding: None, eye: None }));
@@ -86,7 +86,7 @@ impl Context<'_> {
 
 impl Evaluator<'_, '_> {
     /// The images and buffers that leave the frame, each once.
-    pub(crate) fn outputs(&mut self, outputs: &[Option<Given<Output>>]) -> Option<Vec<Output>> {
+    pub(crate) fn outputs(&mut self, outputs: &[Option<FieldValue<Output>>]) -> Option<Vec<Output>> {
         let outputs: Vec<Option<Output>> = outputs.iter().map(|output| self.put_in(output)).collect();
         let mut first = HashMap::new();
         for output in outputs.iter().flatten() {

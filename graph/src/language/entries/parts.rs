@@ -4,7 +4,7 @@ use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
 use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
-use crate::language::scope::{Context, Given, Kept, given};
+use crate::language::scope::{Context, FieldValue, Kept, combined};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -117,13 +117,13 @@ const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Asp
 
 /// A part of an image, or of a buffer.
 pub(crate) enum Either {
-    Image(Given<ImagePart>),
-    Buffer(Given<BufferPart>),
+    Image(FieldValue<ImagePart>),
+    Buffer(FieldValue<BufferPart>),
 }
 
 impl Either {
     /// The part, of an image or a buffer.
-    pub(crate) fn part(self) -> Given<Part> {
+    pub(crate) fn part(self) -> FieldValue<Part> {
         match self {
             Either::Image(part) => part.map(Part::Image),
             Either::Buffer(part) => part.map(Part::Buffer),
@@ -133,7 +133,7 @@ impl Either {
 
 impl Context<'_> {
     /// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
-    pub(crate) fn part(&mut self, leaf: Leaf<'_>) -> Option<Given<Part>> {
+    pub(crate) fn part(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Part>> {
         match leaf.shape() {
             Shape::Text => Some(self.resource(leaf)?.map(|ResourceRef { resource, span }| match resource {
                 Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span })),
@@ -191,7 +191,7 @@ impl Context<'_> {
     }
 
     /// `"name"` or `(image: "name", mip: 1, …)`.
-    pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<Given<ImagePart>> {
+    pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ImagePart>> {
         if let Shape::Parentheses = leaf.shape() {
             return match self.part_by_fields(leaf)? {
                 Either::Image(part) => Some(part),
@@ -205,7 +205,7 @@ impl Context<'_> {
     }
 
     /// `"name"` or `(buffer: "name", previous: 1)`.
-    pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<Given<BufferPart>> {
+    pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<BufferPart>> {
         if let Shape::Parentheses = leaf.shape() {
             return match self.part_by_fields(leaf)? {
                 Either::Buffer(part) => Some(part),
@@ -218,14 +218,14 @@ impl Context<'_> {
         self.named_buffer(leaf, None)
     }
 
-    fn named_buffer(&mut self, buffer: Leaf<'_>, previous: Option<Leaf<'_>>) -> Option<Given<BufferPart>> {
+    fn named_buffer(&mut self, buffer: Leaf<'_>, previous: Option<Leaf<'_>>) -> Option<FieldValue<BufferPart>> {
         let buffer = self.buffer(buffer);
         let previous = self.frames_back(previous);
-        Some(given((buffer?, previous?), |(buffer, previous)| BufferPart { buffer, previous }))
+        Some(combined((buffer?, previous?), |(buffer, previous)| BufferPart { buffer, previous }))
     }
 
     /// The part of the image that `name` names.
-    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<Given<ImagePart>> {
+    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<FieldValue<ImagePart>> {
         let image = match name.shape() {
             Shape::Word(..) => self.eyes_image(name),
             _ => self.image(name).map(|image| (image, None)),
@@ -235,7 +235,7 @@ impl Context<'_> {
         let plane = values::optional_choice(self.reader, selected.plane, "a plane", &PLANES);
         let previous = self.frames_back(selected.previous);
         let ((image, eye), plane) = (image?, plane?);
-        Some(given((image, mips?, layers?, previous?), move |(image, mips, layers, previous)| ImagePart {
+        Some(combined((image, mips?, layers?, previous?), move |(image, mips, layers, previous)| ImagePart {
             image,
             mips,
             layers,
@@ -246,7 +246,7 @@ impl Context<'_> {
     }
 
     /// `Eye(Left, "name")`.
-    fn eyes_image(&mut self, leaf: Leaf<'_>) -> Option<(Given<ImageRef>, Option<Spanned<Eye>>)> {
+    fn eyes_image(&mut self, leaf: Leaf<'_>) -> Option<(FieldValue<ImageRef>, Option<Spanned<Eye>>)> {
         let (_, rest) = self.reader.one_of(leaf, &EYES)?;
         let [eye, name]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
         let image = self.image(name);
@@ -254,7 +254,7 @@ impl Context<'_> {
         Some((image?, Some(eye.spanned(chosen))))
     }
 
-    fn frames_back(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Given<Spanned<u32>>>> {
+    fn frames_back(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<FieldValue<Spanned<u32>>>> {
         optional(leaf, |leaf| self.whole_at(leaf, "number of frames to look back", 1..=MOST_FRAMES))
     }
 
@@ -264,17 +264,17 @@ impl Context<'_> {
         count: Option<Leaf<'_>>,
         one: &'static str,
         several: &'static str,
-    ) -> Option<Given<Selection>> {
+    ) -> Option<FieldValue<Selection>> {
         let first = optional(first, |leaf| self.whole_at(leaf, one, 0..=MOST_PARTS));
         let count = optional(count, |leaf| match leaf.shape() {
-            Shape::Word("Rest", None) => Some(Given::Known(leaf.spanned(Subresources::REMAINING))),
+            Shape::Word("Rest", None) => Some(FieldValue::Constant(leaf.spanned(Subresources::REMAINING))),
             Shape::Number | Shape::Text => self.whole_at(leaf, several, 1..=MOST_PARTS),
             _ => {
                 self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
                 None
             }
         });
-        Some(given((first?, count?), |(first, count)| Selection { first, count }))
+        Some(combined((first?, count?), |(first, count)| Selection { first, count }))
     }
 
     /// The value that `make` makes of the image in `Like("image")`.
@@ -283,7 +283,7 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         rest: Option<Leaf<'_>>,
         make: fn(ImageRef) -> T,
-    ) -> Option<Given<Decided<T>>> {
+    ) -> Option<FieldValue<Decided<T>>> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
         let span = leaf.span();
         Some(self.image(image)?.map(move |image| Decided::said(span, make(image))))

@@ -5,18 +5,18 @@ use super::stand_ins::{Of, stand_ins_make_sense};
 use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::language::model::{Color, Depth, Pass};
-use crate::language::scope::{Context, Given, GivenTuple};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple};
 use crate::ron::{Name, Reader};
 use std::collections::HashMap;
 
 impl Context<'_> {
     /// A pass. An expression that has no value is no mistake if the pass is off.
-    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> Given<Pass> {
+    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> FieldValue<Pass> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
         let parts = self.pass_parts(fields, name.clone());
-        Given::asked(move |evaluator| {
+        FieldValue::computed(move |evaluator| {
             let off = evaluator.put_in(&off);
             let is_off = matches!(off, Some(Some(_)));
             // Stand-ins of a pass that runs need no values.
@@ -44,7 +44,7 @@ impl Context<'_> {
     }
 
     /// The work, bindings and targets of a pass. Each field is evaluated, even where another couldn't be read.
-    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Given<Pass> {
+    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> FieldValue<Pass> {
         let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
         let work = self.work(fields, &what);
         let sample = optional(fields.sample, |leaf| self.sampled(leaf));
@@ -56,9 +56,9 @@ impl Context<'_> {
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let params = optional(fields.params, |leaf| self.params(leaf));
-        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(Given::alone));
+        let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
-        Given::asked(move |evaluator| {
+        FieldValue::computed(move |evaluator| {
             let work = evaluator.put_in(&work);
             let sample = evaluator.put_in(&sample);
             let storage = evaluator.put_in(&storage);

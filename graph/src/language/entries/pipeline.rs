@@ -4,7 +4,7 @@ use super::body::Body;
 use super::fragments::Fragments;
 use super::views::ViewEntries;
 use crate::language::model::{Output, Precisions, Resolves};
-use crate::language::scope::Given;
+use crate::language::scope::FieldValue;
 use std::fmt;
 
 /// The entries of a pipeline, with the values that its files say; `None` where a field couldn't be read.
@@ -12,10 +12,10 @@ pub(crate) struct Entries {
     pub(crate) body: Body,
     pub(crate) fragments: Fragments<Body>,
     pub(crate) views: ViewEntries,
-    pub(crate) depth: Option<Option<Given<Option<Resolves>>>>,
-    pub(crate) color: Option<Option<Given<Precisions>>>,
-    pub(crate) depth_format: Option<Option<Given<Precisions>>>,
-    pub(crate) outputs: Option<Vec<Option<Given<Output>>>>,
+    pub(crate) depth: Option<Option<FieldValue<Option<Resolves>>>>,
+    pub(crate) color: Option<Option<FieldValue<Precisions>>>,
+    pub(crate) depth_format: Option<Option<FieldValue<Precisions>>>,
+    pub(crate) outputs: Option<Vec<Option<FieldValue<Output>>>>,
 }
 
 impl fmt::Debug for Entries {

@@ -2,7 +2,7 @@
 
 use super::values::said;
 use crate::language::model::{Decided, Precision, Precisions};
-use crate::language::scope::{Context, Given};
+use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Form, Leaf, Word, Words};
 
 /// The form of `color`: the precision of `Color`.
@@ -49,16 +49,21 @@ const MEANINGS: [(&str, Precision); 3] =
 
 impl Context<'_> {
     /// The precision that a pipeline's `color` says.
-    pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
+    pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Precisions>> {
         self.precision(leaf, "color", &COLORS)
     }
 
     /// The precision that a pipeline's `depth_format` says.
-    pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Precisions>> {
+    pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Precisions>> {
         self.precision(leaf, "depth_format", &DEPTHS)
     }
 
-    fn precision(&mut self, leaf: Leaf<'_>, field: &'static str, words: &'static Words) -> Option<Given<Precisions>> {
+    fn precision(
+        &mut self,
+        leaf: Leaf<'_>,
+        field: &'static str,
+        words: &'static Words,
+    ) -> Option<FieldValue<Precisions>> {
         let span = leaf.span();
         self.bare_word(leaf, words)?.then(move |Decided { value: word, because, .. }| {
             let (_, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;

@@ -1,8 +1,8 @@
 //! `repeat`: how often an entry is repeated.
 
-use super::told::Told;
+use super::diagnosed::Diagnosed;
 use crate::base::Span;
-use crate::language::scope::{Context, Given};
+use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Form, Leaf, Name, Plain, Reader};
 
 /// A pipeline has at most this many images, buffers, passes and uses of fragments, made and discarded ones together.
@@ -22,7 +22,7 @@ pub(crate) enum Repeat {
         /// Where the number stands.
         span: Span,
         /// The number.
-        count: Told<Given<u32>>,
+        count: Diagnosed<FieldValue<u32>>,
     },
     /// The field couldn't be read, which was reported.
     Broken,
@@ -42,7 +42,7 @@ impl Repeat {
         let (span, most) = (count.span(), i64::from(MOST_THINGS));
         let read =
             |reader: &mut Reader| Context { reader, scope: *scope }.whole(count, "number of repetitions", 0..=most);
-        Repeat::Times { index, span, count: Told::read(reader, read) }
+        Repeat::Times { index, span, count: Diagnosed::read(reader, read) }
     }
 
     /// Whether it makes a list.

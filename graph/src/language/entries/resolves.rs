@@ -3,7 +3,7 @@
 use super::values;
 use crate::frame::ResolveWay;
 use crate::language::model::{Decided, Resolves};
-use crate::language::scope::{Context, Given};
+use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Form, Leaf, Spanned, Word, Words};
 use crate::vulkan::ResolveMode;
 
@@ -57,7 +57,7 @@ const MEANINGS: [(&str, ResolveWay); 6] = [
 
 impl Context<'_> {
     /// The way that an image's `resolve` says.
-    pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<Given<Resolves>> {
+    pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Resolves>> {
         let span = leaf.span();
         self.bare_word(leaf, &RESOLVES)?.then(move |Decided { value: word, because, .. }| {
             let (_, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
@@ -66,7 +66,7 @@ impl Context<'_> {
     }
 
     /// A pipeline's `depth`; `None`: `Exact`, the default.
-    pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<Given<Option<Resolves>>> {
+    pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Option<Resolves>>> {
         let resolve = leaf.spanned(ResolveWay::By(ResolveMode::SampleZero));
         Some(self.bare_word(leaf, &POLICIES)?.map(move |Decided { value: word, because, .. }| {
             let said = || values::said("depth", word, because);

@@ -5,7 +5,7 @@ use super::values::optional;
 use crate::base::{Diagnostic, shown_number};
 use crate::fields;
 use crate::language::model::{Decided, LARGEST_SIZE, Size};
-use crate::language::scope::{Context, Given, all, given, within_view};
+use crate::language::scope::{Context, FieldValue, all, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
 
 fields! {
@@ -56,22 +56,22 @@ pub(crate) const EXTENT: Form = Form::Whole(1, LARGEST_SIZE as i64);
 
 impl Context<'_> {
     /// A size, and the cause of its factor.
-    pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Size>>> {
+    pub(crate) fn size(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Size>>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
         match word {
-            "Output" => self.reader.bare(word, rest).map(|()| Given::said(leaf, Size::Output)),
+            "Output" => self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, Size::Output)),
             "Like" => self.like(leaf, rest, Size::Like),
             "Fixed" => {
                 let span = leaf.span();
-                Some(given(self.fixed(leaf, rest)?, move |extent| Decided::said(span, Size::Fixed(extent))))
+                Some(combined(self.fixed(leaf, rest)?, move |extent| Decided::said(span, Size::Fixed(extent))))
             }
             "Dynamic" => {
                 let fields = self.reader.inside::<DynamicFields<'_>>(leaf, rest, "Dynamic(by: …, up_to: …)")?;
                 let of = optional(fields.of, |of| self.image(of));
                 let (by, up_to) = (self.scale(fields.by), self.scale(fields.up_to));
                 let by = by?;
-                let said = by.is_known();
-                let factors = given((by, up_to?), |factors| factors);
+                let said = by.is_constant();
+                let factors = combined((by, up_to?), |factors| factors);
                 let factors = factors.checked_as(self.reader, said, move |(by, up_to), view| {
                     if by.value > up_to.value {
                         let message = format!("the factor {} is more than there is room for", shown_number(by.value));
@@ -80,7 +80,7 @@ impl Context<'_> {
                     }
                     Ok((by, up_to))
                 });
-                Some(given((factors?, of?), |((by, up_to), of)| {
+                Some(combined((factors?, of?), |((by, up_to), of)| {
                     by.map(|by| Size::Dynamic { by, up_to: up_to.value, of })
                 }))
             }
@@ -95,25 +95,25 @@ impl Context<'_> {
                 };
                 let of = optional(of, |of| self.image(of));
                 let by = self.scale(by);
-                Some(given((by?, of?), |(by, of)| by.map(|by| Size::Scaled { by, of })))
+                Some(combined((by?, of?), |(by, of)| by.map(|by| Size::Scaled { by, of })))
             }
         }
     }
 
     /// Width and height of `Fixed(width, height)`.
-    pub(crate) fn fixed(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<[Given<u32>; 2]> {
+    pub(crate) fn fixed(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<[FieldValue<u32>; 2]> {
         let sides: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
         all(sides.map(|side| self.extent(side)))
     }
 
     /// One side of an image, in texels.
-    fn extent(&mut self, leaf: Leaf<'_>) -> Option<Given<u32>> {
+    fn extent(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<u32>> {
         if let Shape::Text = leaf.shape() {
             return self.whole(leaf, "size", 1..=i64::from(LARGEST_SIZE));
         }
         let extent = self.reader.integer(leaf)?;
         match u32::try_from(extent) {
-            Ok(extent @ 1..=LARGEST_SIZE) => Some(Given::Known(extent)),
+            Ok(extent @ 1..=LARGEST_SIZE) => Some(FieldValue::Constant(extent)),
             _ => {
                 self.reader.wrong(leaf, format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"), "");
                 None
@@ -122,7 +122,7 @@ impl Context<'_> {
     }
 
     /// A factor above 0, and its cause.
-    pub(crate) fn scale(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<f64>>> {
+    pub(crate) fn scale(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<f64>>> {
         if let Some(parameter) = self.setting(leaf)
             && let Some(least) = parameter.least().filter(|least| *least <= 0.0)
         {

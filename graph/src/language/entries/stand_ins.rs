@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, Span};
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Forward, Pass, StandIn};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
 use std::collections::HashMap;
 
@@ -57,7 +57,7 @@ fields! {
 /// The stand-ins of a pass or use, as a file says them.
 pub(crate) struct Otherwise {
     pub(crate) span: Span,
-    pub(crate) stand_ins: Vec<Given<StandIn>>,
+    pub(crate) stand_ins: Vec<FieldValue<StandIn>>,
     /// Whether the pass or use can be off.
     pub(crate) conditional: bool,
 }
@@ -70,22 +70,22 @@ impl Context<'_> {
                 Shape::List => self.reader.list(leaf, "`otherwise`")?,
                 _ => vec![leaf],
             };
-            let all: Vec<Option<Given<StandIn>>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
+            let all: Vec<Option<FieldValue<StandIn>>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
             let stand_ins = all.into_iter().collect::<Option<_>>()?;
             Some(Otherwise { span: leaf.span(), stand_ins, conditional: when.is_some() })
         })
     }
 
-    fn stand_in(&mut self, leaf: Leaf<'_>) -> Option<Given<StandIn>> {
+    fn stand_in(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<StandIn>> {
         let (word, rest) = self.reader.one_of(leaf, &STAND_INS)?;
         if word == "Clear" {
             let fields: ClearFields<'_> = self.reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
             let (to, value) = (self.image(fields.image), self.fill(fields.value));
-            return Some(given((to?, value?), |(to, value)| StandIn::Clear { to, value }));
+            return Some(combined((to?, value?), |(to, value)| StandIn::Clear { to, value }));
         }
         let fields: ForwardFields<'_> = self.reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
         let (from, to) = (self.image(fields.from), self.image(fields.to));
-        Some(given((from?, to?), |(from, to)| StandIn::Forward(Forward { from, to })))
+        Some(combined((from?, to?), |(from, to)| StandIn::Forward(Forward { from, to })))
     }
 }
 

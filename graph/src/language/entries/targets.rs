@@ -6,7 +6,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
-use crate::language::scope::{Context, Given, all, given};
+use crate::language::scope::{Context, FieldValue, all, combined};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
@@ -113,13 +113,14 @@ const OPERATIONS: [(&str, StencilOp); 6] = [
 
 impl Context<'_> {
     /// The list of colour targets.
-    pub(crate) fn color_targets(&mut self, leaf: Leaf<'_>) -> Option<Vec<Given<Color>>> {
+    pub(crate) fn color_targets(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Color>>> {
         let entries = self.reader.list(leaf, "`color`")?;
-        let targets: Vec<Option<Given<Color>>> = entries.into_iter().map(|entry| self.color_target(entry)).collect();
+        let targets: Vec<Option<FieldValue<Color>>> =
+            entries.into_iter().map(|entry| self.color_target(entry)).collect();
         targets.into_iter().collect()
     }
 
-    fn color_target(&mut self, leaf: Leaf<'_>) -> Option<Given<Color>> {
+    fn color_target(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Color>> {
         let replace = leaf.spanned(Blend::Replace);
         match leaf.shape() {
             Shape::Text | Shape::Word(..) => {
@@ -132,7 +133,7 @@ impl Context<'_> {
                 let clear = optional(fields.clear, |clear| self.clear_color(clear));
                 let blend = values::optional_choice(self.reader, fields.blend, "a blend", &BLENDS);
                 let blend = blend?.unwrap_or(replace);
-                Some(given((part?, clear?), move |(part, clear)| Color { part, clear, blend }))
+                Some(combined((part?, clear?), move |(part, clear)| Color { part, clear, blend }))
             }
             _ => {
                 self.reader.expected(
@@ -145,7 +146,7 @@ impl Context<'_> {
     }
 
     /// The depth target.
-    pub(crate) fn depth_target(&mut self, leaf: Leaf<'_>) -> Option<Given<Depth>> {
+    pub(crate) fn depth_target(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Depth>> {
         let test = CompareOp::GreaterOrEqual;
         match leaf.shape() {
             Shape::Text | Shape::Word(..) => Some(self.image_part(leaf)?.map(move |part| Depth {
@@ -161,10 +162,12 @@ impl Context<'_> {
                 let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
                 let clear = optional(fields.clear, |clear| self.clear_depth(clear));
                 let test = fields.test.map_or(Some(test), |test| choice(self.reader, test, "a depth test", &TESTS));
-                let write = fields.write.map_or(Some(Given::Known(true)), |write| self.truth(write).map(Given::alone));
+                let write = fields
+                    .write
+                    .map_or(Some(FieldValue::Constant(true)), |write| self.truth(write).map(FieldValue::alone));
                 let stencil = optional(fields.stencil, |leaf| self.stencil(leaf));
                 let test = test?;
-                Some(given((part?, clear?, write?, stencil?), move |(part, clear, write, stencil)| Depth {
+                Some(combined((part?, clear?, write?, stencil?), move |(part, clear, write, stencil)| Depth {
                     part,
                     clear,
                     test,
@@ -183,7 +186,7 @@ impl Context<'_> {
     }
 
     /// The stencil state.
-    fn stencil(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<StencilState>>> {
+    fn stencil(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Spanned<StencilState>>> {
         let Shape::Parentheses = leaf.shape() else {
             self.reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
             return None;
@@ -193,27 +196,27 @@ impl Context<'_> {
         let clear = optional(fields.clear, |clear| byte(self, clear));
         let test =
             fields.test.map_or(Some(CompareOp::Always), |test| choice(self.reader, test, "a stencil test", &TESTS));
-        let reference = fields.reference.map_or(Some(Given::Known(0)), |reference| byte(self, reference));
+        let reference = fields.reference.map_or(Some(FieldValue::Constant(0)), |reference| byte(self, reference));
         let pass = fields
             .pass
             .map_or(Some(StencilOp::Keep), |pass| choice(self.reader, pass, "a stencil operation", &OPERATIONS));
         let (test, pass) = (test?, pass?);
         let state =
-            given((clear?, reference?), move |(clear, reference)| StencilState { clear, test, reference, pass });
+            combined((clear?, reference?), move |(clear, reference)| StencilState { clear, test, reference, pass });
         Some(at(leaf, state))
     }
 
-    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<Given<[f32; 4]>> {
+    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<[f32; 4]>> {
         if !matches!(leaf.shape(), Shape::Parentheses) {
             self.reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
             return None;
         }
         let parts: [Leaf<'_>; 4] = self.reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
         let parts = all(parts.map(|part| self.color_component(part)))?;
-        Some(given(parts, |parts| parts))
+        Some(combined(parts, |parts| parts))
     }
 
-    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
+    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f32>> {
         self.number_because(leaf, "a channel of a colour")?.checked(self.reader, move |number, _| {
             #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
             let component = number.value as f32;
@@ -226,7 +229,7 @@ impl Context<'_> {
         })
     }
 
-    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<Given<f32>> {
+    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f32>> {
         self.number_because(leaf, "depth")?.checked(self.reader, move |depth, _| {
             if !(0.0..=1.0).contains(&depth.value) {
                 let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";

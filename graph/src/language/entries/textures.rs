@@ -5,7 +5,7 @@ use super::values::{self, optional};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
 use crate::language::model::{Decided, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
-use crate::language::scope::{Context, Given};
+use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
 use crate::{fields, vulkan};
 use std::collections::HashMap;
@@ -53,7 +53,7 @@ pub(crate) struct Picture {
 
 impl Context<'_> {
     /// A texture, once its fields are told apart.
-    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<Given<Image>> {
+    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<FieldValue<Image>> {
         let name = self.reader.name(fields.name, "a texture");
         let path = self.reader.words(fields.file, "the path of a file");
         let color_space = color_space(self.reader, fields.color_space);
@@ -62,7 +62,7 @@ impl Context<'_> {
         });
         let format = optional(fields.format, |leaf| match leaf.shape() {
             crate::ron::Shape::Text => self.format(leaf),
-            _ => parameters::format(self.reader, leaf).map(|format| Given::said(leaf, format)),
+            _ => parameters::format(self.reader, leaf).map(|format| FieldValue::said(leaf, format)),
         });
         let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
         let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
@@ -77,7 +77,7 @@ impl Context<'_> {
                     }
                 })?
             }
-            None => Given::said(fields.file, info.format),
+            None => FieldValue::said(fields.file, info.format),
         };
         let extent = match info.image_extent(shape) {
             Ok(extent) => extent,

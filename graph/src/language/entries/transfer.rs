@@ -5,7 +5,7 @@ use super::parts;
 use super::values;
 use crate::fields;
 use crate::language::model::{Part, Work};
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Form, Leaf, Shape};
 
 fields! {
@@ -63,35 +63,39 @@ pub(crate) const TRANSFERRED: Form = Form::Either(&[parts::WHOLE_RESOURCE, Form:
 
 impl Context<'_> {
     /// `copy: (from: …, to: …)`
-    pub(crate) fn copy_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
+    pub(crate) fn copy_work(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Work>> {
         let fields: CopyFields<'_> = self.reader.read(leaf, "a copy")?;
         let (from, to) = (self.part(fields.from), self.part(fields.to));
-        Some(given((from?, to?), |(from, to)| Work::Copy { from, to }))
+        Some(combined((from?, to?), |(from, to)| Work::Copy { from, to }))
     }
 
     /// `blit: (from: …, to: …)`
-    pub(crate) fn blit_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
+    pub(crate) fn blit_work(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Work>> {
         let fields: BlitFields<'_> = self.reader.read(leaf, "a blit")?;
         let (from, to) = (self.image_part(fields.from), self.image_part(fields.to));
         let filter = values::optional_choice(self.reader, fields.filter, "a filter", &FILTERS)?;
-        Some(given((from?, to?), move |(from, to)| Work::Blit { from: Part::Image(from), to: Part::Image(to), filter }))
+        Some(combined((from?, to?), move |(from, to)| Work::Blit {
+            from: Part::Image(from),
+            to: Part::Image(to),
+            filter,
+        }))
     }
 
     /// `fill: (to: …, value: …)`
-    pub(crate) fn fill_work(&mut self, leaf: Leaf<'_>) -> Option<Given<Work>> {
+    pub(crate) fn fill_work(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Work>> {
         let fields: FillFields<'_> = self.reader.read(leaf, "a fill")?;
         let (to, value) = (self.part(fields.to), self.fill(fields.value));
-        Some(given((to?, value?), |(to, value)| Work::Fill { to, value }))
+        Some(combined((to?, value?), |(to, value)| Work::Fill { to, value }))
     }
 
     /// Parts of images and buffers in a list.
-    pub(crate) fn listed_parts(&mut self, leaf: Option<Leaf<'_>>, field: &str) -> Option<Vec<Given<Part>>> {
+    pub(crate) fn listed_parts(&mut self, leaf: Option<Leaf<'_>>, field: &str) -> Option<Vec<FieldValue<Part>>> {
         let Some(leaf) = leaf else { return Some(Vec::new()) };
         let entries = match leaf.shape() {
             Shape::List => self.reader.list(leaf, field)?,
             _ => vec![leaf],
         };
-        let parts: Vec<Option<Given<Part>>> = entries.into_iter().map(|entry| self.part(entry)).collect();
+        let parts: Vec<Option<FieldValue<Part>>> = entries.into_iter().map(|entry| self.part(entry)).collect();
         parts.into_iter().collect()
     }
 }

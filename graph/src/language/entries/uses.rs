@@ -10,7 +10,7 @@ use crate::base::{Diagnostic, Span, enumerated};
 use crate::expression::{Expression, Outcome, Type, Value, Wanted};
 use crate::fields;
 use crate::language::model::{Off, SettingKind};
-use crate::language::scope::{Context, DecidedValue, Given, Parameter, ParameterKind, Symbols, joined};
+use crate::language::scope::{Context, DecidedValue, FieldValue, Parameter, ParameterKind, Symbols, joined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Shape};
 use std::collections::{HashMap, HashSet};
 
@@ -50,7 +50,7 @@ pub(crate) struct UseEntry {
     pub(crate) name: Name,
     /// The fragment, by number.
     pub(crate) fragment: usize,
-    pub(crate) off: Given<Option<Off>>,
+    pub(crate) off: FieldValue<Option<Off>>,
     /// The stand-ins for when it is off.
     pub(crate) otherwise: Option<Otherwise>,
     /// Values for the fragment's parameters, in their order.
@@ -60,7 +60,7 @@ pub(crate) struct UseEntry {
 /// A value for a parameter, and where it stands, unless it is the parameter's default.
 #[derive(Clone)]
 pub(crate) struct Argument {
-    pub(crate) value: Given<DecidedValue>,
+    pub(crate) value: FieldValue<DecidedValue>,
     pub(crate) span: Option<Span>,
 }
 
@@ -115,7 +115,7 @@ impl Context<'_> {
                     if default.is_none() {
                         missing.push(parameter);
                     }
-                    default.map(|value| Argument { value: Given::Known(value.into()), span: None })
+                    default.map(|value| Argument { value: FieldValue::Constant(value.into()), span: None })
                 }
             });
         }
@@ -139,7 +139,7 @@ impl Context<'_> {
         values
     }
 
-    fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<Given<DecidedValue>> {
+    fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<FieldValue<DecidedValue>> {
         match &parameter.kind {
             ParameterKind::Image => Some(self.image(leaf)?.map(|image| Value::Image(image.index).into())),
             ParameterKind::Buffer => Some(self.buffer(leaf)?.map(|buffer| Value::Buffer(buffer.index).into())),
@@ -147,7 +147,7 @@ impl Context<'_> {
                 Shape::Text => self.expression(leaf, Wanted::FORMAT).map(evaluated),
                 _ => {
                     let format = parameters::format(self.reader, leaf)?;
-                    Some(Given::Known(Value::Format(format).into()))
+                    Some(FieldValue::Constant(Value::Format(format).into()))
                 }
             },
             ParameterKind::Value(kind) => {
@@ -156,7 +156,7 @@ impl Context<'_> {
                         self.unquoted(leaf, kind)?;
                         evaluated(self.expression(leaf, wanted(kind))?)
                     }
-                    _ => Given::Known(plain(self.reader, leaf, parameter, kind)?.into()),
+                    _ => FieldValue::Constant(plain(self.reader, leaf, parameter, kind)?.into()),
                 };
                 self.allowed(leaf, &parameter.name, kind.clone(), given)
             }
@@ -180,8 +180,8 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         Name { text, span }: &Name,
         kind: SettingKind,
-        given: Given<DecidedValue>,
-    ) -> Option<Given<DecidedValue>> {
+        given: FieldValue<DecidedValue>,
+    ) -> Option<FieldValue<DecidedValue>> {
         let (at, text, span) = (leaf.span(), text.clone(), *span);
         given.checked(self.reader, move |given, _| {
             if kind.allows(&given.value) {
@@ -196,8 +196,8 @@ impl Context<'_> {
 }
 
 /// The value of an expression, and all decisions behind it.
-fn evaluated(expression: Expression) -> Given<DecidedValue> {
-    Given::asked(move |evaluator| {
+fn evaluated(expression: Expression) -> FieldValue<DecidedValue> {
+    FieldValue::computed(move |evaluator| {
         let Outcome { value, decided, .. } = evaluator.evaluate(&expression)?;
         Some(DecidedValue { value, decided })
     })

@@ -5,7 +5,7 @@ use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
 use crate::frame::ParamValue;
 use crate::language::model::{Decided, Fill, SettingKind};
-use crate::language::scope::{Context, Given, Kept, Quoted, all, decided, given, within_view};
+use crate::language::scope::{Context, FieldValue, Kept, Quoted, all, combined, decided, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
 use std::ops::RangeInclusive;
@@ -18,8 +18,8 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         what: &'static str,
         range: RangeInclusive<i64>,
-    ) -> Option<Given<T>> {
-        self.whole_because(leaf, what, range).map(Given::alone)
+    ) -> Option<FieldValue<T>> {
+        self.whole_because(leaf, what, range).map(FieldValue::alone)
     }
 
     /// A whole number as [`Context::whole`] reads it, with its place.
@@ -28,8 +28,8 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         what: &'static str,
         range: RangeInclusive<i64>,
-    ) -> Option<Given<Spanned<T>>> {
-        self.whole_because(leaf, what, range).map(Given::spanned)
+    ) -> Option<FieldValue<Spanned<T>>> {
+        self.whole_because(leaf, what, range).map(FieldValue::spanned)
     }
 
     /// A whole number as [`Context::whole`] reads it, with its place and cause.
@@ -38,13 +38,13 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         what: &'static str,
         range: RangeInclusive<i64>,
-    ) -> Option<Given<Decided<T>>> {
+    ) -> Option<FieldValue<Decided<T>>> {
         let Shape::Text = leaf.shape() else {
             if !matches!(leaf.shape(), Shape::Number) {
                 self.reader.expected(leaf, "a whole number, or an expression in quotes");
                 return None;
             }
-            return constant(self.reader, leaf, what, range).map(|number| Given::said(leaf, number));
+            return constant(self.reader, leaf, what, range).map(|number| FieldValue::said(leaf, number));
         };
         let words = ("a whole number", Some("a whole number"));
         let (number, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
@@ -65,14 +65,14 @@ impl Context<'_> {
     }
 
     /// A number to fill with.
-    fn fill_number(&mut self, leaf: Leaf<'_>) -> Option<Given<f64>> {
-        self.number_because(leaf, "a value to fill with").map(Given::alone)
+    fn fill_number(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f64>> {
+        self.number_because(leaf, "a value to fill with").map(FieldValue::alone)
     }
 
     /// A number, and its cause. `what` names it: "a scale".
-    pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<Given<Decided<f64>>> {
+    pub(crate) fn number_because(&mut self, leaf: Leaf<'_>, what: &str) -> Option<FieldValue<Decided<f64>>> {
         let Shape::Text = leaf.shape() else {
-            return self.reader.number_as(leaf, Some(what)).map(|number| Given::said(leaf, number));
+            return self.reader.number_as(leaf, Some(what)).map(|number| FieldValue::said(leaf, number));
         };
         let words = ("a number", Some("a number"));
         let (number, _) = self.value(leaf, SettingKind::is_number, Wanted::NUMBER, words)?;
@@ -85,32 +85,34 @@ impl Context<'_> {
     }
 
     /// `true` or `false`.
-    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<bool>>> {
-        let Shape::Text = leaf.shape() else { return self.reader.truth(leaf).map(|value| Given::said(leaf, value)) };
+    pub(crate) fn truth(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<bool>>> {
+        let Shape::Text = leaf.shape() else {
+            return self.reader.truth(leaf).map(|value| FieldValue::said(leaf, value));
+        };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
         let (value, _) = self.value(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))?;
         typed(value, |value| if let Value::Bool(value) = value { Some(value) } else { None })
     }
 
     /// A format that an expression says.
-    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<Format>>> {
+    pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Format>>> {
         let format = decided(self.expression(leaf, Wanted::FORMAT)?, leaf.span());
         typed(format, |value| if let Value::Format(format) = value { Some(format) } else { None })
     }
 
     /// A value for a shader's parameter, and the words for it in the file.
-    pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<Given<Decided<ParamValue>>> {
+    pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<ParamValue>>> {
         match leaf.shape() {
             Shape::Text => {}
             Shape::Word("true" | "false", None) => {
-                return self.reader.truth(leaf).map(|value| Given::said(leaf, ParamValue::Bool(value)));
+                return self.reader.truth(leaf).map(|value| FieldValue::said(leaf, ParamValue::Bool(value)));
             }
             Shape::Number | Shape::Word("NaN" | "inf", None) => {
                 let value = match leaf.number() {
                     Some(Number::Whole(number)) => ParamValue::Integer(number),
                     _ => ParamValue::Number(self.reader.number_as(leaf, Some("a parameter"))?),
                 };
-                return Some(Given::said(leaf, value));
+                return Some(FieldValue::said(leaf, value));
             }
             _ => {
                 self.reader.expected(leaf, "a number, `true`, `false`, or an expression in quotes");
@@ -124,7 +126,7 @@ impl Context<'_> {
                 let written: Arc<str> =
                     format!("{} `{}`", self.scope.symbols.parameter_word(), parameter.name.text).into();
                 let span = leaf.span();
-                let value = Given::asked(move |evaluator| evaluator.parameter(at, span));
+                let value = FieldValue::computed(move |evaluator| evaluator.parameter(at, span));
                 value.map(move |decided| Decided { because: Some(written.clone()), ..decided })
             }
             Quoted::Expression(expression) => {
@@ -149,10 +151,10 @@ impl Context<'_> {
         leaf: Leaf<'_>,
         what: &'static str,
         choices: &'static [(&'static str, T)],
-    ) -> Option<Given<Decided<T>>> {
+    ) -> Option<FieldValue<Decided<T>>> {
         let quoted = leaf.plain().filter(|text| !self.scope.names_nothing(text));
         if quoted.is_none() {
-            return choice(self.reader, leaf, what, choices).map(|word| Given::said(leaf, word));
+            return choice(self.reader, leaf, what, choices).map(|word| FieldValue::said(leaf, word));
         }
         let said = decided(self.expression(leaf, Wanted::TEXT)?, leaf.span());
         typed(said, text)?.checked(self.reader, move |said, view| {
@@ -167,14 +169,14 @@ impl Context<'_> {
     }
 
     /// The value of a fill, and its place.
-    pub(crate) fn fill(&mut self, leaf: Leaf<'_>) -> Option<Given<Spanned<Fill>>> {
+    pub(crate) fn fill(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Spanned<Fill>>> {
         let fill = if !matches!(leaf.shape(), Shape::Parentheses) {
             self.fill_number(leaf)?.map(Fill::Number)
         } else if let Some([depth, stencil]) = leaf.tuple() {
             let (depth, stencil) = (self.fill_number(depth), self.fill_number(stencil));
-            given((depth?, stencil?), |(depth, stencil)| Fill::DepthStencil(depth, stencil))
+            combined((depth?, stencil?), |(depth, stencil)| Fill::DepthStencil(depth, stencil))
         } else if let Some(parts) = leaf.tuple::<4>() {
-            given(all(parts.map(|part| self.fill_number(part)))?, Fill::Color)
+            combined(all(parts.map(|part| self.fill_number(part)))?, Fill::Color)
         } else {
             self.reader.wrong(leaf, "this is no value for all texels", FILLS);
             return None;
@@ -183,10 +185,14 @@ impl Context<'_> {
     }
 
     /// One of several words that take nothing, or a setting or expression that says one.
-    pub(crate) fn bare_word(&mut self, leaf: Leaf<'_>, words: &'static Words) -> Option<Given<Decided<&'static str>>> {
+    pub(crate) fn bare_word(
+        &mut self,
+        leaf: Leaf<'_>,
+        words: &'static Words,
+    ) -> Option<FieldValue<Decided<&'static str>>> {
         let Shape::Text = leaf.shape() else {
             let (word, rest) = self.reader.one_of(leaf, words)?;
-            return self.reader.bare(word, rest).map(|()| Given::said(leaf, word));
+            return self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, word));
         };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
         let (said, setting) = self.value(leaf, fits, Wanted::TEXT, ("a text", None))?;
@@ -212,9 +218,9 @@ impl Context<'_> {
 
 /// A value of another type.
 pub(crate) fn typed<T: Kept>(
-    value: Given<Decided<Value>>,
+    value: FieldValue<Decided<Value>>,
     make: impl Fn(Value) -> Option<T> + Send + Sync + 'static,
-) -> Option<Given<Decided<T>>> {
+) -> Option<FieldValue<Decided<T>>> {
     value.then(move |Decided { value, span, because }| Some(Decided { value: make(value)?, span, because }))
 }
 
@@ -228,7 +234,7 @@ fn text(value: Value) -> Option<Arc<str>> {
 }
 
 /// A value with the place of `leaf`.
-pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: Given<T>) -> Given<Spanned<T>> {
+pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: FieldValue<T>) -> FieldValue<Spanned<T>> {
     let span = leaf.span();
     value.map(move |value| Spanned { value, span })
 }

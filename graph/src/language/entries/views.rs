@@ -8,7 +8,9 @@ use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Context, DecidedValue, Evaluator, Given, GivenTuple, ScopeValues, all, given};
+use crate::language::scope::{
+    Context, DecidedValue, Evaluator, FieldValue, FieldValueTuple, ScopeValues, all, combined,
+};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
 
 fields! {
@@ -76,7 +78,7 @@ static SIZES: Words = Words {
 pub(crate) struct ViewEntries {
     names: Names,
     /// `None` where one couldn't be read.
-    list: Vec<Option<Given<SetView>>>,
+    list: Vec<Option<FieldValue<SetView>>>,
 }
 
 /// A view, and the values that settings have within it.
@@ -180,12 +182,17 @@ fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
 const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
 
 /// The size of the frame, or of the view at hand.
-fn own_size() -> Given<[u32; 2]> {
-    Given::asked(|evaluator| Some(evaluator.scope.surroundings.extent))
+fn own_size() -> FieldValue<[u32; 2]> {
+    FieldValue::computed(|evaluator| Some(evaluator.scope.surroundings.extent))
 }
 
 impl Context<'_> {
-    fn view(&mut self, settings: &[Option<Setting>], main: bool, fields: &ViewFields<'_>) -> Option<Given<SetView>> {
+    fn view(
+        &mut self,
+        settings: &[Option<Setting>],
+        main: bool,
+        fields: &ViewFields<'_>,
+    ) -> Option<FieldValue<SetView>> {
         let name = self.reader.name(fields.name, "a view");
         if let Some(about) = fields.about {
             self.reader.words(about, "a description");
@@ -203,12 +210,12 @@ impl Context<'_> {
         };
         let camera = optional(fields.camera, |leaf| self.reader.reference(leaf, "a camera"));
         let allows = [fields.allows_msaa, fields.allows_hdr, fields.allows_scale];
-        let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf).map(Given::alone)));
+        let allows = allows.map(|leaf| optional(leaf, |leaf| self.truth(leaf).map(FieldValue::alone)));
         let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
         let jitter = self.jitter(fields);
         let (name, extent, camera, allows) = (name?, extent?, camera?, all(allows)?);
         let (set, jitter) = (set?, jitter?);
-        Some(Given::asked(move |evaluator| {
+        Some(FieldValue::computed(move |evaluator| {
             let frame = evaluator.scope.surroundings;
             let extent = extent.evaluate(evaluator);
             let allows = allows.evaluate(evaluator);
@@ -234,24 +241,24 @@ impl Context<'_> {
     }
 
     /// The shifts of a view's picture.
-    fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<Given<Option<Jitter>>> {
+    fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<FieldValue<Option<Jitter>>> {
         let range = 1..=i64::from(frame::LONGEST_JITTER);
         let length = |leaf| self.whole::<u16>(leaf, "number of shifts", range);
-        let length = fields.jitter.map_or(Some(Given::Known(1)), length);
+        let length = fields.jitter.map_or(Some(FieldValue::Constant(1)), length);
         let extent = fields.jitter_size.map_or_else(|| Some(own_size()), |leaf| self.view_size(leaf));
         let jitter = |(length, extent)| (length > 1).then(|| Jitter::halton(length, extent));
-        Some(given((length?, extent?), jitter))
+        Some(combined((length?, extent?), jitter))
     }
 
-    fn view_size(&mut self, leaf: Leaf<'_>) -> Option<Given<[u32; 2]>> {
+    fn view_size(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<[u32; 2]>> {
         let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
         match word {
             "Output" => self.reader.bare(word, rest).map(|()| own_size()),
-            "Fixed" => Some(given(self.fixed(leaf, rest)?, |extent| extent)),
+            "Fixed" => Some(combined(self.fixed(leaf, rest)?, |extent| extent)),
             _ => {
                 let [by]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Scaled(0.5)")?;
                 // While a file is read no frame is known; then this is no mistake.
-                given((self.scale(by)?, own_size()), |of| of).checked(self.reader, |(factor, frame), _| {
+                combined((self.scale(by)?, own_size()), |of| of).checked(self.reader, |(factor, frame), _| {
                     times(frame, factor.value).map_err(|[width, height]| {
                         let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
                         let wrong = Diagnostic::new(factor.span, message);

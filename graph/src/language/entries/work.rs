@@ -3,7 +3,7 @@
 use super::draw::DrawFields;
 use super::pass_fields::PassFields;
 use crate::language::model::Work;
-use crate::language::scope::{Context, Given, given};
+use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Reader, Shape};
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
@@ -25,7 +25,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
 
 impl Context<'_> {
     /// The work of a pass. `what` names the pass.
-    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<Given<Work>> {
+    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<FieldValue<Work>> {
         let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
         let named = [
             ("draw", *draw),
@@ -67,7 +67,7 @@ impl Context<'_> {
                 let reads = self.listed_parts(fields.reads, "`reads`");
                 let writes = self.listed_parts(fields.writes, "`writes`");
                 let callback = callback?;
-                Some(given((reads?, writes?), move |(reads, writes)| Work::Custom {
+                Some(combined((reads?, writes?), move |(reads, writes)| Work::Custom {
                     callback: callback.clone(),
                     reads,
                     writes,

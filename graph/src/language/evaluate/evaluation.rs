@@ -8,7 +8,7 @@ use crate::language::entries::fragments::Fragments;
 use crate::language::entries::repeat::{MOST_THINGS, Repeat};
 use crate::language::entries::views::Views;
 use crate::language::inputs::Surroundings;
-use crate::language::scope::{DecidedValue, Elements, Evaluator, GivenTuple, LevelValues, ScopeValues};
+use crate::language::scope::{DecidedValue, Elements, Evaluator, FieldValueTuple, LevelValues, ScopeValues};
 use crate::ron::{Name, Reader};
 use std::collections::HashSet;
 use std::sync::Arc;

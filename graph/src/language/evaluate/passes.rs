@@ -3,7 +3,7 @@
 use super::evaluation::{Count, Evaluation, Level};
 use crate::language::entries::body::{Entry, Item};
 use crate::language::model::Pass;
-use crate::language::scope::GivenTuple;
+use crate::language::scope::FieldValueTuple;
 use crate::ron::Reader;
 
 impl Evaluation<'_> {

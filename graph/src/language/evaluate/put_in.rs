@@ -7,7 +7,7 @@ use crate::frame::{Resource, ViewIndex};
 use crate::language::entries::stand_ins::{self, Of};
 use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
-use crate::language::scope::{DecidedValue, GivenTuple};
+use crate::language::scope::{DecidedValue, FieldValueTuple};
 use crate::ron::{Name, Reader};
 
 /// Uses of fragments stand at most this deep in each other.

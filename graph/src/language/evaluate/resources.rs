@@ -3,7 +3,7 @@
 use super::evaluation::{Count, Evaluation, Level};
 use super::properties;
 use crate::language::model::{Buffer, Image};
-use crate::language::scope::{Elements, GivenTuple};
+use crate::language::scope::{Elements, FieldValueTuple};
 use crate::ron::Reader;
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! The context in which the entries of a file are read. It offers a method for each kind of value.
 
 use super::evaluator::joined;
-use super::given::Given;
+use super::field_value::FieldValue;
 use super::lookup::{Scope, is_expression};
 use super::parameter::{Parameter, ParameterKind};
 use crate::base::{Diagnostic, Span};
@@ -33,12 +33,12 @@ impl<'c> Context<'c> {
         fits: impl Fn(&SettingKind) -> bool + Copy,
         wanted: Wanted<'static>,
         words: (&str, Option<&str>),
-    ) -> Option<(Given<Decided<Value>>, Option<&'c Parameter>)> {
+    ) -> Option<(FieldValue<Decided<Value>>, Option<&'c Parameter>)> {
         let span = leaf.span();
         Some(match self.quoted(leaf, fits, wanted, words)? {
             Quoted::Parameter(parameter, at) => {
                 let setting = Some(parameter).filter(|_| self.scope.symbols.settings);
-                (Given::asked(move |evaluator| evaluator.parameter(at, span)), setting)
+                (FieldValue::computed(move |evaluator| evaluator.parameter(at, span)), setting)
             }
             Quoted::Expression(expression) => (decided(expression, span), None),
         })
@@ -110,8 +110,8 @@ impl<'c> Context<'c> {
 }
 
 /// The value of an expression that stands at `span`, and its cause.
-pub(crate) fn decided(expression: Expression, span: Span) -> Given<Decided<Value>> {
-    Given::asked(move |evaluator| {
+pub(crate) fn decided(expression: Expression, span: Span) -> FieldValue<Decided<Value>> {
+    FieldValue::computed(move |evaluator| {
         let outcome = evaluator.evaluate(&expression)?;
         Some(Decided { value: outcome.value, span, because: joined(&outcome.decided) })
     })

@@ -1,6 +1,6 @@
 //! Where the values of entries are found at a lowering.
 
-use super::given::GivenTuple;
+use super::field_value::FieldValueTuple;
 use super::level::{DecidedValue, Elements, LevelValues, Properties};
 use super::lookup::Declared;
 use super::symbols::Symbols;
@@ -53,7 +53,7 @@ impl<'e, 'a> Evaluator<'e, 'a> {
     }
 
     /// Puts in the values of a field; `None` if it couldn't be read, or has no value.
-    pub(crate) fn put_in<P: GivenTuple>(&mut self, field: &Option<P>) -> Option<P::Values> {
+    pub(crate) fn put_in<P: FieldValueTuple>(&mut self, field: &Option<P>) -> Option<P::Values> {
         field.as_ref()?.evaluate(self)
     }
 

@@ -6,7 +6,7 @@
 mod context;
 mod evaluator;
 mod expressions;
-mod given;
+mod field_value;
 mod level;
 mod lookup;
 mod parameter;
@@ -15,7 +15,7 @@ mod symbols;
 
 pub(crate) use context::{Context, Quoted, decided};
 pub(crate) use evaluator::{Evaluator, ScopeValues, joined, within_view};
-pub(crate) use given::{Given, GivenTuple, Kept, all, given};
+pub(crate) use field_value::{FieldValue, FieldValueTuple, Kept, all, combined};
 pub(crate) use level::{DecidedValue, Elements, LevelValues, Properties};
 pub(crate) use lookup::Scope;
 pub(crate) use parameter::{Parameter, ParameterKind};

@@ -1,7 +1,7 @@
 //! References to images and buffers: plain names, or expressions.
 
 use super::context::Context;
-use super::given::Given;
+use super::field_value::FieldValue;
 use crate::base::Diagnostic;
 use crate::expression::{Expression, Type, Wanted};
 use crate::frame::Resource;
@@ -10,7 +10,7 @@ use crate::ron::{Leaf, Name};
 
 impl Context<'_> {
     /// An image that is referred to.
-    pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<Given<ImageRef>> {
+    pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ImageRef>> {
         self.reference(leaf, Wanted::IMAGE, "an image")?.then(|of| match of.resource {
             Resource::Image(index) => Some(ImageRef { index, span: of.span }),
             Resource::Buffer(_) => None,
@@ -18,7 +18,7 @@ impl Context<'_> {
     }
 
     /// A buffer that is referred to.
-    pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<Given<BufferRef>> {
+    pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<BufferRef>> {
         self.reference(leaf, Wanted::BUFFER, "a buffer")?.then(|of| match of.resource {
             Resource::Buffer(index) => Some(BufferRef { index, span: of.span }),
             Resource::Image(_) => None,
@@ -26,11 +26,11 @@ impl Context<'_> {
     }
 
     /// An image or buffer that is referred to.
-    pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<Given<ResourceRef>> {
+    pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ResourceRef>> {
         self.reference(leaf, Wanted::RESOURCE, "an image or buffer")
     }
 
-    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<Given<ResourceRef>> {
+    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<FieldValue<ResourceRef>> {
         let span = leaf.span();
         let found = move |resource: Resource| ResourceRef { resource, span };
         if let Some(plain) = leaf.plain()
@@ -38,7 +38,7 @@ impl Context<'_> {
         {
             // The expression reports an image or buffer that isn't evaluated yet.
             let expression = Expression::new(plain, leaf.span_of(plain), &self.scope, wanted).ok();
-            return Some(Given::asked(move |evaluator| {
+            return Some(FieldValue::computed(move |evaluator| {
                 let known = evaluator.declared(declared);
                 known.or_else(|| evaluator.resource(expression.as_ref()?)).map(found)
             }));
@@ -49,7 +49,7 @@ impl Context<'_> {
             return None;
         }
         let expression = self.expression(leaf, wanted)?;
-        Some(Given::asked(move |evaluator| evaluator.resource(&expression).map(found)))
+        Some(FieldValue::computed(move |evaluator| evaluator.resource(&expression).map(found)))
     }
 
     /// Reports a name of another kind, or a name that nothing has.

@@ -12,17 +12,17 @@ pub(super) struct LastAccesses {
 
 impl LastAccesses {
     pub(super) fn of(frame: &Frame, live: &Live) -> LastAccesses {
-        let mut later = LastAccesses { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
+        let mut last = LastAccesses { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
         for number in &live.passes {
             let pass = &frame.passes[*number as usize];
             pass.accesses().for_each(|access| {
                 let Some(ImageIndex(image)) = access.image_index() else { return };
-                later.access[image as usize] = Some(*number);
+                last.access[image as usize] = Some(*number);
                 if access.writes(pass, Some(&frame.images[image as usize])) {
-                    later.write[image as usize] = Some(*number);
+                    last.write[image as usize] = Some(*number);
                 }
             });
         }
-        later
+        last
     }
 }

@@ -14,7 +14,7 @@ use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// The results of all stages.
-pub(in crate::compile) struct Parts<'a> {
+pub(in crate::compile) struct StageResults<'a> {
     pub(super) frame: &'a Frame,
     pub(super) device: &'a Profile,
     pub(super) structure: &'a Structure,
@@ -30,14 +30,14 @@ pub(in crate::compile) struct Parts<'a> {
     pub(super) nothing: Arc<str>,
 }
 
-impl<'a> Parts<'a> {
+impl<'a> StageResults<'a> {
     pub(in crate::compile) fn new(
         frame: &'a Frame,
         device: &'a Profile,
         structure: &'a Structure,
         settled: &'a Settled,
-    ) -> Parts<'a> {
-        Parts {
+    ) -> StageResults<'a> {
+        StageResults {
             frame,
             device,
             structure,
@@ -75,7 +75,7 @@ impl Subject {
     }
 }
 
-impl Parts<'_> {
+impl StageResults<'_> {
     /// The subresources that a subresource is.
     pub(super) fn subresources(&self, resource: PhysicalIndex, subresource: SubresourceIndex) -> Subresources {
         let resource = &self.adapted.resources[resource as usize];
@@ -93,7 +93,7 @@ pub(super) fn resource_id(resource: &PhysicalResource) -> Resource {
 }
 
 /// Why an operation is in the Plan.
-pub(super) fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
+pub(super) fn cause(parts: &StageResults<'_>, op: &Op) -> Cause {
     let place = |pass: u32| -> Option<Place> { parts.frame.sources.place(parts.frame.passes[pass as usize].span) };
     match op.kind.inserted() {
         Some(why) => Cause::Inserted(Box::new(why.clone())),
@@ -102,6 +102,6 @@ pub(super) fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
 }
 
 /// The work of the pass that an operation is or stands in for.
-pub(super) fn frame_work<'f>(parts: &Parts<'f>, op: &Op) -> Option<&'f Work> {
+pub(super) fn frame_work<'f>(parts: &StageResults<'f>, op: &Op) -> Option<&'f Work> {
     op.kind.pass().map(|pass| &parts.frame.passes[pass as usize].work)
 }

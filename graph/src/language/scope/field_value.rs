@@ -13,33 +13,37 @@ pub(crate) trait Kept: Clone + Send + Sync + 'static {}
 impl<T: Clone + Send + Sync + 'static> Kept for T {}
 
 /// A closure that finds a value.
-type Ask<T> = dyn Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync;
+type Compute<T> = dyn Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync;
 
 /// A value of a field: a constant, or a closure that is evaluated at each lowering.
 #[derive(Clone)]
-pub(crate) enum Given<T> {
+pub(crate) enum FieldValue<T> {
     /// The file says it.
-    Known(T),
+    Constant(T),
     /// It is found at each lowering; `None` if there is none, which is reported then.
-    Asked(Arc<Ask<T>>),
+    Computed(Arc<Compute<T>>),
 }
 
-impl<T: Kept> Given<T> {
-    pub(crate) fn asked(ask: impl Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync + 'static) -> Given<T> {
-        Given::Asked(Arc::new(ask))
+impl<T: Kept> FieldValue<T> {
+    pub(crate) fn computed(
+        compute: impl Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync + 'static,
+    ) -> FieldValue<T> {
+        FieldValue::Computed(Arc::new(compute))
     }
 
     /// A value that is computed from this one, if there is one.
-    pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<Given<U>> {
+    pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<FieldValue<U>> {
         match self {
-            Given::Known(value) => make(value).map(Given::Known),
-            Given::Asked(ask) => Some(Given::asked(move |evaluator| ask(evaluator).and_then(&make))),
+            FieldValue::Constant(value) => make(value).map(FieldValue::Constant),
+            FieldValue::Computed(compute) => {
+                Some(FieldValue::computed(move |evaluator| compute(evaluator).and_then(&make)))
+            }
         }
     }
 
     /// A value that is computed from this one.
-    pub(crate) fn map<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<U> {
-        given(self, make)
+    pub(crate) fn map<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<U> {
+        combined(self, make)
     }
 
     /// A value that is computed from this one, or a mistake. The mistake is reported to `reader` if the value is known; else
@@ -49,22 +53,24 @@ impl<T: Kept> Given<T> {
         self,
         reader: &mut Reader,
         check: impl Fn(T, Option<&Name>) -> Result<U, Diagnostic> + Send + Sync + 'static,
-    ) -> Option<Given<U>> {
+    ) -> Option<FieldValue<U>> {
         self.checked_as(reader, false, check)
     }
 
-    /// As [`checked`](Given::checked). If the file says the wrong part of the value itself (`said`), the mistake is always
+    /// As [`checked`](FieldValue::checked). If the file says the wrong part of the value itself (`said`), the mistake is always
     /// reported, never a fault.
     pub(crate) fn checked_as<U: Kept>(
         self,
         reader: &mut Reader,
         said: bool,
         check: impl Fn(T, Option<&Name>) -> Result<U, Diagnostic> + Send + Sync + 'static,
-    ) -> Option<Given<U>> {
+    ) -> Option<FieldValue<U>> {
         match self {
-            Given::Known(value) => check(value, None).map_err(|wrong| reader.report(wrong)).ok().map(Given::Known),
-            Given::Asked(ask) => Some(Given::asked(move |evaluator| {
-                let value = ask(evaluator)?;
+            FieldValue::Constant(value) => {
+                check(value, None).map_err(|wrong| reader.report(wrong)).ok().map(FieldValue::Constant)
+            }
+            FieldValue::Computed(compute) => Some(FieldValue::computed(move |evaluator| {
+                let value = compute(evaluator)?;
                 let checked = check(value, evaluator.scope.view);
                 let tell = |wrong| if said { evaluator.reader.report(wrong) } else { evaluator.fault(wrong) };
                 checked.map_err(tell).ok()
@@ -73,17 +79,17 @@ impl<T: Kept> Given<T> {
     }
 
     /// Whether the file says the value.
-    pub(crate) const fn is_known(&self) -> bool {
-        matches!(self, Given::Known(_))
+    pub(crate) const fn is_constant(&self) -> bool {
+        matches!(self, FieldValue::Constant(_))
     }
 }
 
-impl<T: Kept> Given<Decided<T>> {
+impl<T: Kept> FieldValue<Decided<T>> {
     /// The same value. Its cause names the view unless that is the main one, as messages outside of the entry need it.
     pub(crate) fn within_view(self) -> Self {
-        let Given::Asked(ask) = self else { return self };
-        Given::asked(move |evaluator| {
-            let decided = ask(evaluator)?;
+        let FieldValue::Computed(compute) = self else { return self };
+        FieldValue::computed(move |evaluator| {
+            let decided = compute(evaluator)?;
             let because = decided.because.map(|because| within_view(evaluator.scope.view, &because).into());
             Some(Decided { because, ..decided })
         })
@@ -91,7 +97,7 @@ impl<T: Kept> Given<Decided<T>> {
 
     /// A value that `leaf` says itself.
     pub(crate) fn said(leaf: Leaf<'_>, value: T) -> Self {
-        Given::Known(Decided::said(leaf.span(), value))
+        FieldValue::Constant(Decided::said(leaf.span(), value))
     }
 
     /// The same value, at the place of `leaf`.
@@ -101,23 +107,23 @@ impl<T: Kept> Given<Decided<T>> {
     }
 
     /// A value that is computed from this one, with the same cause.
-    pub(crate) fn of<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> Given<Decided<U>> {
+    pub(crate) fn of<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<Decided<U>> {
         self.map(move |decided| decided.map(&make))
     }
 
     /// The value and its place alone.
-    pub(crate) fn spanned(self) -> Given<Spanned<T>> {
+    pub(crate) fn spanned(self) -> FieldValue<Spanned<T>> {
         self.map(Decided::spanned)
     }
 
     /// The value alone.
-    pub(crate) fn alone(self) -> Given<T> {
+    pub(crate) fn alone(self) -> FieldValue<T> {
         self.map(|decided| decided.value)
     }
 }
 
 /// Values of an entry that belong together: one, a tuple or a list of them, or none.
-pub(crate) trait GivenTuple: Send + Sync + 'static {
+pub(crate) trait FieldValueTuple: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
@@ -131,28 +137,28 @@ pub(crate) trait GivenTuple: Send + Sync + 'static {
 }
 
 /// A value that is computed from several values.
-pub(crate) fn given<P: GivenTuple, T: Kept>(
+pub(crate) fn combined<P: FieldValueTuple, T: Kept>(
     parts: P,
     make: impl Fn(P::Values) -> T + Send + Sync + 'static,
-) -> Given<T> {
+) -> FieldValue<T> {
     match parts.find(None) {
-        Some(values) => Given::Known(make(values)),
-        None => Given::asked(move |evaluator| parts.evaluate(evaluator).map(&make)),
+        Some(values) => FieldValue::Constant(make(values)),
+        None => FieldValue::computed(move |evaluator| parts.evaluate(evaluator).map(&make)),
     }
 }
 
-impl<T: Kept> GivenTuple for Given<T> {
+impl<T: Kept> FieldValueTuple for FieldValue<T> {
     type Values = T;
 
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<T> {
         match self {
-            Given::Known(value) => Some(value.clone()),
-            Given::Asked(ask) => ask(evaluator?),
+            FieldValue::Constant(value) => Some(value.clone()),
+            FieldValue::Computed(compute) => compute(evaluator?),
         }
     }
 }
 
-impl<P: GivenTuple> GivenTuple for Option<P> {
+impl<P: FieldValueTuple> FieldValueTuple for Option<P> {
     type Values = Option<P::Values>;
 
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -160,7 +166,7 @@ impl<P: GivenTuple> GivenTuple for Option<P> {
     }
 }
 
-impl<P: GivenTuple> GivenTuple for Vec<P> {
+impl<P: FieldValueTuple> FieldValueTuple for Vec<P> {
     type Values = Vec<P::Values>;
 
     fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -172,7 +178,7 @@ impl<P: GivenTuple> GivenTuple for Vec<P> {
     }
 }
 
-impl<P: GivenTuple, const N: usize> GivenTuple for [P; N] {
+impl<P: FieldValueTuple, const N: usize> FieldValueTuple for [P; N] {
     type Values = [P::Values; N];
 
     fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
@@ -188,7 +194,7 @@ pub(crate) fn all<T, const N: usize>(values: [Option<T>; N]) -> Option<[T; N]> {
 
 macro_rules! tuples {
     ($($part:ident)*) => {
-        impl<$($part: GivenTuple),*> GivenTuple for ($($part,)*) {
+        impl<$($part: FieldValueTuple),*> FieldValueTuple for ($($part,)*) {
             type Values = ($($part::Values,)*);
 
             #[allow(non_snake_case, reason = "parts have the names of their types")]

@@ -5,17 +5,17 @@ use crate::ron::Reader;
 
 /// A value of an entry, and the mistakes in it. Mistakes are told where the entry is evaluated, and so with the uses of
 /// its fragment.
-pub(crate) struct Told<T> {
+pub(crate) struct Diagnosed<T> {
     value: Option<T>,
     mistakes: Vec<Diagnostic>,
 }
 
-impl<T> Told<T> {
+impl<T> Diagnosed<T> {
     /// Reads something, and keeps its mistakes.
-    pub(crate) fn read(reader: &mut Reader, read: impl FnOnce(&mut Reader) -> Option<T>) -> Told<T> {
+    pub(crate) fn read(reader: &mut Reader, read: impl FnOnce(&mut Reader) -> Option<T>) -> Diagnosed<T> {
         let before = reader.errors.len();
         let value = read(reader);
-        Told { value, mistakes: reader.errors.split_off(before) }
+        Diagnosed { value, mistakes: reader.errors.split_off(before) }
     }
 
     /// The value, if it could be read. Mistakes are reported to `reader`.
