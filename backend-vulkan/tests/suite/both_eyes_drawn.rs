@@ -52,7 +52,7 @@ fn plan(device: &Device, (stereo, form): (Stereo, EyeForm)) -> Plan {
         outputs: vec![Resource::Image(image).into()],
         ..Frame::default()
     };
-    compile(&frame, &device.profile(), &mut device.memory(), &Options::default()).expect("the frame is legal")
+    compile(&frame, &device.profile(), &mut device.memory(), &Options::default()).expect("the frame is valid")
 }
 
 fn executor(device: &Device, plan: &Plan) -> Result<Executor, Error> {

@@ -179,7 +179,7 @@ fn check_as_nobody(place: &Place, words: &[&str]) -> Outcome {
 
 #[cfg(unix)]
 #[test]
-fn a_file_that_may_not_be_read_is_the_environments_fault_whoever_names_it() {
+fn a_file_that_may_not_be_read_is_the_environments_fault_in_all_files_that_are_named() {
     use std::os::unix::fs::PermissionsExt;
     let place = place("fill.ron");
     let forbid = |file: &str| {

@@ -69,7 +69,7 @@ fn spoiled(name: &str) -> Result<Spoil, String> {
 
 const EXIT_CODES: &str = "Exit codes:
   0    all outputs are what they should be
-  1    one is not, or a legal pipeline failed in another way
+  1    one is not, or a valid pipeline failed in another way
   2    the command line is wrong
   3    there is no such driver, or no validation layer that is awake
   130  interrupted by Ctrl-C";

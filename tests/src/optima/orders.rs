@@ -29,7 +29,7 @@ fn depends(earlier: &Pass, later: &Pass) -> bool {
     !writes.is_disjoint(&later_reads) || !writes.is_disjoint(&later_writes) || !reads.is_disjoint(&later_writes)
 }
 
-/// All legal orders; `None` if there are more than `most`.
+/// All valid orders; `None` if there are more than `most`.
 #[must_use]
 pub fn orders(frame: &Frame, most: usize) -> Option<Vec<Vec<usize>>> {
     let count = frame.passes.len();

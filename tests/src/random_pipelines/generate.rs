@@ -3,13 +3,13 @@
 mod resources;
 
 use super::allowed::{Allowed, Kind};
-use super::legal::{self, Written, size};
 use super::pipeline::{
     Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane,
     Read, Region, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
 };
 use super::rng::Rng;
 use super::texels;
+use super::valid::{self, Written, size};
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::vulkan::{Aspects, CompareOp, Shape, StencilOp};
 
@@ -362,7 +362,7 @@ impl Maker<'_> {
 
     /// Fills what is read of earlier frames and nothing has written yet.
     fn write_history(&mut self) {
-        for thing in legal::unwritten_history(&self.pipeline, &self.written) {
+        for thing in valid::unwritten_history(&self.pipeline, &self.written) {
             let to = match thing {
                 Thing::Image(image) => {
                     let Image { mips, layers, .. } = self.pipeline.images[image];
@@ -386,7 +386,7 @@ impl Maker<'_> {
         let possible: Vec<Thing> = images
             .chain(buffers)
             .filter(|thing| {
-                self.written.all(*thing) && legal::is_touched(&self.pipeline, *thing) && self.leaves(*thing)
+                self.written.all(*thing) && valid::is_touched(&self.pipeline, *thing) && self.leaves(*thing)
             })
             .collect();
         for _ in 0..2 + self.rng.below(4) {

@@ -44,7 +44,7 @@ pub struct Judge {
 /// A mistake on the way from a pipeline to its outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
-    /// The pipeline is legal, and was refused.
+    /// The pipeline is valid, and was refused.
     Refused(Vec<String>),
     /// The compiler or the checker panicked.
     Panicked(String),

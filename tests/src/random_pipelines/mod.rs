@@ -10,7 +10,6 @@ mod compare;
 pub mod generate;
 pub mod hash;
 pub mod judge;
-pub mod legal;
 pub mod meaning;
 pub mod pipeline;
 pub mod rng;
@@ -21,6 +20,7 @@ pub mod texels;
 pub mod text;
 pub mod to_frame;
 pub mod to_ron;
+pub mod valid;
 
 use allowed::Allowed;
 use framewright_graph::frame::Frame;

@@ -4,7 +4,7 @@ use super::hash::{CONTENT_GLSL, GLSL, QUARTER_GLSL};
 use super::pipeline::{
     Compute, Draw, Geometry, Image, Pass, Pipeline, Plane, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
 };
-use super::{legal, texels};
+use super::{texels, valid};
 use framewright_graph::frame::{Blend, ParamValue};
 use framewright_graph::vulkan::{Format, Numeric, Shape};
 use std::fmt::Write;
@@ -25,7 +25,7 @@ pub struct Shader {
 pub fn shader(pipeline: &Pipeline, pass: &Pass) -> Option<Shader> {
     let mut text = Text::default();
     text.param("number", ParamValue::Integer(pass.number.into()));
-    let (reads, stores) = legal::shader(pass);
+    let (reads, stores) = valid::shader(pass);
     let vertex_reads = if let Work::Draw(draw) = &pass.work { draw.vertex_reads } else { 0 };
     for (number, read) in reads.iter().enumerate() {
         text.read(pipeline, number, *read);

@@ -1,7 +1,7 @@
 //! A pipeline that fails becomes a smaller one that fails alike.
 
-use super::legal;
 use super::pipeline::{Count, Draw, Geometry, Groups, Life, Pass, Pipeline, Work};
+use super::valid;
 use framewright_graph::frame::Blend;
 use framewright_graph::vulkan::Shape;
 
@@ -13,7 +13,7 @@ pub fn shrink(pipeline: &Pipeline, mut fails: impl FnMut(&Pipeline) -> bool) -> 
     let mut smallest = pipeline.clone();
     let mut tries = 0;
     let mut attempt = |smallest: &mut Pipeline, smaller: Pipeline| {
-        if tries == MOST_TRIES || smaller == *smallest || !legal::is_legal(&smaller) {
+        if tries == MOST_TRIES || smaller == *smallest || !valid::is_valid(&smaller) {
             return false;
         }
         tries += 1;

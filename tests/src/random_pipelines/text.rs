@@ -1,9 +1,9 @@
 //! A random pipeline as text that a person reads: one line for each image, buffer and pass.
 
-use super::legal;
 use super::pipeline::{
     Count, DepthTarget, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
 };
+use super::valid;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::vulkan::Shape;
 use std::fmt;
@@ -46,7 +46,7 @@ impl Pipeline {
     /// The images and buffers that a pass or an output names.
     #[must_use]
     pub fn used(&self) -> Vec<Thing> {
-        let mut used: Vec<Thing> = self.passes.iter().flat_map(legal::things).chain(self.outputs.clone()).collect();
+        let mut used: Vec<Thing> = self.passes.iter().flat_map(valid::things).chain(self.outputs.clone()).collect();
         used.sort_unstable();
         used.dedup();
         used
@@ -184,7 +184,7 @@ impl fmt::Display for Pass {
             Work::Custom { from: None, to, value } => write!(f, "custom fill {to} with {value}")?,
             Work::Forward { from, to } => write!(f, "forward i{from} to i{to}")?,
         }
-        let (reads, stores) = legal::shader(self);
+        let (reads, stores) = valid::shader(self);
         let vertex_reads = if let Work::Draw(draw) = &self.work { draw.vertex_reads } else { 0 };
         for (number, read) in reads.iter().enumerate() {
             write!(f, ", {}{read}", if number < vertex_reads { "its vertex shader " } else { "" })?;

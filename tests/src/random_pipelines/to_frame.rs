@@ -4,7 +4,7 @@ use super::pipeline::{
     self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing,
     Work,
 };
-use super::{legal, shader, texels};
+use super::{shader, texels, valid};
 use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
@@ -109,7 +109,7 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
         made.params = shader.params.iter().map(|(name, value)| (name.as_str().into(), *value)).collect();
     }
     let stages = if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
-    let (reads, stores) = legal::shader(pass);
+    let (reads, stores) = valid::shader(pass);
     let vertex_reads = if let Work::Draw(draw) = &pass.work { draw.vertex_reads } else { 0 };
     for (number, read) in reads.iter().enumerate() {
         let stages = if number < vertex_reads { Stages::VERTEX_SHADER } else { stages };

@@ -4,7 +4,7 @@ use super::pipeline::{
     Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess,
     Thing, Work,
 };
-use super::{legal, shader, texels, to_frame};
+use super::{shader, texels, to_frame, valid};
 use framewright_graph::frame::{ParamValue, StencilState};
 use framewright_graph::vulkan::{Aspects, FillValue, Format, Layout, ResolveMode, Shape, Stages};
 
@@ -226,7 +226,7 @@ fn groups(compute: &Compute) -> String {
 
 /// The images and buffers that the shader is given, by its names.
 fn bindings(pass: &Pass, fields: &mut Vec<String>) {
-    let (reads, stores) = legal::shader(pass);
+    let (reads, stores) = valid::shader(pass);
     let (mut sample, mut storage, mut uniform) = (Vec::new(), Vec::new(), Vec::new());
     let ago = |frames: u32| if frames == 0 { String::new() } else { format!(", previous: {frames}") };
     for (number, read) in reads.iter().enumerate() {

@@ -18,7 +18,7 @@ fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
 }
 
 fn plan(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(device), options).expect("random frames are legal")
+    compile(frame, device, &mut Estimated(device), options).expect("random frames are valid")
 }
 
 /// Steps beside graphics, waits, images that change hands.

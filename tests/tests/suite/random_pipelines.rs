@@ -8,12 +8,12 @@ use framewright_tests::drivers::Driver;
 use framewright_tests::frames::device;
 use framewright_tests::random_pipelines::allowed::{Allowed, NOT_YET};
 use framewright_tests::random_pipelines::judge::{expected, options};
-use framewright_tests::random_pipelines::legal::is_legal;
 use framewright_tests::random_pipelines::pipeline::{
     Compute, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing,
     Work,
 };
 use framewright_tests::random_pipelines::to_frame::to_frame;
+use framewright_tests::random_pipelines::valid::is_valid;
 use framewright_tests::random_pipelines::{generate, passes, shader, shrink};
 use framewright_tests::sweep;
 use std::collections::{BTreeSet, HashMap};
@@ -37,7 +37,7 @@ fn a_seed_always_gives_the_same_pipeline() {
 #[test]
 fn whatever_the_seed_every_pass_may_stand_where_it_stands() {
     for pipeline in many() {
-        assert!(is_legal(&pipeline), "{pipeline}");
+        assert!(is_valid(&pipeline), "{pipeline}");
     }
 }
 
@@ -146,7 +146,7 @@ fn what_the_compiler_does_turns_up() {
     let mut all = [0; 5];
     for pipeline in many() {
         let options = options(Order::Default, 0);
-        let plan = compile(&to_frame(&pipeline), &device, &mut Estimated(&device), &options).expect("it is legal");
+        let plan = compile(&to_frame(&pipeline), &device, &mut Estimated(&device), &options).expect("it is valid");
         let totals = &plan.totals;
         let merged =
             plan.steps.iter().any(|step| matches!(&step.work, plan::Work::Render(scope) if scope.passes.len() > 1));
@@ -195,7 +195,7 @@ fn history_is_what_frames_before_wrote_and_its_first_value_before_them() {
         outputs: vec![Thing::Image(1)],
         ..Pipeline::default()
     };
-    assert!(is_legal(&pipeline));
+    assert!(is_valid(&pipeline));
     let after = held(&pipeline, 1, 5);
     assert_eq!(after[0], after[1], "two frames read the first value");
     assert!(after[1] != after[2] && after[2] != after[3], "then what the program handed in, which is always new");
@@ -230,7 +230,7 @@ fn a_pass_that_samples_its_own_target_reads_what_stood_there_before_it() {
     };
     let onto_itself = pipeline(vec![fill(0, 0), made(1, 0, 0)]);
     let from_another = pipeline(vec![fill(0, 1), made(1, 1, 0)]);
-    assert!(is_legal(&onto_itself) && is_legal(&from_another));
+    assert!(is_valid(&onto_itself) && is_valid(&from_another));
     assert_eq!(held(&onto_itself, 0, 1), held(&from_another, 0, 1));
 }
 
@@ -239,7 +239,7 @@ fn shrinking_leaves_what_makes_it_fail() {
     let has_blit = |pipeline: &Pipeline| pipeline.passes.iter().any(|pass| matches!(pass.work, Work::Blit { .. }));
     let failing = many().find(|pipeline| pipeline.passes.len() > 20 && has_blit(pipeline));
     let smallest = shrink::shrink(&failing.expect("some pipeline of many blits"), has_blit);
-    assert!(is_legal(&smallest) && has_blit(&smallest));
+    assert!(is_valid(&smallest) && has_blit(&smallest));
     assert!(smallest.passes.len() <= 3 && smallest.outputs.len() == 1, "{smallest}");
 }
 

@@ -1,4 +1,4 @@
-//! Random pipelines without a device: for every order and all options, their Plans are legal to the checker and do no harm to
+//! Random pipelines without a device: for every order and all options, their Plans are valid to the checker and do no harm to
 //! the brute-force judge, which shares no code with either.
 
 use framewright_graph::compile::{Options, Order, compile};

@@ -1,6 +1,6 @@
 //! The Plans of small frames, compared with the least cost of any order and any placement.
 //!
-//! For each frame every legal order is tried: an exhaustive search says what that order costs at least, and the compiler
+//! For each frame every valid order is tried: an exhaustive search says what that order costs at least, and the compiler
 //! is made to take that order (the passes are put in it and compiled with `Order::File`). Resolves and image barriers must
 //! be equal, memory at most 5 % above, for every single order. What the compiler's own choices of an order reach is
 //! printed beside the best over all orders.
@@ -15,13 +15,13 @@ use framewright_tests::optima::{Cost, costs, graphs, in_order, orders};
 /// Frames that are tried.
 const FRAMES: u64 = 300;
 
-/// Frames with more legal orders than these are left out.
+/// Frames with more valid orders than these are left out.
 const MOST_ORDERS: usize = 400;
 
 fn compiled(frame: &Frame, order: Order) -> Totals {
     let device = device();
     let options = Options { order, ..Options::default() };
-    compile(frame, &device, &mut Estimated(&device), &options).expect("the frame is legal").totals
+    compile(frame, &device, &mut Estimated(&device), &options).expect("the frame is valid").totals
 }
 
 fn reached(totals: &Totals) -> Cost {
@@ -144,7 +144,7 @@ fn every_order_of_small_frames_costs_no_more_than_it_must() {
             "equal",
             "worst"
         ),
-        each.text("each legal order by itself"),
+        each.text("each valid order by itself"),
         default.text("default, best of all orders"),
         low_memory.text("low-memory, best of all"),
     ]

@@ -8,38 +8,39 @@ use crate::compile::scope::{Scope, Target, op_name};
 use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
 use crate::vulkan::{Layout, LoadOp, StoreOp};
 
-pub(super) fn scope(parts: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
-    let (extent, layers, samples) = shape(parts, scope);
-    let attachments = parts.load_store.of(step);
+pub(super) fn scope(results: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
+    let (extent, layers, samples) = shape(results, scope);
+    let attachments = results.load_store.of(step);
     let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
     let plane = |role: Role| attachments.iter().find(|ops| ops.role == role);
     RenderScope {
         extent,
         layers,
         samples,
-        color: color.map(|(ops, resolve)| attachment(parts, scope, ops, *resolve)).collect(),
-        depth: plane(Role::Depth).map(|ops| attachment(parts, scope, ops, scope.depth_resolve)),
-        stencil: plane(Role::Stencil).map(|ops| attachment(parts, scope, ops, None)),
+        color: color.map(|(ops, resolve)| attachment(results, scope, ops, *resolve)).collect(),
+        depth: plane(Role::Depth).map(|ops| attachment(results, scope, ops, scope.depth_resolve)),
+        stencil: plane(Role::Stencil).map(|ops| attachment(results, scope, ops, None)),
         passes: if scope.local {
-            local_passes(parts, scope, attachments)
+            local_passes(results, scope, attachments)
         } else {
-            scope.ops.iter().map(|op| passes::pass(parts, *op)).collect()
+            scope.ops.iter().map(|op| passes::pass(results, *op)).collect()
         },
     }
 }
 
 /// The passes of a scope with local reads. A local barrier stands before the first pass that reads a drawn or cleared target,
 /// and before a pass that draws over a target that was read, unless a barrier stands between already.
-fn local_passes(parts: &StageResults<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
+fn local_passes(results: &StageResults<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
     let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();
     let mut read: Vec<Target> = Vec::new();
     let mut passes = Vec::with_capacity(scope.ops.len());
     for op in &scope.ops {
-        let mut pass = passes::pass(parts, *op);
-        let uses = parts.adapted.uses(*op);
-        let of =
-            |role: Role| uses.iter().filter(move |used| used.role == role).map(|used| Target::of(parts.adapted, used));
+        let mut pass = passes::pass(results, *op);
+        let uses = results.adapted.uses(*op);
+        let of = |role: Role| {
+            uses.iter().filter(move |used| used.role == role).map(|used| Target::of(results.adapted, used))
+        };
         let draws_over = || of(Role::Color).any(|target| read.contains(&target));
         pass.local_barrier = of(Role::Input).any(|target| fresh.contains(&target)) || draws_over();
         if pass.local_barrier {
@@ -63,8 +64,8 @@ fn local_passes(parts: &StageResults<'_>, scope: &Scope, attachments: &[Attachme
 }
 
 /// Width and height, layers and samples of a scope's attachments.
-pub(super) fn shape(parts: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
-    let resources = &parts.adapted.resources;
+pub(super) fn shape(results: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
+    let resources = &results.adapted.resources;
     let first = scope.targets().next();
     let shape = first.and_then(|target| Some((resources[target.resource as usize].image()?, target.range)));
     shape.map_or(([1, 1], 1, 1), |(image, range)| {
@@ -73,26 +74,26 @@ pub(super) fn shape(parts: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32, 
     })
 }
 
-fn attachment(parts: &StageResults<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
-    let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
-    let used = uses.find(|used| used.role == ops.role && Target::of(parts.adapted, used) == ops.target);
+fn attachment(results: &StageResults<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
+    let mut uses = scope.ops.iter().flat_map(|op| results.adapted.uses(*op));
+    let used = uses.find(|used| used.role == ops.role && Target::of(results.adapted, used) == ops.target);
     Attachment {
-        image: ImageId(parts.adapted.resources[ops.target.resource as usize].id),
+        image: ImageId(results.adapted.resources[ops.target.resource as usize].id),
         range: ops.target.range,
         layout: used.map_or(Layout::General, |used| used.layout),
         load: ops.load,
         store: ops.store,
         clear: ops.clear,
-        resolve: resolve.and_then(|op| attachment_resolve(parts, op)),
-        because: format!("{}; {}", load_reason(parts, ops), store_reason(parts, ops)),
+        resolve: resolve.and_then(|op| attachment_resolve(results, op)),
+        because: format!("{}; {}", load_reason(results, ops), store_reason(results, ops)),
     }
 }
 
-fn attachment_resolve(parts: &StageResults<'_>, number: u32) -> Option<AttachmentResolve> {
-    let op = &parts.adapted.ops[number as usize];
+fn attachment_resolve(results: &StageResults<'_>, number: u32) -> Option<AttachmentResolve> {
+    let op = &results.adapted.ops[number as usize];
     let OpKind::Resolve { mode, .. } = op.kind else { return None };
-    let target = parts.adapted.uses(number).get(1)?;
-    let resource = &parts.adapted.resources[target.resource as usize];
+    let target = results.adapted.uses(number).get(1)?;
+    let resource = &results.adapted.resources[target.resource as usize];
     let layout = match resource.image()?.format.is_depth() {
         true => Layout::DepthStencilAttachmentOptimal,
         false => Layout::ColorAttachmentOptimal,
@@ -102,16 +103,16 @@ fn attachment_resolve(parts: &StageResults<'_>, number: u32) -> Option<Attachmen
         range: resource.all(),
         layout,
         mode,
-        cause: cause(parts, op),
+        cause: cause(results, op),
     })
 }
 
-fn name<'n>(parts: &'n StageResults<'_>, op: u32) -> &'n str {
-    op_name(parts.frame, parts.adapted, op).map_or("", |name| name)
+fn name<'n>(results: &'n StageResults<'_>, op: u32) -> &'n str {
+    op_name(results.frame, results.adapted, op).map_or("", |name| name)
 }
 
-fn load_reason(parts: &StageResults<'_>, ops: &AttachmentOps) -> String {
-    let name = if ops.first == u32::MAX { "" } else { name(parts, ops.first) };
+fn load_reason(results: &StageResults<'_>, ops: &AttachmentOps) -> String {
+    let name = if ops.first == u32::MAX { "" } else { name(results, ops.first) };
     match ops.load {
         LoadOp::Clear => format!("`{name}` clears it"),
         LoadOp::Load => format!("`{name}` continues on what is there"),
@@ -119,9 +120,9 @@ fn load_reason(parts: &StageResults<'_>, ops: &AttachmentOps) -> String {
     }
 }
 
-fn store_reason(parts: &StageResults<'_>, ops: &AttachmentOps) -> String {
+fn store_reason(results: &StageResults<'_>, ops: &AttachmentOps) -> String {
     let words = match ops.next {
-        Next::Op(op) => match op_name(parts.frame, parts.adapted, op) {
+        Next::Op(op) => match op_name(results.frame, results.adapted, op) {
             Some(name) => Some(format!("`{name}` uses it next")),
             None => Some("it is resolved or copied next".to_owned()),
         },

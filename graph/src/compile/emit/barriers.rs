@@ -1,7 +1,7 @@
 //! Barriers of each step: those of neighbouring subresources become one.
 
 use super::stage_results::{StageResults, resource_id};
-use crate::compile::stage_results::join;
+use crate::compile::parts::join;
 use crate::compile::steps::NEVER;
 use crate::compile::sync::{Batched, SubresourceBarrier};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
@@ -9,14 +9,14 @@ use crate::vulkan::{Accesses, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct StepBarriers<'p, 'a> {
-    parts: &'p StageResults<'a>,
+    results: &'p StageResults<'a>,
     batched: &'p [Batched],
     memory: usize,
 }
 
 impl<'p, 'a> StepBarriers<'p, 'a> {
-    pub(super) fn new(parts: &'p StageResults<'a>) -> StepBarriers<'p, 'a> {
-        StepBarriers { parts, batched: &parts.sync.batched, memory: 0 }
+    pub(super) fn new(results: &'p StageResults<'a>) -> StepBarriers<'p, 'a> {
+        StepBarriers { results, batched: &results.sync.batched, memory: 0 }
     }
 
     /// The barriers of step number `step`; steps are asked for in order.
@@ -25,11 +25,11 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
         let (here, rest) = self.batched.split_at(here);
         self.batched = rest;
         let mut memory = Vec::new();
-        if let Some((at, scopes)) = self.parts.sync.aliasing.get(self.memory)
+        if let Some((at, scopes)) = self.results.sync.aliasing.get(self.memory)
             && *at == step
         {
             self.memory += 1;
-            let resources = &self.parts.adapted.resources;
+            let resources = &self.results.adapted.resources;
             let hand_overs = scopes.resources.iter();
             memory.push(MemoryBarrier {
                 src_stages: scopes.src_stages,
@@ -45,8 +45,8 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
         let mut images = Vec::with_capacity(here.len());
         let mut buffers: Option<MemoryBarrier> = None;
         for it in here {
-            let barrier = &self.parts.sync.barriers[it.barrier as usize];
-            let subject = &self.parts.subjects[barrier.resource as usize];
+            let barrier = &self.results.sync.barriers[it.barrier as usize];
+            let subject = &self.results.subjects[barrier.resource as usize];
             if !subject.is_image {
                 add_buffer(&mut buffers, barrier, subject.id);
                 continue;
@@ -56,7 +56,7 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
                 continue;
             }
             let range = if subject.is_cut {
-                self.parts.subresources(barrier.resource, barrier.subresource)
+                self.results.subresources(barrier.resource, barrier.subresource)
             } else {
                 subject.all
             };

@@ -4,8 +4,8 @@ use super::stage_results::StageResults;
 use crate::plan::{Note, Stage};
 
 /// Notes by stage.
-pub(super) fn notes(parts: &StageResults<'_>) -> Vec<Note> {
-    let frame = parts.frame;
+pub(super) fn notes(results: &StageResults<'_>) -> Vec<Note> {
+    let frame = results.frame;
     let off = frame.switched_off.iter().map(|off| Note {
         stage: Stage::Expand,
         subject: off.name.clone(),
@@ -15,7 +15,7 @@ pub(super) fn notes(parts: &StageResults<'_>) -> Vec<Note> {
         },
         at: frame.sources.place(off.span),
     });
-    let culled = parts.structure.live.culled.iter().map(|pass| &frame.passes[*pass as usize]).map(|pass| Note {
+    let culled = results.structure.live.culled.iter().map(|pass| &frame.passes[*pass as usize]).map(|pass| Note {
         stage: Stage::Cull,
         subject: pass.name.clone(),
         text: "does not run: no output needs what it writes".to_owned(),
@@ -27,5 +27,5 @@ pub(super) fn notes(parts: &StageResults<'_>) -> Vec<Note> {
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),
     });
-    off.chain(remarks).chain(culled).chain(parts.structure.notes.iter().cloned()).collect()
+    off.chain(remarks).chain(culled).chain(results.structure.notes.iter().cloned()).collect()
 }

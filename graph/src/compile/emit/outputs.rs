@@ -6,9 +6,9 @@ use crate::plan::Output;
 use crate::vulkan::{Encoding, Format, Numeric};
 
 /// The outputs in the frame's order.
-pub(super) fn outputs(parts: &StageResults<'_>) -> Vec<Output> {
-    let frame = parts.frame;
-    let resources = parts.adapted.outputs.iter().map(|resource| &parts.adapted.resources[*resource as usize]);
+pub(super) fn outputs(results: &StageResults<'_>) -> Vec<Output> {
+    let frame = results.frame;
+    let resources = results.adapted.outputs.iter().map(|resource| &results.adapted.resources[*resource as usize]);
     let outputs = resources.zip(&frame.outputs).map(|(resource, declared)| {
         let format = resource.image().map(|image| image.format);
         let encoding = declared.encoding.or_else(|| format.and_then(Encoding::of));

@@ -1,8 +1,8 @@
 //! Queue family ownership transfers: their two halves, release and acquire, name the same subresources.
 
 use super::stage_results::StageResults;
+use crate::compile::parts::join;
 use crate::compile::queues::OwnershipTransfer;
-use crate::compile::stage_results::join;
 use crate::plan::{Hazard, ImageBarrier, ImageId, StepId};
 use crate::vulkan::{Accesses, Stages};
 
@@ -28,10 +28,10 @@ impl Transfer {
 }
 
 /// All ownership transfers, in the order of the steps that acquire.
-pub(super) fn transfers(parts: &StageResults<'_>) -> Vec<Transfer> {
+pub(super) fn transfers(results: &StageResults<'_>) -> Vec<Transfer> {
     let mut transfers: Vec<Transfer> = Vec::new();
-    for of_subresource in parts.sync.queues.transfers() {
-        let mut new = transfer(parts, of_subresource);
+    for of_subresource in results.sync.queues.transfers() {
+        let mut new = transfer(results, of_subresource);
         while let Some(joined) = transfers.last().and_then(|last| last.join(&new)) {
             new = joined;
             transfers.pop();
@@ -41,10 +41,10 @@ pub(super) fn transfers(parts: &StageResults<'_>) -> Vec<Transfer> {
     transfers
 }
 
-fn transfer(parts: &StageResults<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
-    let (queues, acquiring) = (&parts.sync.queues, &parts.sync.barriers[of_subresource.barrier as usize]);
-    let image = ImageId(parts.subjects[acquiring.resource as usize].id);
-    let range = parts.subresources(acquiring.resource, acquiring.subresource);
+fn transfer(results: &StageResults<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
+    let (queues, acquiring) = (&results.sync.queues, &results.sync.barriers[of_subresource.barrier as usize]);
+    let image = ImageId(results.subjects[acquiring.resource as usize].id);
+    let range = results.subresources(acquiring.resource, acquiring.subresource);
     let barrier = |after, src: (Stages, Accesses), dst: (Stages, Accesses)| ImageBarrier {
         image,
         range,

@@ -18,21 +18,21 @@ const COPY_SHADER: &str = "shipped:copy";
 const COPY_SOURCE: &str = "source";
 
 /// The work of an operation that is not drawn.
-pub(super) fn single(parts: &StageResults<'_>, number: u32) -> Work {
-    let op = &parts.adapted.ops[number as usize];
+pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
+    let op = &results.adapted.ops[number as usize];
     if matches!(op.kind, OpKind::Resolve { .. }) {
-        return Work::Resolve(transfer(parts, op, number, None));
+        return Work::Resolve(transfer(results, op, number, None));
     }
-    match frame_work(parts, op) {
-        None | Some(FrameWork::Copy) => Work::Copy(transfer(parts, op, number, None)),
-        Some(FrameWork::Blit { filter }) => Work::Blit(transfer(parts, op, number, Some(*filter))),
+    match frame_work(results, op) {
+        None | Some(FrameWork::Copy) => Work::Copy(transfer(results, op, number, None)),
+        Some(FrameWork::Blit { filter }) => Work::Blit(transfer(results, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {
-            let (name, cause, target) = (name(parts, op), cause(parts, op), filled(parts, number));
+            let (name, cause, target) = (name(results, op), cause(results, op), filled(results, number));
             Work::Fill(Fill { name, cause, target, value: *value })
         }
-        Some(FrameWork::Custom { .. }) => Work::Custom(pass(parts, number)),
+        Some(FrameWork::Custom { .. }) => Work::Custom(pass(results, number)),
         Some(FrameWork::Dispatch { .. } | FrameWork::Draw { .. } | FrameWork::Forward { .. }) => {
-            Work::Dispatch(pass(parts, number))
+            Work::Dispatch(pass(results, number))
         }
     }
 }
@@ -40,33 +40,33 @@ pub(super) fn single(parts: &StageResults<'_>, number: u32) -> Work {
 /// The side of a transfer without sides: validation refuses these.
 const NOTHING: Side = Side::Buffer { buffer: BufferId(0), bytes: 0 };
 
-fn name(parts: &StageResults<'_>, op: &Op) -> Option<Arc<str>> {
-    op.kind.pass().map(|pass| parts.frame.passes[pass as usize].name.clone())
+fn name(results: &StageResults<'_>, op: &Op) -> Option<Arc<str>> {
+    op.kind.pass().map(|pass| results.frame.passes[pass as usize].name.clone())
 }
 
-fn transfer(parts: &StageResults<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
-    let [source, target] = sides(parts, number);
-    Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
+fn transfer(results: &StageResults<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
+    let [source, target] = sides(results, number);
+    Transfer { name: name(results, op), cause: cause(results, op), source, target, filter }
 }
 
 /// The target of a fill.
-pub(super) fn filled(parts: &StageResults<'_>, number: u32) -> Side {
-    parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used))
+pub(super) fn filled(results: &StageResults<'_>, number: u32) -> Side {
+    results.adapted.uses(number).first().map_or(NOTHING, |used| side(results, used))
 }
 
 /// Source and target of a transfer.
-pub(super) fn sides(parts: &StageResults<'_>, number: u32) -> [Side; 2] {
-    let uses = parts.adapted.uses(number);
-    let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(parts, used)));
+pub(super) fn sides(results: &StageResults<'_>, number: u32) -> [Side; 2] {
+    let uses = results.adapted.uses(number);
+    let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(results, used)));
     // Beside an image only the bytes of its texels count; between buffers those of the source.
     if let Side::Image { range, extent, .. } = source
         && let Side::Buffer { bytes, .. } = &mut target
     {
-        *bytes = texel_bytes(parts, &uses[0], range.layers, extent);
+        *bytes = texel_bytes(results, &uses[0], range.layers, extent);
     } else if let Side::Image { range, extent, .. } = target
         && let Side::Buffer { bytes, .. } = &mut source
     {
-        *bytes = texel_bytes(parts, &uses[1], range.layers, extent);
+        *bytes = texel_bytes(results, &uses[1], range.layers, extent);
     } else if let (Side::Buffer { bytes: some, .. }, Side::Buffer { bytes: others, .. }) = (source, &mut target) {
         *others = some;
     }
@@ -74,17 +74,17 @@ pub(super) fn sides(parts: &StageResults<'_>, number: u32) -> [Side; 2] {
 }
 
 /// Bytes of the texels that a transfer moves from or to the image that is used here.
-fn texel_bytes(parts: &StageResults<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
-    let image = parts.adapted.resources[used.resource as usize].image();
-    let bytes = image.and_then(|image| image.format.plane_bytes(parts.adapted.range(used).aspects)).unwrap_or(0);
+fn texel_bytes(results: &StageResults<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
+    let image = results.adapted.resources[used.resource as usize].image();
+    let bytes = image.and_then(|image| image.format.plane_bytes(results.adapted.range(used).aspects)).unwrap_or(0);
     extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
 }
 
-fn side(parts: &StageResults<'_>, used: &Use) -> Side {
-    let resource = &parts.adapted.resources[used.resource as usize];
+fn side(results: &StageResults<'_>, used: &Use) -> Side {
+    let resource = &results.adapted.resources[used.resource as usize];
     match &resource.kind {
         Kind::Image(image) => {
-            let range = parts.adapted.range(used);
+            let range = results.adapted.range(used);
             let (image, extent) = (ImageId(resource.id), image.extent_at(range.base_mip));
             Side::Image { image, range, extent, layout: used.layout }
         }
@@ -93,26 +93,26 @@ fn side(parts: &StageResults<'_>, used: &Use) -> Side {
 }
 
 /// A pass of the Plan.
-pub(super) fn pass(parts: &StageResults<'_>, number: u32) -> Pass {
-    let op = &parts.adapted.ops[number as usize];
-    let uses = parts.adapted.uses(number);
-    let nothing = || Arc::clone(&parts.nothing);
+pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
+    let op = &results.adapted.ops[number as usize];
+    let uses = results.adapted.uses(number);
+    let nothing = || Arc::clone(&results.nothing);
     if let OpKind::ResolveDraw { by, name, view, .. } = &op.kind {
-        return resolve_draw(parts, number, *by, name, *view);
+        return resolve_draw(results, number, *by, name, *view);
     }
-    let Some(declared) = op.kind.pass().map(|pass| &parts.frame.passes[pass as usize]) else {
-        return bare(nothing(), cause(parts, op), None, None, nothing());
+    let Some(declared) = op.kind.pass().map(|pass| &results.frame.passes[pass as usize]) else {
+        return bare(nothing(), cause(results, op), None, None, nothing());
     };
     if let OpKind::DepthOnly { name, .. } = &op.kind {
-        return depth_only(parts, number, declared, name);
+        return depth_only(results, number, declared, name);
     }
-    let (name, cause) = (declared.name.clone(), cause(parts, op));
+    let (name, cause) = (declared.name.clone(), cause(results, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
         return Pass {
             blend: vec![Blend::Replace],
-            accesses: from_source(parts, uses, filter),
-            merged: parts.scoped.merged(parts.frame, parts.adapted, number),
-            view: view(parts, declared.view),
+            accesses: from_source(results, uses, filter),
+            merged: results.scoped.merged(results.frame, results.adapted, number),
+            view: view(results, declared.view),
             ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
         };
     }
@@ -125,20 +125,20 @@ pub(super) fn pass(parts: &StageResults<'_>, number: u32) -> Pass {
         }
     };
     let mut planned = bare(name, cause, draw, groups, shader);
-    planned.view = view(parts, declared.view);
+    planned.view = view(results, declared.view);
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
-        if parts.subjects[used.resource as usize].is_image {
+        if results.subjects[used.resource as usize].is_image {
             let eye = if used.role == Role::Sampled { declared.sampled[used.entry as usize].eye } else { None };
-            planned.accesses.push(Access { eye, ..access(parts, used, binding(parts, used, declared)) });
+            planned.accesses.push(Access { eye, ..access(results, used, binding(results, used, declared)) });
         } else {
-            planned.buffers.push(buffer_access(parts, used, declared));
+            planned.buffers.push(buffer_access(results, used, declared));
         }
     }
     if matches!(declared.work, FrameWork::Draw { .. }) {
         drawn(&mut planned, declared, uses);
-        planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(parts.adapted, uses);
-        planned.merged = parts.scoped.merged(parts.frame, parts.adapted, number);
+        planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
+        planned.merged = results.scoped.merged(results.frame, results.adapted, number);
     }
     if !declared.params.is_empty() {
         let params = declared.params.iter();
@@ -148,40 +148,40 @@ pub(super) fn pass(parts: &StageResults<'_>, number: u32) -> Pass {
 }
 
 /// The view that a pass is for, if the frame has any.
-fn view(parts: &StageResults<'_>, view: ViewIndex) -> Option<ViewId> {
-    (!parts.frame.views.is_empty()).then_some(ViewId(view.0))
+fn view(results: &StageResults<'_>, view: ViewIndex) -> Option<ViewId> {
+    (!results.frame.views.is_empty()).then_some(ViewId(view.0))
 }
 
 /// The accesses of an inserted full-screen draw that samples one image.
-fn from_source(parts: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
+fn from_source(results: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
     let kind = BindingKind::Sampled(Sampler::new(filter));
     let binding = || Binding { name: COPY_SOURCE.into(), kind, texture: None };
-    uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding))).collect()
+    uses.iter().map(|used| access(results, used, (used.role == Role::Sampled).then(binding))).collect()
 }
 
 /// A draw of the frame again, of nothing but its depth.
-fn depth_only(parts: &StageResults<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
-    let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
+fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
+    let (op, uses) = (&results.adapted.ops[number as usize], results.adapted.uses(number));
     let (draw, shader) = match &declared.work {
         FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
-        _ => (None, Arc::clone(&parts.nothing)),
+        _ => (None, Arc::clone(&results.nothing)),
     };
-    let mut planned = bare(name.clone(), cause(parts, op), draw, None, shader);
+    let mut planned = bare(name.clone(), cause(results, op), draw, None, shader);
     drawn(&mut planned, declared, uses);
     Pass {
         redraws: Some(declared.name.clone()),
-        view: view(parts, declared.view),
+        view: view(results, declared.view),
         blend: Vec::new(),
         params: declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect(),
-        accesses: uses.iter().map(|used| access(parts, used, None)).collect(),
-        merged: parts.scoped.merged(parts.frame, parts.adapted, number),
+        accesses: uses.iter().map(|used| access(results, used, None)).collect(),
+        merged: results.scoped.merged(results.frame, results.adapted, number),
         ..planned
     }
 }
 
 /// A full-screen draw that resolves depth or colour.
-fn resolve_draw(parts: &StageResults<'_>, number: u32, by: ResolveShader, name: &Arc<str>, of: ViewIndex) -> Pass {
-    let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
+fn resolve_draw(results: &StageResults<'_>, number: u32, by: ResolveShader, name: &Arc<str>, of: ViewIndex) -> Pass {
+    let (op, uses) = (&results.adapted.ops[number as usize], results.adapted.uses(number));
     let shader = match by {
         ResolveShader::Depth(ResolveMode::SampleZero) => "shipped:depth_resolve_zero",
         ResolveShader::Depth(ResolveMode::Min) => "shipped:depth_resolve_min",
@@ -190,10 +190,10 @@ fn resolve_draw(parts: &StageResults<'_>, number: u32, by: ResolveShader, name: 
         ResolveShader::Weighted => "shipped:resolve_weighted",
     };
     let pass = Pass {
-        accesses: from_source(parts, uses, Filter::Nearest),
-        merged: parts.scoped.merged(parts.frame, parts.adapted, number),
-        view: view(parts, of),
-        ..bare(name.clone(), cause(parts, op), Some(Draw::FullScreen), None, shader.into())
+        accesses: from_source(results, uses, Filter::Nearest),
+        merged: results.scoped.merged(results.frame, results.adapted, number),
+        view: view(results, of),
+        ..bare(name.clone(), cause(results, op), Some(Draw::FullScreen), None, shader.into())
     };
     match by {
         ResolveShader::Depth(_) => Pass { depth: Some(DepthState { test: CompareOp::Always, write: true }), ..pass },
@@ -246,13 +246,13 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
     }
 }
 
-fn binding(parts: &StageResults<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
+fn binding(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
     let entry = used.entry as usize;
     let bound = |name: &Arc<str>, kind| Some(Binding { name: name.clone(), kind, texture: None });
     match used.role {
         Role::Sampled => {
             let sampled = &declared.sampled[entry];
-            let texture = sampled.texture.map(|texture| adapted(parts, used, texture));
+            let texture = sampled.texture.map(|texture| adapted(results, used, texture));
             Some(Binding { texture, ..bound(&sampled.binding, BindingKind::Sampled(sampled.sampler))? })
         }
         Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment),
@@ -262,23 +262,23 @@ fn binding(parts: &StageResults<'_>, used: &Use, declared: &FramePass) -> Option
 }
 
 /// The texture that an adapting shader declares: multisampled only if the image has several samples.
-fn adapted(parts: &StageResults<'_>, used: &Use, texture: ImageShape) -> ImageShape {
-    let samples = parts.adapted.resources[used.resource as usize].image().map_or(1, |image| image.samples);
+fn adapted(results: &StageResults<'_>, used: &Use, texture: ImageShape) -> ImageShape {
+    let samples = results.adapted.resources[used.resource as usize].image().map_or(1, |image| image.samples);
     ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }
 }
 
 /// One access of a pass; load, store and resolve operations are the scope's.
-fn access(parts: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
-    let subject = &parts.subjects[used.resource as usize];
-    let range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
+fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
+    let subject = &results.subjects[used.resource as usize];
+    let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     let image = ImageId(subject.id);
     Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }
 
-fn buffer_access(parts: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
+fn buffer_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
     let named = declared.buffers.get(used.entry as usize).filter(|_| used.role == Role::Buffer);
     BufferAccess {
-        buffer: BufferId(parts.adapted.resources[used.resource as usize].id),
+        buffer: BufferId(results.adapted.resources[used.resource as usize].id),
         role: named.map(|named| named.role),
         stages: used.stages,
         accesses: used.accesses,

@@ -11,40 +11,40 @@ use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 
 /// The Plan, with the images and buffers that `resources` made.
-pub(in crate::compile) fn emit(parts: &StageResults<'_>, (images, buffers): Resources) -> Plan {
-    let steps = steps(parts);
+pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Resources) -> Plan {
+    let steps = steps(results);
     Plan {
         format_version: FORMAT_VERSION,
-        device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
-        settings: settings(parts),
-        changes: changes(parts),
-        stereo: parts.frame.stereo,
-        views: views(parts),
+        device: DeviceUsed { name: results.device.name.clone(), exact_memory: results.exact_memory },
+        settings: settings(results),
+        changes: changes(results),
+        stereo: results.frame.stereo,
+        views: views(results),
         images,
         buffers,
-        outputs: outputs::outputs(parts),
-        heaps: parts.placed.heaps.clone(),
-        totals: with_bytes(parts, Totals::count(&steps)),
+        outputs: outputs::outputs(results),
+        heaps: results.placed.heaps.clone(),
+        totals: with_bytes(results, Totals::count(&steps)),
         steps,
-        notes: notes::notes(parts),
+        notes: notes::notes(results),
     }
 }
 
-fn steps(parts: &StageResults<'_>) -> Vec<Step> {
-    let Barriers { queues, steps: count, .. } = parts.sync;
-    let mut barriers = StepBarriers::new(parts);
+fn steps(results: &StageResults<'_>) -> Vec<Step> {
+    let Barriers { queues, steps: count, .. } = results.sync;
+    let mut barriers = StepBarriers::new(results);
     let step = |number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
-        let work = match parts.scoped.steps.get(number as usize) {
-            Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
-            Some(Grouped::Single(op)) => passes::single(parts, *op),
+        let work = match results.scoped.steps.get(number as usize) {
+            Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(results, scope, number))),
+            Some(Grouped::Single(op)) => passes::single(results, *op),
             Some(Grouped::BarriersOnly) | None => Work::Export,
         };
         let (queue, waits, releases) = (queues.queue(number), queues.waits(number), Vec::new());
         Step { queue, waits, memory_barriers, image_barriers, work, releases }
     };
     let mut steps: Vec<Step> = (0..*count).map(step).collect();
-    for Transfer { from, release, to, acquire } in ownership::transfers(parts) {
+    for Transfer { from, release, to, acquire } in ownership::transfers(results) {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);
     }

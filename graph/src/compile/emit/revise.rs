@@ -10,23 +10,23 @@ use crate::frame::Work as FrameWork;
 use crate::plan::{Param, Pass, Plan, Role, Totals, Work};
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
-pub(in crate::compile) fn values(parts: &StageResults<'_>, plan: &mut Plan) {
-    plan.settings = settings(parts);
-    plan.views = views(parts);
-    for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
+pub(in crate::compile) fn values(results: &StageResults<'_>, plan: &mut Plan) {
+    plan.settings = settings(results);
+    plan.views = views(results);
+    for ((step, grouped), number) in plan.steps.iter_mut().zip(&results.scoped.steps).zip(0_u32..) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
                 let attachments = planned.color.iter_mut().chain(&mut planned.depth).chain(&mut planned.stencil);
-                for (attachment, ops) in attachments.zip(parts.load_store.of(number)) {
+                for (attachment, ops) in attachments.zip(results.load_store.of(number)) {
                     attachment.clear = ops.clear;
                 }
                 for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
-                    pass_values(parts, *op, pass);
+                    pass_values(results, *op, pass);
                 }
             }
-            (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(parts, *op, pass),
+            (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(results, *op, pass),
             (Work::Fill(fill), Grouped::Single(op)) => {
-                if let Some(FrameWork::Fill { value }) = frame_work(parts, &parts.adapted.ops[*op as usize]) {
+                if let Some(FrameWork::Fill { value }) = frame_work(results, &results.adapted.ops[*op as usize]) {
                     fill.value = *value;
                 }
             }
@@ -35,10 +35,10 @@ pub(in crate::compile) fn values(parts: &StageResults<'_>, plan: &mut Plan) {
     }
 }
 
-fn pass_values(parts: &StageResults<'_>, op: u32, planned: &mut Pass) {
-    let kind = &parts.adapted.ops[op as usize].kind;
+fn pass_values(results: &StageResults<'_>, op: u32, planned: &mut Pass) {
+    let kind = &results.adapted.ops[op as usize].kind;
     let (OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::DepthOnly { pass, .. }) = kind else { return };
-    let declared = &parts.frame.passes[*pass as usize];
+    let declared = &results.frame.passes[*pass as usize];
     if let FrameWork::Dispatch { groups, .. } = &declared.work {
         planned.groups = Some(*groups);
     }
@@ -53,14 +53,14 @@ fn pass_values(parts: &StageResults<'_>, op: u32, planned: &mut Pass) {
 }
 
 /// Brings sizes and values up to date. Steps and barriers are the same.
-pub(in crate::compile) fn sizes(parts: &StageResults<'_>, plan: &mut Plan) {
-    values(parts, plan);
+pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
+    values(results, plan);
     let Plan { images, buffers, .. } = plan;
-    for ((resource, placement), index) in parts.adapted.resources.iter().zip(&parts.placed.placements).zip(0..) {
+    for ((resource, placement), index) in results.adapted.resources.iter().zip(&results.placed.placements).zip(0..) {
         let role = match &resource.kind {
             Kind::Image(image) => {
                 let planned = &mut images[resource.id as usize];
-                (planned.extent, planned.allocated) = (image.extent, parts.adapted.allocated(index));
+                (planned.extent, planned.allocated) = (image.extent, results.adapted.allocated(index));
                 &mut planned.role
             }
             Kind::Buffer(buffer) => {
@@ -73,34 +73,34 @@ pub(in crate::compile) fn sizes(parts: &StageResults<'_>, plan: &mut Plan) {
             planned.clone_from(placement);
         }
     }
-    for (resource, more_bytes) in &parts.placed.chosen {
-        let image = images.get_mut(parts.adapted.resources[*resource as usize].id as usize);
+    for (resource, more_bytes) in &results.placed.chosen {
+        let image = images.get_mut(results.adapted.resources[*resource as usize].id as usize);
         if let Some(chosen) = image.and_then(|image| image.chosen.as_mut()) {
             chosen.more_bytes = *more_bytes;
         }
     }
-    plan.heaps.clone_from(&parts.placed.heaps);
-    for (step, grouped) in plan.steps.iter_mut().zip(&parts.scoped.steps) {
+    plan.heaps.clone_from(&results.placed.heaps);
+    for (step, grouped) in plan.steps.iter_mut().zip(&results.scoped.steps) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
-                (planned.extent, ..) = attachments::shape(parts, scope);
+                (planned.extent, ..) = attachments::shape(results, scope);
                 for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
-                    pass.merged = parts.scoped.merged(parts.frame, parts.adapted, *op);
+                    pass.merged = results.scoped.merged(results.frame, results.adapted, *op);
                 }
             }
             (Work::Copy(transfer) | Work::Blit(transfer) | Work::Resolve(transfer), Grouped::Single(op)) => {
-                [transfer.source, transfer.target] = passes::sides(parts, *op);
+                [transfer.source, transfer.target] = passes::sides(results, *op);
             }
-            (Work::Fill(fill), Grouped::Single(op)) => fill.target = passes::filled(parts, *op),
+            (Work::Fill(fill), Grouped::Single(op)) => fill.target = passes::filled(results, *op),
             _ => {}
         }
     }
-    plan.totals = with_bytes(parts, plan.totals);
+    plan.totals = with_bytes(results, plan.totals);
 }
 
 /// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
-pub(in crate::compile) fn barriers(parts: &StageResults<'_>, plan: &mut Plan) {
-    let mut barriers = StepBarriers::new(parts);
+pub(in crate::compile) fn barriers(results: &StageResults<'_>, plan: &mut Plan) {
+    let mut barriers = StepBarriers::new(results);
     for (step, number) in plan.steps.iter_mut().zip(0..) {
         (step.memory_barriers, step.image_barriers) = barriers.of(number);
     }

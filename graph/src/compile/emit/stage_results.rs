@@ -93,8 +93,8 @@ pub(super) fn resource_id(resource: &PhysicalResource) -> Resource {
 }
 
 /// Why an operation is in the Plan.
-pub(super) fn cause(parts: &StageResults<'_>, op: &Op) -> Cause {
-    let place = |pass: u32| -> Option<Place> { parts.frame.sources.place(parts.frame.passes[pass as usize].span) };
+pub(super) fn cause(results: &StageResults<'_>, op: &Op) -> Cause {
+    let place = |pass: u32| -> Option<Place> { results.frame.sources.place(results.frame.passes[pass as usize].span) };
     match op.kind.inserted() {
         Some(why) => Cause::Inserted(Box::new(why.clone())),
         None => Cause::Written(op.kind.pass().and_then(place)),
@@ -102,6 +102,6 @@ pub(super) fn cause(parts: &StageResults<'_>, op: &Op) -> Cause {
 }
 
 /// The work of the pass that an operation is or stands in for.
-pub(super) fn frame_work<'f>(parts: &StageResults<'f>, op: &Op) -> Option<&'f Work> {
-    op.kind.pass().map(|pass| &parts.frame.passes[pass as usize].work)
+pub(super) fn frame_work<'f>(results: &StageResults<'f>, op: &Op) -> Option<&'f Work> {
+    op.kind.pass().map(|pass| &results.frame.passes[pass as usize].work)
 }

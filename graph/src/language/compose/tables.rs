@@ -72,7 +72,7 @@ pub(crate) const PIPELINE: Table = Table {
     name: "PipelineFields",
     word: Some("Pipeline"),
     about: &[
-        " A pipeline: what a frame is made of.",
+        " A pipeline: the images, buffers and passes of a frame.",
         " ```ron",
         " Pipeline(",
         "     version: 1,",
@@ -86,10 +86,10 @@ pub(crate) const PIPELINE: Table = Table {
         VERSION_ROW,
         EXTENSIONS.optional(&["Files of extensions, which are applied in their order."]),
         INCLUDE.optional(&["Files with fragments, each read once however often it is named."]),
-        SETTINGS.optional(&["What a user may choose."]),
+        SETTINGS.optional(&["Values that a user may choose."]),
         PRESETS.optional(&["Values of several settings under one name."]),
-        VIEWS.optional(&["What the frame shows, from where and how large, the main view first; one view of the frame's size if left out."]),
-        FRAGMENTS.optional(&["What is written once and used often."]),
+        VIEWS.optional(&["The pictures that the frame shows: from where, and how large. The main view comes first. One view of the frame's size if left out."]),
+        FRAGMENTS.optional(&["Groups of images, buffers and passes that are written once and used often."]),
         TEXTURES.optional(&["Images that come from files."]),
         IMAGES.needed(&["Images that passes make."]),
         BUFFERS.optional(&["The buffers."]),
@@ -99,12 +99,12 @@ pub(crate) const PIPELINE: Table = Table {
             "How several samples of depth become one value where a pass samples it, of images that don't say it; `Exact` if left",
             "out.",
         ]),
-        COLOR.optional(&["What images of the format `Color` become that passes of the frame alone draw and sample; `Balanced` if left out."]),
+        COLOR.optional(&["The precision of images of the format `Color` that only passes of the frame draw and sample; `Balanced` if left out."]),
         DEPTH_FORMAT.optional(&[
-            "What images of the formats `Depth` and `DepthStencil` become that passes of the frame alone draw and sample; `Exact`",
+            "The precision of images of the formats `Depth` and `DepthStencil` that only passes of the frame draw and sample; `Exact`",
             "if left out.",
         ]),
-        CHANGES.optional(&["What is changed of all that, after the extensions."]),
+        CHANGES.optional(&["Changes to all of that, which come after the extensions."]),
     ],
 };
 
@@ -113,7 +113,7 @@ pub(crate) const EXTENDING: Table = Table {
     name: "ExtendingFields",
     word: Some("Pipeline"),
     about: &[
-        " A pipeline that extends another: it begins with what that says.",
+        " A pipeline that extends another: it begins with that one's entries.",
         " ",
         " ```ron",
         " Pipeline(version: 1, extends: \"forward.ron\", changes: [Remove(pass: \"transparent\")])",
@@ -131,7 +131,7 @@ pub(crate) const EXTENDING: Table = Table {
             OUTPUTS.optional(&["Outputs in place of those that there are."]),
         ],
         &REPLACED,
-        &[CHANGES.optional(&["What is changed of all that."])],
+        &[CHANGES.optional(&["Changes to all of that."])],
     ]),
 };
 
@@ -140,7 +140,7 @@ pub(crate) const EXTENSION: Table = Table {
     name: "ExtensionFields",
     word: Some("Extension"),
     about: &[
-        " An extension: what may be added to pipelines.",
+        " An extension: entries and changes that a pipeline may take.",
         " ",
         " ```ron",
         " Extension(version: 1, about: \"without glass\", changes: [Remove(pass: \"transparent\")])",
@@ -150,7 +150,7 @@ pub(crate) const EXTENSION: Table = Table {
         &[VERSION_ROW, ABOUT.optional(&["A description for people."])],
         &ADDED,
         &REPLACED,
-        &[CHANGES.optional(&["What is changed."])],
+        &[CHANGES.optional(&["Changes to the pipeline."])],
     ]),
 };
 
@@ -168,9 +168,9 @@ const ADDED: [Row; 8] = [
 
 /// Values that replace those of another file.
 const REPLACED: [Row; 3] = [
-    DEPTH.optional(&["How several samples of depth become one value, in place of what there is."]),
-    COLOR.optional(&["What `Color` becomes, in place of what there is."]),
-    DEPTH_FORMAT.optional(&["What `Depth` and `DepthStencil` become, in place of what there is."]),
+    DEPTH.optional(&["The way in which several samples of depth become one value, in place of the earlier one."]),
+    COLOR.optional(&["The precision of `Color`, in place of the earlier one."]),
+    DEPTH_FORMAT.optional(&["The precision of `Depth` and `DepthStencil`, in place of the earlier one."]),
 ];
 
 /// The values of the fields of a file.

@@ -26,7 +26,7 @@ static DRAWS: Words = Words {
             "Casters",
             &[Takes::Fields(casters::fields)],
             &[casters::FORM],
-            "What casts the sun's shadow, as the sun sees it: depth for a shadow map.",
+            "Objects that cast the sun's shadow, as the sun sees them: depth for a shadow map.",
         ),
         Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
         Word::new(

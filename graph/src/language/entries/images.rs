@@ -81,7 +81,7 @@ static FORMATS: Words = Words {
             "DepthStencil",
             "Depth and stencil: `D32_SFLOAT_S8_UINT`, unless the pipeline's `depth_format` says otherwise.",
         ),
-        Word::alone("Output", "What leaves the frame: `R8G8B8A8_SRGB`."),
+        Word::alone("Output", "The format of a picture that leaves the frame: `R8G8B8A8_SRGB`."),
         Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
     ],
 };

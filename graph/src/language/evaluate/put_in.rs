@@ -4,6 +4,7 @@ use super::evaluation::{Evaluation, Level, Purpose};
 use crate::base::{Diagnostic, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
+use crate::language::compose::origins::USED_HERE;
 use crate::language::entries::stand_ins::{self, Of};
 use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
@@ -147,11 +148,11 @@ impl Evaluation<'_> {
         let new: Vec<Diagnostic> = reader.errors.drain(start..).collect();
         for error in new {
             let known = error.labels.first().map(|label| (label.span, error.message.clone()));
-            let nested = error.labels.iter().filter(|label| label.text.starts_with("used here as ")).count();
+            let nested = error.labels.iter().filter(|label| label.text.starts_with(USED_HERE)).count();
             if nested >= MOST_SHOWN && !self.path.is_empty() {
                 reader.report(error);
             } else if nested > 0 || known.is_none_or(|known| self.reported.insert(known)) {
-                reader.report(error.label(name.span, format!("used here as `{}`", name.text)));
+                reader.report(error.label(name.span, format!("{USED_HERE}`{}`", name.text)));
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Values of fields: known when the file is read, or found at each lowering from settings, parameters, images and
+//! Values of fields: constant, or found at each lowering from settings, parameters, images and
 //! surroundings.
 
 use super::evaluator::{Evaluator, within_view};
@@ -46,7 +46,7 @@ impl<T: Kept> FieldValue<T> {
         combined(self, make)
     }
 
-    /// A value that is computed from this one, or a mistake. The mistake is reported to `reader` if the value is known; else
+    /// A value that is computed from this one, or a mistake. The mistake is reported to `reader` if the value is constant; else
     /// it is a fault at each lowering, see [`Evaluator::fault`]. The second argument is the view of the entry, unless it is
     /// the main one.
     pub(crate) fn checked<U: Kept>(
@@ -127,7 +127,7 @@ pub(crate) trait FieldValueTuple: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
-    /// All values; without an evaluator only if all are known. Each is evaluated, so that all mistakes are told.
+    /// All values; without an evaluator only if all are constant. Each is evaluated, so that all mistakes are told.
     fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values>;
 
     /// All values.

@@ -2,9 +2,9 @@
 
 use super::Maker;
 use crate::random_pipelines::allowed::{Allowed, Kind};
-use crate::random_pipelines::legal::size;
 use crate::random_pipelines::pipeline::{Buffer, Contents, Image, Life, SAMPLES};
 use crate::random_pipelines::rng::Rng;
+use crate::random_pipelines::valid::size;
 use framewright_graph::vulkan::Format::{
     D32_SFLOAT, D32_SFLOAT_S8_UINT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
     R32G32B32A32_UINT,

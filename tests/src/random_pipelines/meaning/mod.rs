@@ -10,9 +10,9 @@ mod state;
 pub use state::{Filled, State, Texel, Word, imported_buffer, imported_image};
 
 use super::hash::hash;
-use super::legal::size;
 use super::pipeline::{Compute, Groups, Part, Pass, Pipeline, Region, Store, StoreAccess, WORKGROUP, Work};
 use super::texels;
+use super::valid::size;
 use std::sync::Arc;
 
 /// The state after the passes of one more frame; `frame` counts from 0.

@@ -2,9 +2,9 @@
 
 use super::Evaluator;
 use crate::random_pipelines::hash::{hash, hash_all, hashes};
-use crate::random_pipelines::legal::size;
 use crate::random_pipelines::pipeline::{Extent, Part, Read, SAMPLES};
 use crate::random_pipelines::texels::{self, Words};
+use crate::random_pipelines::valid::size;
 use framewright_graph::frame::Blend;
 use framewright_graph::vulkan::Format;
 

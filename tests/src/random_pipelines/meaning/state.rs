@@ -84,7 +84,7 @@ pub struct State {
     pub buffers: Vec<Vec<Arc<Vec<Word>>>>,
 }
 
-/// The value of parts that are not written yet: legal pipelines never read it.
+/// The value of parts that are not written yet: valid pipelines never read it.
 const JUNK: u32 = 0xDEAD_BEEF;
 
 impl State {

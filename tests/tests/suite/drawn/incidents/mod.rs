@@ -25,7 +25,7 @@ use framewright_tests::happens_before::judge;
 fn right(frame: &Frame, options: &Options) -> Plan {
     let device = device();
     let plan = compile(frame, &device, &mut Estimated(&device), options)
-        .unwrap_or_else(|wrong| panic!("the frame is legal: {wrong:?}"));
+        .unwrap_or_else(|wrong| panic!("the frame is valid: {wrong:?}"));
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     assert_eq!(judge(&plan).harms, [], "{}", plan.tree());
     plan

@@ -25,7 +25,7 @@ fn order(plan: &Plan) -> Vec<String> {
 }
 
 /// A table of priorities was wrong for a long time, unseen. Golden Plans show the order of every shipped pipeline; this
-/// shows that each order is legal and the same every time.
+/// shows that each order is valid and the same every time.
 #[test]
 fn godot_119204_orders_are_the_same_every_time() {
     for order_of in [Order::File, Order::Default, Order::LowMemory, Order::Random(7)] {
@@ -40,14 +40,14 @@ fn godot_119204_orders_are_the_same_every_time() {
 /// order that the data allows is taken by some seed, no other one is, and all of them make the same picture.
 #[test]
 fn vk_graph_94_passes_are_ordered_by_their_data_and_by_nothing_else() {
-    let legal: BTreeSet<Vec<String>> = orders(&diamond(), 100)
+    let valid: BTreeSet<Vec<String>> = orders(&diamond(), 100)
         .expect("a diamond has few orders")
         .into_iter()
         .map(|order| order.into_iter().map(|pass| diamond().passes[pass].name.to_string()).collect())
         .collect();
     let made = |seed| right(&diamond(), &Options { order: Order::Random(seed), ..Options::default() });
     let taken: BTreeSet<Vec<String>> = (0..400).map(|seed| order(&made(seed))).collect();
-    assert_eq!(taken, legal);
+    assert_eq!(taken, valid);
     let outcomes: BTreeSet<_> = (0..20).map(|seed| judge(&made(seed)).outcome).collect();
     assert_eq!(outcomes.len(), 1);
 }
@@ -88,7 +88,7 @@ fn filament_10320_a_graph_of_ten_thousand_passes_compiles() {
     }
     let device = device();
     let frame = builder.outputs(&[images[images.len() - 1]]);
-    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is valid");
     assert_eq!(plan.totals.passes, 10_000);
     // Two images are alive at a time.
     assert_eq!(plan.totals.placed_bytes, plan.totals.live_peak_bytes);

@@ -27,7 +27,7 @@ pub struct Written {
 
 /// Whether a pipeline may be so: every pass may stand where it stands, and what leaves the frame has contents.
 #[must_use]
-pub fn is_legal(pipeline: &Pipeline) -> bool {
+pub fn is_valid(pipeline: &Pipeline) -> bool {
     let mut written = Written::new(pipeline);
     let sound = |image: &Image| {
         let levels = image.extent.iter().max().map_or(0, |side| u32::BITS - side.leading_zeros());
@@ -118,8 +118,8 @@ impl Written {
 
     /// Takes note of a pass, if it may stand here; else returns false and notes nothing.
     pub fn take(&mut self, pipeline: &Pipeline, pass: &Pass) -> bool {
-        let legal = self.is_legal(pipeline, pass);
-        let greatest = if legal { self.greatest_after(pipeline, pass) } else { None };
+        let valid = self.is_valid(pipeline, pass);
+        let greatest = if valid { self.greatest_after(pipeline, pass) } else { None };
         let Some(greatest) = greatest else { return false };
         self.greatest = greatest;
         self.note_depth(pass);
@@ -159,7 +159,7 @@ impl Written {
             || part.plane != Plane::Stencil && (image.resolve.is_some() || self.redrawable[part.image])
     }
 
-    fn is_legal(&self, pipeline: &Pipeline, pass: &Pass) -> bool {
+    fn is_valid(&self, pipeline: &Pipeline, pass: &Pass) -> bool {
         let accesses = accesses(pass);
         let exists = accesses.iter().all(|access| fits::part_fits(pipeline, access.part));
         let apart = accesses.iter().enumerate().all(|(at, one)| {
