@@ -91,7 +91,7 @@ fn every_shipped_pipeline_shows_the_same_rotated() -> Result<(), Box<dyn Error>>
     // In three frames what is kept from frame to frame shows.
     let cases = shipped.iter().map(|name| (&**name, &[][..], 3, 0)).chain(CASES);
     let cases = cases.flat_map(|case| [EVEN, EXTENT].map(|extent| (case, extent)));
-    for (case, extent) in sweep::of("rotated pictures", cases.collect(), 8) {
+    for (case, extent) in sweep::of("rotated pictures", cases.collect(), 5) {
         let (upright, expected) = shown(device, case, extent, Rotation::Identity)?;
         assert!(
             expected.bytes.chunks(4).collect::<std::collections::BTreeSet<_>>().len() > 100,

@@ -109,7 +109,7 @@ fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<
     let even = even.filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0 || case.4 == BY_PLACE);
     let even = even.map(|(_, case)| (*case, EVEN, if case.4 == BY_PLACE { 6 } else { case.4 }));
     let cases = CASES.iter().map(|case| (*case, EXTENT, case.4)).chain(even);
-    agree(device, sweep::of("each eye alone", cases.collect(), 8), 0)
+    agree(device, sweep::of("each eye alone", cases.collect(), 4), 0)
 }
 
 /// ST-14: of pictures with 39 times as many pixels, by the settings that differ most. docs/stereo.md has the numbers of all.
