@@ -148,7 +148,7 @@ pub(crate) enum Error {
     )]
     NoName { path: PathBuf },
     /// The cache can't be read or cleared.
-    #[error("the cache `{}` can't be {done}: {}", text::path(folder), text::escape(&source.to_string()))]
+    #[error("the cache `{}` can't be {done}: {}\nhelp: remove that folder, or name another one by the variable XDG_CACHE_HOME", text::path(folder), text::escape(&source.to_string()))]
     Cache { folder: PathBuf, done: &'static str, source: io::Error },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]

@@ -1,12 +1,12 @@
 //! The cache: a folder of files that can be made anew. Each is written whole or not at all.
 
-use std::io::Write;
+use std::ffi::OsStr;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 use std::{env, fs, io};
-use tempfile::NamedTempFile;
 
-/// A folder of files that can be made anew: compiled shaders, findings about drivers, a manifest of the validation layer.
+/// A folder of files that can be made anew: compiled shaders, and findings about drivers.
 ///
 /// Any number of processes may use it at once, and programs of several versions. A file that is damaged, or that another
 /// version wrote, counts as none. Where the folder can't be written, nothing is kept.
@@ -27,16 +27,20 @@ pub struct CachedFiles {
 }
 
 /// The kinds of files, by the names of their folders. The cache's folder may hold others, which aren't touched.
-const KINDS: [&str; 3] = [SPIRV, SELF_TESTS, LAYER];
+const KINDS: [&str; 2] = [SPIRV, SELF_TESTS];
 const SPIRV: &str = "spirv";
 const SELF_TESTS: &str = "self-tests";
-const LAYER: &str = "vulkan-layer";
+
+/// Beginning of the names of files that are being written.
+const UNFINISHED: &str = ".tmp";
 
 impl Cache {
     /// The cache of the user: `$XDG_CACHE_HOME/framewright`, or `~/.cache/framewright`. `None` if the user has no home folder.
+    /// Relative paths don't count.
     #[must_use]
     pub fn of_user() -> Option<Cache> {
-        let cache = path_variable("XDG_CACHE_HOME").or_else(|| path_variable("HOME").map(|home| home.join(".cache")));
+        let absolute = |variable| path_variable(variable).filter(|path| path.is_absolute());
+        let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
         cache.map(|cache| Cache::in_folder(cache.join("framewright")))
     }
 
@@ -60,19 +64,25 @@ impl Cache {
         let counted = |kind: &'static str| {
             let (mut files, mut bytes) = (0, 0);
             for (_, entry) in files_in(&self.folder.join(kind))? {
-                (files, bytes) = (files + 1, bytes + entry.len());
+                (files, bytes) = (files + 1, u64::saturating_add(bytes, entry.len()));
             }
             Ok(CachedFiles { kind, files, bytes })
         };
         KINDS.into_iter().map(counted).collect()
     }
 
-    /// Removes all files of these kinds.
+    /// Removes the files of each kind, and says how many it removed. Other processes may write at the same time.
     ///
     /// # Errors
-    /// If a file can't be removed.
-    pub fn clear(&self) -> io::Result<()> {
-        KINDS.into_iter().try_for_each(|kind| absent_is_fine(fs::remove_dir_all(self.folder.join(kind))).map(|_| ()))
+    /// The first file or folder that can't be listed or removed; all others are removed nonetheless.
+    pub fn clear(&self) -> io::Result<Vec<CachedFiles>> {
+        let mut first = Ok(());
+        let removed = KINDS.map(|kind| {
+            let mut removed = CachedFiles { kind, files: 0, bytes: 0 };
+            first = std::mem::replace(&mut first, Ok(())).and(clear(&self.folder.join(kind), &mut removed));
+            removed
+        });
+        first.map(|()| removed.into())
     }
 
     /// The folder of compiled shaders.
@@ -85,23 +95,89 @@ impl Cache {
         self.folder.join(SELF_TESTS)
     }
 
-    /// The folder of the validation layer's manifest.
+    /// The folder of the validation layer's manifest, which is no cached file: the loader looks for it.
     pub(crate) fn layer(&self) -> PathBuf {
-        self.folder.join(LAYER)
+        self.folder.join("vulkan-layer")
     }
 }
 
-/// The files in a folder. One that is removed meanwhile is left out; a folder that isn't there holds none.
+/// Removes the files in a folder, and counts them; then the folder, unless something else is in it.
+fn clear(folder: &Path, removed: &mut CachedFiles) -> io::Result<()> {
+    let files = match files_in(folder) {
+        Ok(files) => files,
+        // Something else has the folder's name, so that nothing is kept.
+        Err(error) => match fs::symlink_metadata(folder) {
+            Ok(other) if !other.is_dir() => vec![(folder.to_owned(), other)],
+            _ => return Err(error),
+        },
+    };
+    for (path, file) in files {
+        if absent_is_fine(fs::remove_file(path))?.is_some() {
+            (removed.files, removed.bytes) = (removed.files + 1, removed.bytes.saturating_add(file.len()));
+        }
+    }
+    // It stays if others write there meanwhile.
+    let _ = fs::remove_dir(folder);
+    Ok(())
+}
+
+/// Reads a file of the cache. `None` if it isn't a plain file of at most `most` bytes that this user alone may write: others
+/// could have put anything there.
+pub(crate) fn read_file(path: &Path, most: u64) -> Option<Vec<u8>> {
+    let mut options = fs::File::options();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        // Nobody may write to a pipe of that name, ever.
+        options.custom_flags(libc::O_NONBLOCK | libc::O_NOFOLLOW);
+    }
+    let file = options.open(path).ok()?;
+    let metadata = file.metadata().ok()?;
+    if !metadata.is_file() || metadata.len() > most || !is_own(&metadata) {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    file.take(most).read_to_end(&mut bytes).ok()?;
+    Some(bytes)
+}
+
+/// Whether a file belongs to this user, and nobody else may write it.
+fn is_own(file: &fs::Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        file.uid() == nix::unistd::geteuid().as_raw() && file.mode() & 0o022 == 0
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        true
+    }
+}
+
+/// The files in a folder that have names like ours. One that is removed meanwhile is left out; a folder that isn't there holds
+/// none.
 pub(crate) fn files_in(folder: &Path) -> io::Result<Vec<(PathBuf, fs::Metadata)>> {
     let Some(entries) = absent_is_fine(fs::read_dir(folder))? else { return Ok(Vec::new()) };
     let mut files = Vec::new();
     for entry in entries {
         let entry = entry?;
+        if !is_name_of_ours(&entry.file_name()) {
+            continue;
+        }
         if let Some(metadata) = absent_is_fine(entry.metadata())?.filter(fs::Metadata::is_file) {
             files.push((entry.path(), metadata));
         }
     }
     Ok(files)
+}
+
+/// Whether a file is called as those of the cache are: a number of 64 bits, or a file that isn't finished.
+fn is_name_of_ours(name: &OsStr) -> bool {
+    let Some(name) = name.to_str() else { return false };
+    let number = name.strip_suffix(".json").unwrap_or(name);
+    name.starts_with(UNFINISHED) || number.len() == 16 && number.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
 fn absent_is_fine<T>(result: io::Result<T>) -> io::Result<Option<T>> {
@@ -127,17 +203,69 @@ pub(crate) fn path_variable(variable: &str) -> Option<PathBuf> {
 
 /// Writes a file of a folder whole or not at all, and the folder if there is none.
 pub(crate) fn replace_file(folder: &Path, path: &Path, contents: &[u8]) -> io::Result<()> {
-    fs::create_dir_all(folder)?;
-    let mut unfinished = NamedTempFile::new_in(folder)?;
+    make_folder(folder)?;
+    let mut unfinished = tempfile::Builder::new().prefix(UNFINISHED).tempfile_in(folder)?;
     unfinished.write_all(contents)?;
     unfinished.persist(path).map_err(|error| error.error)?;
     Ok(())
+}
+
+/// Makes a folder that is this user's alone, unless there is one.
+fn make_folder(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::DirBuilderExt;
+        builder.mode(0o700);
+    }
+    builder.create(folder)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::thread;
+
+    #[cfg(unix)]
+    #[test]
+    fn only_plain_files_of_this_user_are_read_up_to_a_size() {
+        use nix::sys::stat::Mode;
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        replace_file(folder.path(), &path("plain"), b"words").expect("written");
+        assert_eq!(read_file(&path("plain"), 5).as_deref(), Some(&b"words"[..]));
+        assert_eq!(read_file(&path("plain"), 4), None);
+        nix::unistd::mkfifo(&path("pipe"), Mode::S_IRWXU).expect("a pipe");
+        symlink(path("plain"), path("link")).expect("a link");
+        symlink("/dev/zero", path("device")).expect("a link");
+        fs::create_dir(path("folder")).expect("a folder");
+        for other in ["pipe", "link", "device", "folder", "nothing"] {
+            assert_eq!(read_file(&path(other), 5), None, "{other}");
+        }
+        for mode in [0o620, 0o602] {
+            fs::set_permissions(path("plain"), fs::Permissions::from_mode(mode)).expect("set");
+            assert_eq!(read_file(&path("plain"), 5), None, "{mode:o}");
+        }
+    }
+
+    #[test]
+    fn what_others_keep_in_the_folder_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::in_folder(folder.path());
+        let file = |name: &str| cache.spirv().join(name);
+        for name in ["0123456789abcdef", ".tmpXyz", "mine", "0123456789abcdeg", "0123456789abcde"] {
+            replace_file(&cache.spirv(), &file(name), b"123").expect("written");
+        }
+        // A file in place of a folder keeps everything else from being kept.
+        replace_file(folder.path(), &cache.self_tests(), b"12345").expect("written");
+        assert!(cache.files().is_err());
+        let counts = |files: Vec<CachedFiles>| files.iter().map(|it| (it.files, it.bytes)).collect::<Vec<_>>();
+        assert_eq!(counts(cache.clear().expect("cleared")), [(2, 6), (1, 5)]);
+        assert_eq!(counts(cache.files().expect("listed")), [(0, 0), (0, 0)]);
+        assert_eq!(fs::read_dir(cache.spirv()).expect("listed").count(), 3);
+    }
 
     #[test]
     fn threads_that_write_one_file_at_once_all_write_it_whole_and_leave_nothing_beside_it() {

@@ -9,6 +9,6 @@ pub use cache::{Cache, CachedFiles};
 pub use cancel::end_process;
 pub use error::{Blame, Error, INSTALL};
 
-pub(crate) use cache::{files_in, identity_of, path_variable, replace_file};
+pub(crate) use cache::{files_in, identity_of, path_variable, read_file, replace_file};
 pub(crate) use cancel::{Cancel, SLICE};
 pub(crate) use convert::Clear;

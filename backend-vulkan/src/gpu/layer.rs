@@ -5,10 +5,10 @@
 //! change its environment soundly, since other threads may be reading it. So the program starts itself anew: `main` calls
 //! [`reexecution`] before anything else and runs the command that it gets.
 
-use crate::base::{Cache, Error, path_variable, replace_file};
+use crate::base::{Cache, Error, path_variable, read_file, replace_file};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{env, fs, io};
+use std::{env, io};
 
 /// The current layer, as `chromium-common` installs it.
 const CURRENT_LAYER: &str = "/usr/lib/chromium/libVkLayer_khronos_validation.so";
@@ -55,7 +55,7 @@ pub(crate) fn user_layer_path() -> Option<PathBuf> {
 fn write_manifest(folder: &Path) -> io::Result<()> {
     let path = folder.join("VkLayer_khronos_validation.json");
     let manifest = manifest();
-    if fs::read_to_string(&path).is_ok_and(|found| found == manifest) {
+    if read_file(&path, manifest.len() as u64).is_some_and(|found| found == manifest.as_bytes()) {
         return Ok(());
     }
     replace_file(folder, &path, manifest.as_bytes())

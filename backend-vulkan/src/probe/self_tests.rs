@@ -4,14 +4,13 @@
 //! feature.
 
 use super::claims::depth_resolve_modes;
-use crate::base::{identity_of, replace_file};
+use crate::base::{identity_of, read_file, replace_file};
 use crate::gpu::Device;
 use crate::probe::{depth_resolve, multiview};
 use crate::process::{DepthResolve, DeviceName, Helper, NoAnswer};
 use framewright_graph::device::Profile;
 use framewright_graph::vulkan::ResolveMode;
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -205,9 +204,12 @@ fn file(device: &Device, helper: &Helper) -> Option<PathBuf> {
     helper.cache().map(|cache| cache.self_tests().join(format!("{:016x}.json", hasher.finish())))
 }
 
+/// Larger files are none of ours.
+const LARGEST_FILE: u64 = 1 << 20;
+
 /// The findings of a file, if it can be read and `key` is its own.
 fn known(file: &Path, key: &str) -> Option<SelfTests> {
-    let kept: CachedFindings = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
+    let kept: CachedFindings = serde_json::from_slice(&read_file(file, LARGEST_FILE)?).ok()?;
     (kept.key == key).then_some(kept.found)
 }
 

@@ -42,7 +42,7 @@ struct LongTestListener(OnceLock<Box<Tell>>);
 
 impl fmt::Debug for LongTestListener {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Told").field(&self.0.get().is_some()).finish()
+        f.debug_tuple("LongTestListener").field(&self.0.get().is_some()).finish()
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) enum ShaderStage {
 }
 
 /// One stage to compile.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct CompileJob {
     /// The stage.
     pub(crate) stage: ShaderStage,
@@ -81,7 +81,7 @@ pub(crate) struct CompileJob {
 }
 
 /// A file that a shader includes.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct IncludedFile {
     /// The name that messages show.
     pub(crate) shown: String,

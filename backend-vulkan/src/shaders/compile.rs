@@ -6,7 +6,7 @@ use shaderc::{
     SpirvVersion, TargetEnv,
 };
 use std::cell::{Cell, RefCell};
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 /// A file may include others this deep.
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -17,7 +17,7 @@ pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, Str
 
 /// The compiler of this process. Its tables of GLSL's own functions take a quarter of a second to make, and are dropped with the
 /// last compiler.
-static COMPILER: LazyLock<shaderc::Result<Compiler>> = LazyLock::new(Compiler::new);
+static COMPILER: OnceLock<Compiler> = OnceLock::new();
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
@@ -30,7 +30,7 @@ pub(crate) fn compile(
     CompileJob { stage, shown, text, macros }: &CompileJob,
     includes: &mut Includes<'_>,
 ) -> Result<Vec<u32>, CompileFailure> {
-    let compiler = COMPILER.as_ref().map_err(|error| CompileFailure::Internal(error.to_string()))?;
+    let compiler = compiler().map_err(|error| CompileFailure::Internal(format!("it doesn't start: {error}")))?;
     let (stage, includes) = (*stage, RefCell::new(includes));
     let included = Cell::new(0);
     let mut options = CompileOptions::new().map_err(|error| CompileFailure::Internal(error.to_string()))?;
@@ -64,6 +64,14 @@ pub(crate) fn compile(
         Ok(artifact) => bounded(artifact.as_binary(), LARGEST_SPIRV).map(<[u32]>::to_vec),
         Err(shaderc::Error::CompilationError(_, text)) => Err(CompileFailure::Messages(lines(&text))),
         Err(error) => Err(failed(&error)),
+    }
+}
+
+/// The compiler of this process. If it doesn't start, the next stage tries again.
+fn compiler() -> shaderc::Result<&'static Compiler> {
+    match COMPILER.get() {
+        Some(compiler) => Ok(compiler),
+        None => Compiler::new().map(|compiler| COMPILER.get_or_init(|| compiler)),
     }
 }
 

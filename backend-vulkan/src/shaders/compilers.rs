@@ -3,7 +3,7 @@
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
-use super::spirv_cache::{Included, SpirvCache};
+use super::spirv_cache::{Inclusions, SpirvCache};
 use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
@@ -73,10 +73,10 @@ fn compile_cached(
     if let Some(spirv) = cache.find(job, includes) {
         return Ok(Ok(spirv));
     }
-    let mut included = Vec::new();
+    let mut included = Inclusions::of(job);
     let compiled = helper.compile(job, &mut |from, name| {
         let file = includes(from, name)?;
-        included.push(Included { from: from.to_owned(), name: name.to_owned(), file: file.clone() });
+        included.add(from, name, &file);
         Ok(file)
     })?;
     if let Ok(spirv) = &compiled {

@@ -1,10 +1,10 @@
 //! The cache of compiled stages: one file for each text with its macros.
 //!
-//! A file holds all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was included.
-//! It is taken only where all of that is the same now.
+//! A file holds digests of all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was
+//! included. It is taken only where all of that is the same now.
 
 use super::compile::Includes;
-use crate::base::{Cache, files_in, identity_of, replace_file};
+use crate::base::{Cache, files_in, identity_of, read_file, replace_file};
 use crate::process::{
     CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
 };
@@ -16,6 +16,9 @@ use std::time::{Duration, SystemTime};
 
 /// Bytes of all files above which the files that were used least recently are removed. A stage takes some 50 KiB.
 const MOST_BYTES: u64 = 64 << 20;
+
+/// Larger files aren't kept, and are none of ours.
+const LARGEST_FILE: u64 = MOST_BYTES / 16;
 
 /// The last use of a file is known to this precision.
 const PRECISION: Duration = Duration::from_secs(3600);
@@ -33,20 +36,43 @@ pub(super) struct SpirvCache {
 #[derive(Debug, Serialize, Deserialize)]
 struct Header {
     compiler: String,
-    job: CompileJob,
-    includes: Vec<Included>,
-    /// Of the SPIR-V.
-    checksum: u64,
+    /// Digest of the stage's text and macros.
+    job: u64,
+    includes: Vec<Inclusion>,
+    /// Digest of the SPIR-V.
+    spirv: u64,
 }
 
-/// An included file: how it was asked for, and what was found.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Included {
-    /// The name of the file that includes it.
-    pub(super) from: String,
+/// An included file: how it was asked for, and a digest of its text. Its place isn't told: a stage is the same wherever its
+/// files lie.
+#[derive(Debug, Serialize, Deserialize)]
+struct Inclusion {
+    /// The file that includes it: 0 for the stage's own, 1 for the first that was included, and so on.
+    from: usize,
     /// Its name there.
-    pub(super) name: String,
-    pub(super) file: IncludedFile,
+    name: String,
+    text: u64,
+}
+
+/// The files that a compilation includes.
+pub(super) struct Inclusions {
+    /// The name of each file that messages show, the stage's own first.
+    shown: Vec<String>,
+    list: Vec<Inclusion>,
+}
+
+impl Inclusions {
+    /// None so far.
+    pub(super) fn of(job: &CompileJob) -> Inclusions {
+        Inclusions { shown: vec![job.shown.clone()], list: Vec::new() }
+    }
+
+    /// Adds a file that the file `from` includes as `name`.
+    pub(super) fn add(&mut self, from: &str, name: &str, file: &IncludedFile) {
+        let from = self.shown.iter().position(|shown| shown == from).unwrap_or(0);
+        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&file.text) });
+        self.shown.push(file.shown.clone());
+    }
 }
 
 impl SpirvCache {
@@ -60,46 +86,58 @@ impl SpirvCache {
     /// The SPIR-V of a stage, if it was compiled before and `includes` finds the same files as then.
     pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<Vec<u32>> {
         let path = self.path(job);
-        let file = fs::read(&path).ok()?;
+        let file = read_file(&path, LARGEST_FILE)?;
         let mut rest = &*file;
         let header: Header = parse(&read_frame(&mut rest, LARGEST_FRAME).ok()?).ok()?;
         let spirv = read_frame(&mut rest, LARGEST_SPIRV).ok()?;
         let (words, end) = spirv.as_chunks();
-        let whole = end.is_empty() && rest.is_empty() && header.checksum == checksum(&spirv);
-        let mut same = |it: &Included| includes(&it.from, &it.name).is_ok_and(|found| found == it.file);
-        if !(whole && header.compiler == self.compiler && header.job == *job && header.includes.iter().all(&mut same)) {
+        let whole = end.is_empty() && rest.is_empty() && header.spirv == digest(&spirv);
+        if !(whole && header.compiler == self.compiler && header.job == digest_of(job)) {
             return None;
+        }
+        let mut shown = vec![job.shown.clone()];
+        for Inclusion { from, name, text } in &header.includes {
+            let found = includes(shown.get(*from)?, name).ok().filter(|found| digest(&found.text) == *text)?;
+            shown.push(found.shown);
         }
         used_now(&path);
         Some(words.iter().map(|word| u32::from_le_bytes(*word)).collect())
     }
 
-    /// Keeps the SPIR-V of a stage that includes these files. Where that isn't possible it is compiled again next time.
-    pub(super) fn keep(&mut self, job: &CompileJob, includes: Vec<Included>, spirv: &[u32]) {
+    /// Keeps the SPIR-V of a stage that includes these files. Where that isn't possible, or it is very large, it is compiled again
+    /// next time.
+    pub(super) fn keep(&mut self, job: &CompileJob, includes: Inclusions, spirv: &[u32]) {
+        if size_of_val(spirv) as u64 > LARGEST_FILE / 2 {
+            return;
+        }
         let spirv: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
-        let header = Header { compiler: self.compiler.clone(), job: job.clone(), includes, checksum: checksum(&spirv) };
+        let (compiler, digest_of_spirv) = (self.compiler.clone(), digest(&spirv));
+        let header = Header { compiler, job: digest_of(job), includes: includes.list, spirv: digest_of_spirv };
         let mut file = Vec::new();
         let written = write(&mut file, &header)
             .and_then(|()| write_frame(&mut file, &spirv))
             .and_then(|()| replace_file(&self.folder, &self.path(job), &file));
         if written.is_ok() {
-            let before = self.bytes.map(|bytes| bytes + file.len() as u64);
-            let bytes = before.unwrap_or_else(|| shrink(&self.folder, u64::MAX));
+            let bytes =
+                self.bytes.map_or_else(|| bytes_in(&self.folder), |bytes| bytes.saturating_add(file.len() as u64));
             self.bytes = Some(if bytes > MOST_BYTES { shrink(&self.folder, MOST_BYTES / 4 * 3) } else { bytes });
         }
     }
 
     /// The file of a stage. Others may have the same name: each file says what it is of.
     fn path(&self, job: &CompileJob) -> PathBuf {
-        let mut hasher = DefaultHasher::new();
-        (&self.compiler, job).hash(&mut hasher);
-        self.folder.join(format!("{:016x}", hasher.finish()))
+        self.folder.join(format!("{:016x}", digest(&(&self.compiler, digest_of(job)))))
     }
 }
 
-fn checksum(bytes: &[u8]) -> u64 {
+/// The digest of all that a stage is compiled from, but what it includes.
+fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
+    digest(&(stage, text, macros))
+}
+
+fn digest(of: &(impl Hash + ?Sized)) -> u64 {
     let mut hasher = DefaultHasher::new();
-    bytes.hash(&mut hasher);
+    of.hash(&mut hasher);
     hasher.finish()
 }
 
@@ -107,24 +145,35 @@ fn checksum(bytes: &[u8]) -> u64 {
 fn used_now(path: &Path) {
     let now = SystemTime::now();
     let last = fs::metadata(path).and_then(|file| file.modified());
-    if last.is_ok_and(|last| now.duration_since(last).is_ok_and(|ago| ago > PRECISION)) {
+    // A time to come is none at which it was used.
+    if last.is_ok_and(|last| now.duration_since(last).map_or(true, |ago| ago > PRECISION)) {
         // Without this it only looks as if it had not been used.
         let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(now));
     }
+}
+
+fn sum(files: &[(PathBuf, fs::Metadata)]) -> u64 {
+    files.iter().fold(0, |sum, (_, file)| sum.saturating_add(file.len()))
+}
+
+/// The bytes of all files in a folder.
+fn bytes_in(folder: &Path) -> u64 {
+    sum(&files_in(folder).unwrap_or_default())
 }
 
 /// Removes the files that were used least recently until all take at most `bytes`. Returns the bytes of the others.
 fn shrink(folder: &Path, bytes: u64) -> u64 {
     let mut files = files_in(folder).unwrap_or_default();
     files.sort_by_cached_key(|(_, file)| file.modified().ok());
-    let mut left: u64 = files.iter().map(|(_, file)| file.len()).sum();
+    let mut left = sum(&files);
     for (path, file) in files {
         if left <= bytes {
             break;
         }
-        // Another process may have removed it.
-        let _ = fs::remove_file(path);
-        left -= file.len();
+        // If another process removed it, that one counts it.
+        if fs::remove_file(path).is_ok() {
+            left -= file.len();
+        }
     }
     left
 }
@@ -146,7 +195,7 @@ mod tests {
     fn cache(folder: &Path) -> SpirvCache {
         let mut cache = SpirvCache::new(&Cache::in_folder(folder), Path::new("compiler"), &Limits::default());
         for (hours, text) in ["a", "b", "c", "d"].into_iter().enumerate() {
-            cache.keep(&job(text), Vec::new(), &[7; 1000]);
+            cache.keep(&job(text), Inclusions::of(&job(text)), &[7; 1000]);
             let used = SystemTime::now() - Duration::from_secs(3600 * (10 - hours as u64));
             let file = File::options().append(true).open(cache.path(&job(text))).expect("it is kept");
             file.set_modified(used).expect("its time is set");
@@ -159,12 +208,25 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = cache(folder.path());
         let all = cache.bytes.expect("counted");
-        assert_eq!(shrink(&cache.folder, u64::MAX), all);
+        assert_eq!((bytes_in(&cache.folder), shrink(&cache.folder, all)), (all, all));
         // Being found is being used.
         assert!(found(&cache, "a"));
         assert_eq!(shrink(&cache.folder, all / 2), all / 2);
         assert_eq!(["a", "b", "c", "d"].map(|text| found(&cache, text)), [true, false, false, true]);
+        // A time to come is none at which a file was used.
+        let file = File::options().append(true).open(cache.path(&job("d"))).expect("it is there");
+        file.set_modified(SystemTime::now() + Duration::from_secs(1 << 30)).expect("its time is set");
+        assert!(found(&cache, "d") && file.metadata().expect("there").modified().expect("a time") <= SystemTime::now());
         assert_eq!(shrink(&cache.folder, 0), 0);
+    }
+
+    #[test]
+    fn a_stage_that_would_take_much_of_the_cache_is_not_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut cache = cache(folder.path());
+        let large = vec![7; 1 << 20];
+        cache.keep(&job("large"), Inclusions::of(&job("large")), &large);
+        assert!(!found(&cache, "large") && found(&cache, "a"));
     }
 
     #[test]
@@ -178,7 +240,7 @@ mod tests {
         };
         let mut one = of_build("one");
         assert!(!found(&one, "a"));
-        one.keep(&job("a"), Vec::new(), &[1]);
+        one.keep(&job("a"), Inclusions::of(&job("a")), &[1]);
         let other = of_build("other");
         assert!(found(&one, "a") && !found(&other, "a") && found(&cache, "a"));
         // Files of two builds may have one name.

@@ -200,7 +200,7 @@ pub(crate) struct CacheArguments {
 /// The use of the cache.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct CachingArguments {
-    /// Compile all shaders and test the driver anew, and keep nothing: see `framewright cache`.
+    /// Compile all shaders and test the driver anew: the cache is neither read nor written. See `framewright cache`.
     #[arg(long)]
     pub(crate) no_cache: bool,
 }

@@ -44,14 +44,10 @@ pub(crate) fn cache(arguments: &CacheArguments) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-/// The files that the cache holds, or held before it was cleared.
+/// The files that the cache holds, or those that are removed from it.
 fn look(cache: &Cache, clear: bool) -> Result<Vec<CachedFiles>, Error> {
     let failed = |done| move |source| Error::Cache { folder: cache.folder().to_owned(), done, source };
-    let found = cache.files().map_err(failed("read"))?;
-    if clear {
-        cache.clear().map_err(failed("cleared"))?;
-    }
-    Ok(found)
+    if clear { cache.clear().map_err(failed("cleared")) } else { cache.files().map_err(failed("read")) }
 }
 
 fn words(folder: Option<&Path>, found: &[CachedFiles], cleared: bool) -> String {

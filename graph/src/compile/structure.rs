@@ -92,7 +92,7 @@ impl Structure {
         let load_store = retain::retain(frame, &adapted, &scoped);
         let timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
-        let adapted = usage::settle(adapted, &sharing, &timeline, &load_store, &scoped, options);
+        let adapted = usage::finish(adapted, &sharing, &timeline, &load_store, &scoped, options);
         fit::check_support(frame, &adapted, &scoped, device)?;
         let notes = [negotiated.notes, of_adapt, of_scope, of_queues].into_iter().flatten().collect();
         Ok(Structure { live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })

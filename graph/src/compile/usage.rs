@@ -11,7 +11,7 @@ use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
 
 /// Gives each physical resource its sharing and its usage flags, and each use the layout that it has in its step.
-pub(super) fn settle(
+pub(super) fn finish(
     mut adapted: Adapted,
     sharing: &[(PhysicalIndex, Sharing)],
     timeline: &AccessTimeline,

@@ -87,7 +87,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
         let (stages, pairs) = scopes(after);
         let before = self.clocks.after_all_queues(stages.and_earlier(), self.now(last) + 1);
-        // SubresourceMap may have been read last in different stages, of which the state lists all.
+        // Parts may have been read last in different stages, of which the state lists all.
         let mut reads = if pairs.writes().is_empty() { pairs } else { PairSet::default() }.iter();
         let queue = self.program.used[resource as usize].last_queue;
         let read = |pair| before_access(state, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));

@@ -1,6 +1,6 @@
 //! Which subresources stand for which parts of images.
 //!
-//! SubresourceMap that every range of the Plan names together are one subresource: an image that is only used as a whole has one, a mip
+//! Parts that every range of the Plan names together are one subresource: an image that is only used as a whole has one, a mip
 //! chain that is built level by level has one a level. So the work grows with what the Plan tells apart, not with the
 //! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one subresource.
 

@@ -158,7 +158,7 @@ pub(super) struct Builder<'b, 'p> {
     queue: u8,
     /// Whether every range so far is one that its image has.
     fits: bool,
-    /// SubresourceMap of attachments that the scope at hand has drawn to; only kept where passes may read them in it.
+    /// Parts of attachments that the scope at hand has drawn to; only kept where passes may read them in it.
     pub(super) drawn: Vec<(ImageId, Subresources)>,
 }
 

@@ -38,7 +38,7 @@ pub struct StepName {
 /// The rules of a Plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Rule {
-    /// SubresourceMap of the Plan disagree with each other or with Vulkan.
+    /// Parts of the Plan disagree with each other or with Vulkan.
     Structure {
         /// The mistake, as a sentence without final stop; names are escaped.
         what: String,

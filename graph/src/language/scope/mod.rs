@@ -1,6 +1,6 @@
 //! The names of one level of a file, and the values of texts in quotes: references and expressions.
 //!
-//! A [`Context`] reads a value of an entry, as [`Given`]: expressions are parsed, their names found and their types checked.
+//! A [`Context`] reads a value of an entry, as [`FieldValue`]: expressions are parsed, their names found and their types checked.
 //! An [`Evaluator`] finds it at a lowering.
 
 mod context;

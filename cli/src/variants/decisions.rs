@@ -1,0 +1,80 @@
+//! Verdicts that variants share: those that agree on all settings and facts that the verdict depends on.
+//!
+//! An expansion reads settings and facts one after the other, and the values that it finds decide what it reads next. So the
+//! verdicts form a tree: each node is a read, each branch a value of it, and each leaf a verdict.
+
+use super::axis::{Axis, Varied};
+use super::checker::Verdict;
+use framewright_graph::language::{Fact, Read};
+
+/// The verdicts on one device.
+#[derive(Debug, Default)]
+pub(super) struct Decisions {
+    root: Option<Node>,
+}
+
+#[derive(Debug)]
+enum Node {
+    /// The number of the axis that is read, and what follows from each of its values.
+    Reads { axis: usize, branches: Vec<Option<Node>> },
+    /// The verdict, on which no further axis has an influence.
+    Known(Verdict),
+}
+
+impl Decisions {
+    /// The verdict on a variant, if it is known.
+    pub(super) fn find(&self, choice: &[usize]) -> Option<&Verdict> {
+        let mut node = self.root.as_ref()?;
+        loop {
+            match node {
+                Node::Known(verdict) => return Some(verdict),
+                Node::Reads { axis, branches } => node = branches.get(choice[*axis])?.as_ref()?,
+            }
+        }
+    }
+
+    /// Adds the verdict on a variant, which reads these axes in this order.
+    pub(super) fn add(&mut self, choice: &[usize], reads: &[usize], verdict: Verdict) {
+        let mut node = &mut self.root;
+        for axis in reads {
+            let branches = match node.get_or_insert_with(|| Node::Reads { axis: *axis, branches: Vec::new() }) {
+                Node::Reads { axis: known, branches } if known == axis => branches,
+                // Another order of the same reads: they say nothing of this one.
+                _ => return,
+            };
+            let value = choice[*axis];
+            if branches.len() <= value {
+                branches.resize_with(value + 1, || None);
+            }
+            node = &mut branches[value];
+        }
+        node.get_or_insert(Node::Known(verdict));
+    }
+}
+
+/// The axes that were read, by their numbers, each once. What was read and doesn't vary has none. `settings`: names of the
+/// document's settings.
+pub(super) fn axes_of(reads: &[Read], settings: &[&str], axes: &[Axis]) -> Vec<usize> {
+    let mut numbers = Vec::new();
+    for read in reads {
+        let is_read = |varied: &Varied| match (read, varied) {
+            (Read::Setting(at), Varied::Setting(name)) => settings.get(*at) == Some(&name.as_str()),
+            (Read::Fact(read), Varied::Fact(fact)) => parts_of(*read).contains(fact),
+            _ => false,
+        };
+        for (number, _) in axes.iter().enumerate().filter(|(_, axis)| is_read(&axis.varied)) {
+            if !numbers.contains(&number) {
+                numbers.push(number);
+            }
+        }
+    }
+    numbers
+}
+
+/// The facts that decide a fact.
+fn parts_of(fact: Fact) -> Vec<Fact> {
+    match fact {
+        Fact::Lights => vec![Fact::Suns, Fact::PointLights],
+        fact => vec![fact],
+    }
+}
