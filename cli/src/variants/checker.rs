@@ -1,17 +1,19 @@
 //! Checks one variant: expands, compiles and verifies it.
 
 use super::axes::{self, Axes};
+use super::decisions::{Decisions, axes_of};
 use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
 use crate::command_line::values::Modes;
 use crate::planning::{self, View};
+use crate::system::interrupt;
 use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand;
 use framewright_graph::frame::{Frame, Stereo};
-use framewright_graph::language::Document;
+use framewright_graph::language::{Document, Reads};
 use framewright_graph::plan::Totals;
 use framewright_graph::verify;
 use std::sync::Arc;
@@ -40,12 +42,21 @@ pub(crate) struct VariantChecker<'a> {
     /// By device.
     compilers: Vec<Compiler>,
     identities: Identities,
+    /// By device.
+    decisions: Vec<Decisions>,
     /// The last frame, and its choice without the device unless frames depend on it.
     last: Option<(Choice, ExpandedFrame)>,
 }
 
-/// A frame, or its mistakes.
-type ExpandedFrame = Result<Arc<Frame>, Vec<Diagnostic>>;
+/// A frame or its mistakes, and the axes that were read for it.
+#[derive(Clone)]
+struct ExpandedFrame {
+    frame: Result<Arc<Frame>, Vec<Diagnostic>>,
+    reads: Arc<[usize]>,
+}
+
+/// What is found of a variant: its Plan, or its mistakes.
+pub(crate) type Verdict = Result<VerifiedPlan, Vec<Diagnostic>>;
 
 /// The Plan of a variant of which nothing is wrong.
 #[derive(Debug, Clone, Copy)]
@@ -59,20 +70,34 @@ impl<'a> VariantChecker<'a> {
     #[must_use]
     pub(crate) fn new(subject: &'a CheckedPipeline<'a>, shaders: SharedShaders<'a>) -> VariantChecker<'a> {
         let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
-        VariantChecker { subject, shaders, compilers, identities: Identities::default(), last: None }
+        let decisions = subject.devices.iter().map(|_| Decisions::default()).collect();
+        VariantChecker { subject, shaders, compilers, identities: Identities::default(), decisions, last: None }
     }
 
-    /// Expands, compiles and verifies a variant.
+    /// Expands, compiles and verifies a variant, unless the verdict follows from another one.
     ///
     /// # Errors
     /// Its mistakes.
-    pub(crate) fn check(&mut self, choice: &Choice) -> Result<VerifiedPlan, Vec<Diagnostic>> {
-        let frame = self.frame(choice)?;
+    pub(crate) fn check(&mut self, choice: &Choice) -> Verdict {
         let device = axes::device(choice);
+        if let Some(known) = self.decisions[device].find(choice) {
+            return known.clone();
+        }
+        let ExpandedFrame { frame, reads } = self.frame(choice);
+        let verdict = frame.and_then(|frame| self.judge(&frame, device));
+        // A shader whose compilation was given up is no mistake.
+        if !interrupt::asked() {
+            self.decisions[device].add(choice, &reads, verdict.clone());
+        }
+        verdict
+    }
+
+    /// Compiles and verifies a frame.
+    fn judge(&mut self, frame: &Arc<Frame>, device: usize) -> Verdict {
         let profile = &self.subject.devices[device];
-        let plan = self.compilers[device].compile(&frame, profile, &mut Estimated(profile), &self.subject.options)?;
+        let plan = self.compilers[device].compile(frame, profile, &mut Estimated(profile), &self.subject.options)?;
         let violations = verify::verify(plan);
-        if let Some(large) = heap_size::too_large(plan, &frame, profile) {
+        if let Some(large) = heap_size::too_large(plan, frame, profile) {
             return Err(vec![large]);
         }
         if violations.is_empty() {
@@ -91,24 +116,87 @@ impl<'a> VariantChecker<'a> {
         match &self.last {
             Some((last, frame)) if last == without_device => frame.clone(),
             _ => {
-                let frame = self.expand(choice).map(Arc::new);
+                let frame = self.expand(choice);
                 self.last = Some((without_device.to_vec(), frame.clone()));
                 frame
             }
         }
     }
 
-    fn expand(&mut self, choice: &Choice) -> Result<Frame, Vec<Diagnostic>> {
+    fn expand(&mut self, choice: &Choice) -> ExpandedFrame {
+        let reads = Reads::default();
+        let frame = self.expand_reading(choice, &reads).map(Arc::new);
+        let CheckedPipeline { pipeline, axes, .. } = self.subject;
+        let settings: Vec<&str> = pipeline.settings.iter().map(|setting| &*setting.name.text).collect();
+        ExpandedFrame { frame, reads: axes_of(&reads.in_order(), &settings, &axes.list).into() }
+    }
+
+    fn expand_reading(&mut self, choice: &Choice, reads: &Reads) -> Result<Frame, Vec<Diagnostic>> {
         let CheckedPipeline { pipeline, sources, view, axes, .. } = self.subject;
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
         let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
         let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why)])?;
         let (set, view) = (axes.settings(choice), View { facts: Some(axes.facts(choice)), ..*view });
         let inputs = planning::inputs(&set, stereo, view, device);
-        expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
+        expand::expand_reading(pipeline, Arc::clone(sources), &inputs, &mut self.shaders, Some(reads))
     }
 }
 
 fn own_mistake(violation: &str) -> Diagnostic {
     Diagnostic::nowhere(format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command_line::args::{self, Command};
+    use crate::planning;
+    use crate::variants::space::Space;
+    use framewright_graph::base::ReadFiles;
+    use framewright_passes::draw::interface;
+    use framewright_passes::shipped::SHADERS;
+    use framewright_vulkan::ShaderLibrary;
+    use std::sync::Mutex;
+
+    /// Verdicts in the order of the variants: by one checker, and by a new one for each variant.
+    fn verdicts(pipeline: &str, devices: &[Arc<Profile>], stereo: &str) -> [Vec<String>; 2] {
+        let words = ["framewright", "check", pipeline, "--stereo", stereo];
+        let line = args::parse(words.into_iter().map(Into::into)).expect("a command line");
+        let Command::Check(arguments) = line.command else { panic!("another command") };
+        let loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
+        let names: Vec<String> = devices.iter().map(|device| device.name.clone()).collect();
+        let subject = CheckedPipeline {
+            pipeline: &loaded.pipeline,
+            sources: &loaded.sources,
+            view: View::without_scene(arguments.planning.rotate),
+            axes: Axes::of(&loaded.pipeline, &loaded.sources, &[], &names),
+            devices: devices.to_vec(),
+            options: arguments.planning.options(),
+            stereo: loaded.stereo.clone(),
+        };
+        let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets()).expect("few variants");
+        let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interface));
+        let checker = || VariantChecker::new(&subject, SharedShaders::new(&library));
+        let mut one = checker();
+        let mut judged = [Vec::new(), Vec::new()];
+        for choice in (0..space.len()).map(|number| space.choice(number)) {
+            judged[0].push(format!("{:?}", one.check(&choice)));
+            judged[1].push(format!("{:?}", checker().check(&choice)));
+        }
+        judged
+    }
+
+    #[test]
+    fn a_verdict_that_follows_from_another_one_is_the_variants_own() {
+        let all = crate::planning::device::all().expect("profiles");
+        let devices = ["lavapipe", "mali-g78"]
+            .map(|name| Arc::new(all.iter().find(|it| it.0 == name).expect("it is shipped").1.clone()));
+        for (pipeline, stereo) in
+            [("forward", "off"), ("soft_focus", "off"), ("snow", "auto"), ("forward_overlay", "multiview,double-wide")]
+        {
+            let [shared, alone] = verdicts(pipeline, &devices, stereo);
+            assert!(shared == alone, "{pipeline}, {stereo}");
+            assert!(shared.len() > 7, "{pipeline} has {} variants", shared.len());
+        }
+    }
 }

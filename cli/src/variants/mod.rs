@@ -3,12 +3,15 @@
 //! ```text
 //! files ─► axes (mentions) ─► space (cover) ─► run: judge, judge, … on all processors ─► causes (minimise) ─► report
 //! ```
+//!
+//! Variants that agree on all settings and facts that are read share one verdict (`decisions`).
 
 mod axes;
 mod axis;
 mod causes;
 mod checker;
 mod cover;
+mod decisions;
 mod facts;
 mod identity;
 mod mentions;

@@ -8,7 +8,7 @@ use super::state::State;
 use super::{casters, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views};
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};
-use crate::language::{self, Document};
+use crate::language::{self, Document, Read, Reads};
 use crate::shader::ShaderInterfaces;
 use std::sync::Arc;
 
@@ -23,12 +23,27 @@ pub fn expand(
     inputs: &Inputs<'_>,
     shaders: &mut dyn ShaderInterfaces,
 ) -> Result<Frame, Vec<Diagnostic>> {
-    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders);
+    expand_reading(document, sources, inputs, shaders, None)
+}
+
+/// As [`expand`]. Settings and facts that the result depends on are added to `reads`: the frame of other inputs is the same, but
+/// for the values of [`Frame::settings`], if these are the same, and all that is no setting or fact.
+///
+/// # Errors
+/// As [`expand`].
+pub fn expand_reading(
+    document: &Document,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+    reads: Option<&Reads>,
+) -> Result<Frame, Vec<Diagnostic>> {
+    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders, reads);
     if expanded.is_ok() || inputs.stereo == Stereo::Off {
         return expanded;
     }
     // A mistake that one eye has, too, is told once.
-    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders);
+    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders, reads);
     one.and(expanded)
 }
 
@@ -37,15 +52,21 @@ fn expand_so(
     sources: Arc<Sources>,
     inputs: &Inputs<'_>,
     shaders: &mut dyn ShaderInterfaces,
+    reads: Option<&Reads>,
 ) -> Result<Frame, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let values = settings::choose(document, inputs.set, &mut errors);
+    if !errors.is_empty()
+        && let Some(reads) = reads
+    {
+        (0..document.settings.len()).for_each(|at| reads.add(Read::Setting(at)));
+    }
     let before = errors.len();
     check_extent(inputs.output_extent, &mut errors);
     if errors.len() > before {
         return Err(errors);
     }
-    let pipeline = match document.lower(&settings::values(&values), &surroundings(inputs)) {
+    let pipeline = match document.lower(&settings::values(&values), &surroundings(inputs, reads)) {
         Ok(pipeline) => pipeline,
         Err(mistakes) => {
             errors.extend(mistakes);
@@ -99,7 +120,7 @@ fn expand_so(
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }
-    let kept = precision::choose(surroundings(inputs).facts.depth_range, &mut resources, &states, &outputs);
+    let kept = precision::choose(inputs.facts().depth_range, &mut resources, &states, &outputs);
 
     let Resources { images, buffers, .. } = resources;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();

@@ -5,7 +5,7 @@ use super::settings;
 use crate::base::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Allowances, Stereo};
-use crate::language::{Document, Facts, LARGEST_SIZE, Surroundings};
+use crate::language::{Document, Facts, LARGEST_SIZE, Reads, Surroundings};
 use crate::vulkan::Rotation;
 
 /// The inputs that a pipeline is expanded with, beside its file.
@@ -31,6 +31,13 @@ pub struct Inputs<'a> {
     pub stereo: Stereo,
 }
 
+impl Inputs<'_> {
+    /// The facts that count.
+    pub(super) fn facts(&self) -> Facts {
+        if self.facts_known { self.facts } else { Facts::UNKNOWN }
+    }
+}
+
 /// Mistakes in `inputs` themselves: settings that the pipeline doesn't have, values that they don't allow, a size that no
 /// frame has, names of no image. [`expand`](super::expand()) reports these too; a program that tells its user's command
 /// line from its user's files asks here first.
@@ -41,18 +48,18 @@ pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic>
     check_extent(inputs.output_extent, &mut errors);
     if errors.is_empty()
         && !inputs.dump.is_empty()
-        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs))
+        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs, None))
     {
         dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
     }
     errors
 }
 
-pub(super) fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
-    let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
+pub(super) fn surroundings<'a>(inputs: &Inputs<'a>, reads: Option<&'a Reads>) -> Surroundings<'a> {
+    let facts = inputs.facts();
     let eyes = if inputs.stereo == Stereo::Off { 1 } else { 2 };
     let allows = Allowances::default();
-    Surroundings { facts, extent: inputs.output_extent, eyes, allows, device: inputs.device }
+    Surroundings { facts, extent: inputs.output_extent, eyes, allows, device: inputs.device, reads }
 }
 
 pub(super) fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {

@@ -44,5 +44,5 @@ mod work;
 mod writers;
 mod written;
 
-pub use flatten::expand;
+pub use flatten::{expand, expand_reading};
 pub use inputs::{Inputs, check_inputs};

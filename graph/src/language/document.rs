@@ -73,8 +73,14 @@ impl Document {
         if let Some((entries, settings, presets, asks_device)) = entries {
             let values = settings.iter().map(|setting| Some(setting.as_ref()?.kind.default().into())).collect();
             let allows = Allowances::default();
-            let surroundings =
-                Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], eyes: 1, allows, device: None };
+            let surroundings = Surroundings {
+                facts: Facts::UNKNOWN,
+                extent: [1920, 1080],
+                eyes: 1,
+                allows,
+                device: None,
+                reads: None,
+            };
             evaluate(&mut reader, &entries, values, &surroundings, Purpose::Check);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
             if let (Some(settings), Some(presets)) = (settings, presets.into_iter().collect())

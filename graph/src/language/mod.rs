@@ -37,7 +37,7 @@ pub use compose::pipeline_files::{PipelineFiles, Shipped};
 pub use document::Document;
 pub(crate) use entries::buffers::LARGEST_BUFFER;
 pub(crate) use entries::dispatch::MOST_GROUPS;
-pub use inputs::{Fact, FactType, FactValue, Facts, Surroundings, names_of};
+pub use inputs::{Fact, FactType, FactValue, Facts, Read, Reads, Surroundings, names_of};
 pub(crate) use mistakes::in_order;
 pub(crate) use model::{Area, LARGEST_SIZE, area};
 pub use model::{

@@ -32,7 +32,7 @@ struct Candidate {
 pub(super) struct WithChanges {
     pub(super) scoped: Scoped,
     pub(super) queues: Vec<Queue>,
-    /// Each change, and the step that makes it.
+    /// The step that makes each change, and the change.
     pub(super) changes: Vec<(u32, LayoutChange)>,
 }
 

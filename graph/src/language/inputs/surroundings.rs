@@ -1,6 +1,7 @@
 //! The surroundings of a pipeline: the names `scene.…`, `view.…` and `device.…` in expressions, and their values.
 
 use super::facts::{Fact, FactType, FactValue, Facts};
+use super::reads::{Read, Reads};
 use crate::device::Profile;
 use crate::expression::Type::{Bool, Integer};
 use crate::expression::{Origin, Type, Value};
@@ -20,6 +21,8 @@ pub struct Surroundings<'a> {
     pub allows: Allowances,
     /// The device; `None`: a device with the least that Vulkan 1.3 demands.
     pub device: Option<&'a Profile>,
+    /// Where reads are noted, if anywhere.
+    pub reads: Option<&'a Reads>,
 }
 
 /// A name that every pipeline may use, besides facts of the scene.
@@ -114,11 +117,19 @@ impl Surroundings<'_> {
         let Some(fact) = Fact::ALL.get(number) else {
             return INPUTS.get(number - Fact::ALL.len()).map(|input| (input.value)(self));
         };
+        self.note(Read::Fact(*fact));
         Some(match self.facts.value(*fact) {
             FactValue::Bool(value) => Value::Bool(value),
             FactValue::Integer(value) => Value::Integer(value),
             FactValue::Number(value) => Value::Number(value),
         })
+    }
+
+    /// Notes a read.
+    pub(crate) fn note(&self, read: Read) {
+        if let Some(reads) = self.reads {
+            reads.add(read);
+        }
     }
 
     fn limit(&self, least: u32, of: impl Fn(&Profile) -> u32) -> Value {

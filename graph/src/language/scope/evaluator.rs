@@ -7,7 +7,7 @@ use super::symbols::Symbols;
 use crate::base::{Diagnostic, Label, Span};
 use crate::expression::{Decision, Expression, Outcome, Value};
 use crate::frame::{BufferIndex, ImageIndex, Resource};
-use crate::language::inputs::Surroundings;
+use crate::language::inputs::{Read, Surroundings};
 use crate::language::model::Decided;
 use crate::ron::{Name, Reader};
 use std::sync::Arc;
@@ -26,6 +26,16 @@ pub(crate) struct ScopeValues<'a> {
     pub(crate) index: Option<u32>,
     /// The view that the entry is for, unless it is the main one.
     pub(crate) view: Option<&'a Name>,
+}
+
+impl<'a> ScopeValues<'a> {
+    /// The value of the setting or parameter with this number.
+    pub(super) fn parameter(&self, at: usize) -> Option<&'a DecidedValue> {
+        if self.symbols.settings {
+            self.surroundings.note(Read::Setting(at));
+        }
+        self.values.get(at)?.as_ref()
+    }
 }
 
 /// The evaluator of an entry: the scope in which its values are found, and the reader that mistakes are reported to.
@@ -85,7 +95,7 @@ impl<'e, 'a> Evaluator<'e, 'a> {
 
     /// The value of a setting or parameter that is named at `span`.
     pub(crate) fn parameter(&self, at: usize, span: Span) -> Option<Decided<Value>> {
-        let DecidedValue { value, decided } = self.scope.values.get(at)?.as_ref()?;
+        let DecidedValue { value, decided } = self.scope.parameter(at)?;
         let because = if self.scope.symbols.settings {
             let parameter = self.scope.symbols.parameters.get(at)?.as_ref()?;
             Some(format!("{} = {value}", parameter.name.text).into())

@@ -120,9 +120,9 @@ impl Values for ScopeValues<'_> {
     fn value(&self, id: u32) -> Result<Value, Missing> {
         let (kind, at) = split(id);
         match kind {
-            PARAMETER => match self.values.get(at) {
-                Some(Some(value)) => Ok(value.value.clone()),
-                _ => Err(Missing::Reported),
+            PARAMETER => match self.parameter(at) {
+                Some(value) => Ok(value.value.clone()),
+                None => Err(Missing::Reported),
             },
             INDEX => self.index.map(|at| Value::Integer(at.into())).ok_or(Missing::Reported),
             SURROUNDINGS => self.surroundings.value(id & !KIND).ok_or(Missing::Reported),
