@@ -1,6 +1,6 @@
 //! `cargo bench --package framewright`: how many variants of `forward` are checked in a second, beside the project's goal.
 //!
-//! What is measured is the command as a user runs it, on as many threads as there are processors. Each time is the least of
+//! The measured program is the command as a user runs it, on as many threads as there are processors. Each time is the least of
 //! many runs: other work on the machine only adds. A run is mostly its beginning, in which the shaders are compiled; so the
 //! time of one variant is told too, and the rate that is left without it. `-- --short` runs everything twice, to see that it
 //! runs.

@@ -55,7 +55,7 @@ struct ExpandedFrame {
     reads: Arc<[usize]>,
 }
 
-/// What is found of a variant: its Plan, or its mistakes.
+/// The verdict on a variant: its Plan, or its mistakes.
 pub(crate) type Verdict = Result<VerifiedPlan, Vec<Diagnostic>>;
 
 /// The Plan of a variant of which nothing is wrong.

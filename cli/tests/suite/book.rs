@@ -99,7 +99,7 @@ fn prose(page: &str) -> String {
 /// Where the links of a page lead: `[text](link)` and `[text]: link`.
 fn links(page: &str) -> Vec<String> {
     let prose = prose(page);
-    // What stands between backticks is code.
+    // Text between backticks is code.
     let plain: String = prose.split('`').step_by(2).collect::<Vec<_>>().join("code");
     let inline = plain.split("](").skip(1).filter_map(|after| Some(after.split_once(')')?.0.to_owned()));
     let defined = plain.lines().filter(|line| line.starts_with('[')).filter_map(|line| line.split_once("]: "));

@@ -3,7 +3,7 @@
 
 use crate::testing::{Place, Vulkan};
 
-/// What the file of a driver or a layer may be, and the library that it names.
+/// Kinds of files that stand for a driver or a layer, and the library that it names.
 const KINDS: [(&str, Option<&str>); 5] = [
     ("absent", None),
     ("no JSON", Some("")),

@@ -36,7 +36,7 @@ void main() {
 }
 ";
 
-/// What each mode has to find, worked out from the samples.
+/// The value that each mode has to find, worked out from the samples.
 const BY_HAND: &str = "#version 460
 layout(set = 0, binding = 0) uniform sampler2DMS depth;
 layout(set = 0, binding = 1) uniform params { bool least; bool greatest; bool mean; };
@@ -105,7 +105,7 @@ fn iq_12_and_13_depth_drawn_again_is_bit_for_bit_that_of_one_sample_on_both_driv
     }
 }
 
-/// IQ-10: nothing is averaged unless the file says so; IQ-14: whoever resolves, a mode is what it says.
+/// IQ-10: nothing is averaged unless the file says so; IQ-14: a mode gives its value, whether a draw or the device resolves.
 #[test]
 fn iq_14_each_mode_finds_what_the_samples_say_on_both_drivers() {
     let place = place();

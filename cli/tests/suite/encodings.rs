@@ -1,4 +1,4 @@
-//! What leaves a frame encoded for HDR10, or as linear light, is drawn on both software drivers, written to a file as `run`
+//! Outputs that are encoded for HDR10, or as linear light, are drawn on both software drivers, written to a file as `run`
 //! does, and read back by a decoder of our own.
 //!
 //! The loader takes its drivers from the environment, which a process can't change from within: each test starts itself
@@ -202,7 +202,7 @@ fn an_hdr10_picture_holds_the_light_that_was_drawn() {
                 assert!(apart <= bound, "{format}: {light:?} became {pixel:?}, {apart} from {expected}");
             }
         }
-        // What the standard says the signal of the file shows: the first row is grey, 1 at `reference_white`.
+        // The light that the file's signal shows by the standard: the first row is grey, 1 at `reference_white`.
         let white = decoded(&file)[6];
         let luminance = decode_pq(f64::from(white[0]) / 65535.0) * PQ_PEAK;
         assert!((luminance - REFERENCE_WHITE * 36.0 / 32.0).abs() < 3.0, "{luminance} cd/m²");

@@ -3,7 +3,7 @@
 use crate::testing::{Place, Vulkan};
 use serde_json::Value;
 
-/// What a frame did, in its order: passes with their draws, resolves in between.
+/// The work of a frame, in its order: passes with their draws, resolves in between.
 fn listing(vulkan: Vulkan, more: &[&str]) -> Option<Vec<String>> {
     let variables = vulkan.variables()?;
     let place = Place::new();
@@ -102,7 +102,7 @@ fn a_choice_that_makes_no_picture_is_refused_with_what_is_allowed() {
     }
 }
 
-/// What a file gives to the library's tone mapping.
+/// The parameters that a file gives to the library's tone mapping.
 #[test]
 fn a_tone_mapping_that_is_not_there_is_refused_with_those_that_are() {
     let cases = [

@@ -295,7 +295,7 @@ fn what_a_shipped_fragment_leaves_out_by_itself_is_told_to_programs_alone() {
     assert!(!tree.contains("is off"), "{tree}");
     let all = place.run(&["check", "p.ron", "--format", "json"]).exits(0).out;
     assert!(all.contains(".tone_map_scaled") && all.contains("is off: "), "{all}");
-    // What one's own file leaves out is told.
+    // An entry that the user's own file leaves out is told.
     let own = of_shipped_fragments("color").replace("(name: \"opaque\",", "(name: \"opaque\", when: \"1 < 2\",");
     let own =
         own.replace("passes: [", "passes: [\n        (name: \"off\", when: \"1 > 2\", draw: Sky, color: [\"color\"]),");

@@ -145,7 +145,7 @@ fn ctrl_c_ends_the_wait_for_the_reader_of_a_pipe() {
     let mut child = start(&place, &variables, &words);
     says(&mut child, "note: waiting until something reads the pipe `pipe.exr`");
     interrupted(child).exits(130).mentions("error: interrupted before all of `pipe.exr` was written");
-    // What opened the pipe reads only a part.
+    // The reader of the pipe reads only a part.
     let mut child = start(&place, &variables, &words);
     says(&mut child, "note: waiting");
     let reader = std::fs::File::open(&pipe).expect("opened");

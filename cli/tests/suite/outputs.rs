@@ -1,4 +1,4 @@
-//! What leaves a frame, under its own names and with the encodings that the file says.
+//! Outputs of a frame, under its own names and with the encodings that the file says.
 
 use crate::testing::{self, Outcome, Place, Vulkan};
 

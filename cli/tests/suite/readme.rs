@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 /// How a renewed page is seen and accepted.
 const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
 
-/// What stands before a command and its output.
+/// The line before a command and its output.
 const CONSOLE: &str = "```console\n$ ";
 
 #[test]
@@ -75,7 +75,7 @@ fn the_page_of_the_command_shows_the_lines_of_a_run() {
     assert_eq!(labels(shown), labels(&outcome.out));
 }
 
-/// What each line is about: of a table its first two columns, else what stands before a colon. Notes stand apart, on standard
+/// The subject of each line: of a table its first two columns, else what stands before a colon. Notes stand apart, on standard
 /// error, where a slow machine has more of them.
 fn labels(printed: &str) -> Vec<String> {
     let label = |line: &str| match line.strip_prefix('|') {
@@ -95,7 +95,7 @@ fn block<'a>(page: &'a str, begins: &str) -> &'a str {
     after.split_once("```").expect("it ends").0
 }
 
-/// What a shell prints, errors included.
+/// The output of a shell, errors included.
 fn printed(place: &Place, command: &str) -> String {
     let binary = std::path::Path::new(env!("CARGO_BIN_EXE_framewright"));
     let folder = binary.parent().expect("a folder").to_str().expect("a plain path");

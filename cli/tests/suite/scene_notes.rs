@@ -1,4 +1,4 @@
-//! What a scene says that isn't drawn is told by every command that reads it.
+//! Entries of a scene that aren't drawn are told by every command that reads it.
 
 use crate::testing::{Place, Vulkan};
 use serde_json::Value;

@@ -11,7 +11,7 @@ fn shader(parameter: &str) -> String {
     )
 }
 
-/// What a shader includes: the function `part`.
+/// An included file: the function `part`.
 fn part(body: &str) -> String {
     format!("float part(float x) {{ return {body}; }}\n")
 }
@@ -64,7 +64,7 @@ fn a_fragment_has_the_shader_beside_its_own_file_and_the_plan_tells_it_from_the_
         place.run_with(&variables, &run).exits(0);
     }
 
-    // What it includes is looked for beside it too, then beside the pipeline.
+    // Its includes are looked for beside it too, then beside the pipeline.
     place.file("effects/part.glsl", part("beside"));
     check(&place).exits(1).mentions("./effects/part.glsl:1:30").mentions("^^^^^^ 'beside' : undeclared identifier");
 }

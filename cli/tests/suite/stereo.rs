@@ -96,7 +96,7 @@ fn a_mode_that_a_device_lacks_is_refused_with_what_it_lacks_and_what_else_there_
         refused(command, "lavapipe", "multiview").mentions(
             "`lavapipe` can't draw multiview: it says that it draws several views at once, and a test showed that it doesn't",
         );
-        // What a profile doesn't say is no fact.
+        // A feature that a profile doesn't name is no fact.
         let unknown = "can't draw instanced: its profile doesn't say that vertex shaders can choose the layer, nor how many \
                        clip distances shaders have, and one of the two is needed";
         refused(command, "meta-quest-3", "instanced").mentions(&format!("`Meta Quest 3 (Adreno 740)` {unknown}"));
@@ -152,7 +152,7 @@ fn every_shipped_pipeline_is_fine_in_every_mode_on_every_device_that_has_it() {
     }
 }
 
-/// What leaves a frame, and what draws it, says how it holds both eyes' parts.
+/// Outputs, and the passes that draw them, say how they hold both eyes' parts.
 #[test]
 fn plans_say_how_both_eyes_are_drawn() {
     let place = Place::new();
@@ -274,7 +274,7 @@ fn every_reachable_combination_is_checked_in_a_mode() {
         let answer: serde_json::Value = serde_json::from_str(&outcome.out).expect("JSON");
         assert_eq!((&answer["fine"], &answer["pairwise"]), (&true.into(), &true.into()), "{device}");
     }
-    // What a device can't draw is refused in every combination, with its reason.
+    // A mode that a device can't draw is refused in every combination, with its reason.
     let said = check("post", "meta-quest-3", "instanced").exits(1);
     assert!(said.out.contains("can't draw instanced: its profile doesn't say that"), "{}", said.out);
 }

@@ -2,7 +2,7 @@
 
 use crate::testing::{Place, Vulkan, repository};
 
-/// What the texels are is held against what was drawn in the workspace's own tests, on one driver.
+/// The texels are compared with those that were drawn in the workspace's own tests, on one driver.
 #[test]
 fn one_shader_draws_the_same_of_every_kind_of_image_on_both_drivers_and_the_layer_is_silent() {
     let place = Place::new();
@@ -47,7 +47,7 @@ fn one_shader_draws_the_same_of_every_kind_of_image_on_both_drivers_and_the_laye
     }
 }
 
-/// What is left out has a type too: with all that a pass may be given its shader is compiled as it would be then.
+/// An image that is left out has a type too: with all that a pass may be given its shader is compiled as it would be then.
 #[test]
 fn an_image_of_layers_may_be_left_out_and_what_it_needs_with_it() {
     let place = Place::new();
@@ -79,7 +79,7 @@ fn an_image_of_layers_may_be_left_out_and_what_it_needs_with_it() {
     let plan = place.run(&["inspect", "p.ron", "--set", "on=false"]).exits(0).out;
     assert!(plan.contains("`show`: is compiled without `extra`: on = false (p.ron:"), "{plan}");
     assert!(!plan.contains("share") && !plan.contains("extra ="), "{plan}");
-    // What the shader would not have either is a mistake all the same.
+    // A name that the shader doesn't have either is a mistake all the same.
     let text = std::fs::read_to_string(place.path("p.ron")).expect("written");
     place.file("wrong.ron", text.replace("\"share\"", "\"shore\""));
     place.run(&["check", "wrong.ron", "--set", "on=false"]).exits(1).mentions("has no parameter named `shore`");

@@ -107,7 +107,7 @@ fn draws_what_the_files_hold(vulkan: Vulkan) {
         |x: u32, y: u32, address: fn(i64, i64) -> u32| tile(address(i64::from(x) - 7, 5), address(i64::from(y) - 4, 3));
     for (file, address) in [("repeated.png", repeated as fn(i64, i64) -> u32), ("mirrored.png", mirrored)] {
         for (x, y, texel) in open(file).into_rgb8().enumerate_pixels() {
-            // What no output declares is shown as a display shows it: encoded.
+            // An image that no output declares is shown as a display shows it: encoded.
             assert_eq!(texel.0, expected(x, y, address).map(encoded), "{file} at {x}, {y}");
         }
     }

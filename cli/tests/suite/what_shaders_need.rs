@@ -1,9 +1,9 @@
-//! What a shader needs and a pass or a device can't give is said at the shader's line, with what to write instead.
+//! A need of a shader that a pass or a device can't meet is told at the shader's line, with what to write instead.
 
 use crate::testing::{Outcome, Place};
 use framewright_graph::device::SHIPPED_PROFILES;
 
-/// What `check` says of a pipeline with one pass that runs a shader of this text before `screen` is drawn.
+/// The answer of `check` for a pipeline with one pass that runs a shader of this text before `screen` is drawn.
 fn check(place: &Place, (file, text): (&str, &str), pass: &str, arguments: &[&str]) -> Outcome {
     place.file(file, text);
     place.file(

@@ -1,4 +1,4 @@
-//! What `adapt` hands to the stages after it: physical images and buffers, and operations that use them.
+//! Physical images and buffers, and operations that use them: the result of `adapt`, and the input of the stages after it.
 
 use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub(super) struct PhysicalResource {
     /// Its number among the images of the Plan, or among the buffers.
     pub(super) id: u32,
-    /// What it was made for.
+    /// The purpose that it was made for.
     pub(super) of: Resource,
     /// Its name, if that isn't the one of what it was made for.
     pub(super) renamed: Option<Arc<str>>,
@@ -175,7 +175,7 @@ impl Adapted {
         if self.eyes.is_empty() { None } else { self.eyes.get(&resource).map(|(form, _)| *form) }
     }
 
-    /// What a physical image is made as.
+    /// The descriptor that a physical image is made with.
     #[inline]
     pub(super) fn made(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
         // Few frames have any.
@@ -225,7 +225,7 @@ pub(super) struct Op {
     pub(super) side_effect: bool,
 }
 
-/// What an operation is.
+/// The kind of an operation.
 #[derive(Debug)]
 pub(super) enum OpKind {
     /// A raster pass of the frame.
@@ -272,7 +272,7 @@ pub(super) enum OpKind {
     Copy(Box<Inserted>),
 }
 
-/// What a full-screen draw that resolves draws.
+/// The values that a full-screen draw resolves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ResolveShader {
     /// Depth, in this mode.
@@ -327,7 +327,7 @@ pub(super) struct Use {
     /// Which entry of the pass's list of such uses it is.
     pub(super) entry: u32,
     pub(super) role: Role,
-    /// What an attachment starts from.
+    /// The initial contents, if it is an attachment.
     pub(super) contents: InitialContents,
     /// Whether it needs what earlier operations left.
     pub(super) reads: bool,
@@ -389,18 +389,18 @@ impl Role {
     }
 }
 
-/// What a pass finds in its attachment.
+/// Initial contents of an attachment, as its pass finds them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialContents {
     /// A clear value.
     Clear,
-    /// What was there.
+    /// The earlier contents.
     Keep,
     /// Nothing: it covers every pixel.
     Discard,
 }
 
-/// What was found out about each image of the frame before anything is decided.
+/// Findings about each image of the frame, before anything is decided.
 #[derive(Debug)]
 pub(super) struct Negotiated {
     /// Samples in force.

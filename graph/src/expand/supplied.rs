@@ -75,7 +75,7 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mu
     let Some(there) = supplied.iter().find(|there| there.name == name) else {
         let help = in_the_shader(suggestion(name, supplied.iter().map(|there| there.name)))
             .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
-        let unknown = here(format!("{wanted}, which whoever draws doesn't bring along"));
+        let unknown = here(format!("{wanted}, which the draw source doesn't bring along"));
         errors.push(Diagnostic { help, ..unknown });
         return;
     };

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 /// The text of the shipped pipeline `forward`.
 pub(crate) const FORWARD: &str = include_str!("../../../../examples/pipelines/forward.ron");
 
-/// What came of a command.
+/// The outcome of a command.
 #[derive(Debug)]
 pub(crate) struct Outcome {
     /// Exit code.
@@ -105,14 +105,14 @@ pub(crate) fn forward_with(old: &str, new: &str) -> String {
     FORWARD.replacen(old, new, 1)
 }
 
-/// What `check` says of a pipeline file.
+/// The answer of `check` for a pipeline file.
 pub(crate) fn check(contents: impl AsRef<[u8]>) -> Outcome {
     let place = Place::new();
     place.file("p.ron", contents);
     place.run(&["check", "p.ron"])
 }
 
-/// What the command says of the driver that these variables lead to, as its saved profile.
+/// The profile that the command saves of the driver that these variables lead to.
 pub(crate) fn live_profile(variables: &[(&str, &str)]) -> Profile {
     let place = Place::new();
     place.run_with(variables, &["devices", "--save", "live.ron", "--device", "0"]).exits(0);

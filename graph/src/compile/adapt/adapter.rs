@@ -12,7 +12,7 @@ use crate::vulkan::Subresources;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What is adapted so far, and which physical image and buffer holds each current version.
+/// The adapted part of the frame so far, and which physical image and buffer holds each current version.
 pub(super) struct Adapter<'a> {
     pub(super) input: Input<'a>,
     /// The physical image that holds each image's current version. Those of earlier frames stand right behind it.

@@ -83,7 +83,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         }
         if let Work::Forward { from, to, .. } = pass.work {
             let later = std::mem::take(&mut needs[to.0 as usize]);
-            // What outlives the frame has all its samples.
+            // An image that outlives the frame has all its samples.
             let fixed = frame.images[to.0 as usize].lifetime.outlives_frame() && multisampled(to);
             match later {
                 Needs::Nothing if fixed => needs[from.0 as usize] = Needs::Samples(number),

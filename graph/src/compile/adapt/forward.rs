@@ -75,7 +75,7 @@ impl Adapter<'_> {
         self.forward_by_draw(number, pass, source, to, why);
     }
 
-    /// What to say so that an image can take another one's texels as they are.
+    /// Help for an image that must take another one's texels as they are.
     fn alike(&self, pass: &Pass, held: &ImageDescriptor, to: &Image) -> String {
         let Work::Forward { from, .. } = pass.work else { return String::new() };
         let from = &self.input.frame.images[from.0 as usize];

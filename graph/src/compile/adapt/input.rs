@@ -1,4 +1,4 @@
-//! What `adapt` starts from.
+//! The input of `adapt`.
 
 use crate::compile::cull::Live;
 use crate::compile::model::Negotiated;

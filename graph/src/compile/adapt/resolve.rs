@@ -70,7 +70,7 @@ impl Adapter<'_> {
         self.errors.push(Diagnostic::new(span, format!("{because}; stencil can't be resolved")).help(help));
     }
 
-    /// What to say so that an image has one sample: it has as many as what is drawn together with it.
+    /// Help for an image that must have one sample: it has as many as what is drawn together with it.
     pub(super) fn one_sample(&self, image: ImageIndex) -> String {
         let Frame { images, passes, .. } = self.input.frame;
         let together = drawn_together(passes, image);

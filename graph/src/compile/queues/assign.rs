@@ -134,7 +134,7 @@ fn beside(bound: &[Result<[bool; QUEUES], GraphicsOnly>], [from, to]: [u32; 2]) 
     (from..to.max(from)).filter(|step| bound[*step as usize].is_err())
 }
 
-/// What is imported is used on one queue, or on graphics: its state before the frame names the stages of one queue.
+/// Imported images and buffers are used on one queue, or on graphics: the state before the frame names the stages of one queue.
 fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut [bool]) {
     let is_imported =
         |resource: PhysicalIndex| matches!(adapted.resources[resource as usize].memory, MemorySource::Imported { .. });
@@ -244,7 +244,7 @@ fn share(
         let several = users[at].iter().filter(|uses| **uses).count() > 1;
         let transient = resource.is_transient();
         let persistent = matches!(resource.memory, MemorySource::Persistent { .. });
-        // What outlives the frame is prepared and read on graphics.
+        // Images and buffers that outlive the frame are prepared and read on graphics.
         let shared = match (transient, &resource.kind) {
             (true, Kind::Image(_)) if several => device.queues.sharing,
             (true, Kind::Buffer(_)) if several => Sharing::Concurrent,

@@ -133,7 +133,7 @@ impl Scope {
     }
 }
 
-/// What the attachments of one scope have in common, as the device makes them.
+/// Properties that the attachments of one scope have in common, as the device makes them.
 fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
     let image = adapted.resources[target.resource as usize].image()?;
     let (allocated, eyes) = (adapted.allocated(target.resource), adapted.eyes(target.resource));

@@ -1,10 +1,10 @@
-//! What passes gain by sharing a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
+//! The gain of passes that share a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
 
 use super::step::{Scope, Target, op_name, resource_name};
 use crate::compile::model::{Adapted, Use};
 use crate::frame::Frame;
 
-/// What a pass gains by joining the scope before it.
+/// The gain of a pass by joining the scope before it.
 #[derive(Debug, Clone)]
 pub(super) enum Gain {
     /// It draws into attachments that the scope has already.

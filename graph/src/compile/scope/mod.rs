@@ -22,7 +22,7 @@ pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 #[derive(Debug)]
 pub(super) struct Scoped {
     pub(super) steps: Vec<Step>,
-    /// What a pass gains that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
+    /// The gain of a pass that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
     gains: Vec<Option<Gain>>,
 }
 

@@ -1,4 +1,4 @@
-//! `include`: files with fragments, each read once however often it is named.
+//! `include`: files with fragments, each of which is read once, even if it is named twice.
 
 use super::loader::{self, Loader};
 use super::tables::LibraryFields;

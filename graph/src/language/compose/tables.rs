@@ -85,7 +85,7 @@ pub(crate) const PIPELINE: Table = Table {
     rows: &[
         VERSION_ROW,
         EXTENSIONS.optional(&["Files of extensions, which are applied in their order."]),
-        INCLUDE.optional(&["Files with fragments, each read once however often it is named."]),
+        INCLUDE.optional(&["Files with fragments. A file that is named twice is read once."]),
         SETTINGS.optional(&["Values that a user may choose."]),
         PRESETS.optional(&["Values of several settings under one name."]),
         VIEWS.optional(&["The pictures that the frame shows: from where, and how large. The main view comes first. One view of the frame's size if left out."]),
@@ -96,15 +96,15 @@ pub(crate) const PIPELINE: Table = Table {
         PASSES.needed(&["The passes. Their order gives them their meaning: each reads what those above it wrote."]),
         OUTPUTS.needed(&["The images and buffers that leave the frame."]),
         DEPTH.optional(&[
-            "How several samples of depth become one value where a pass samples it, of images that don't say it; `Exact` if left",
+            "The way in which several samples of depth become one value where a pass samples them, for images without `resolve`; `Exact` if left",
             "out.",
         ]),
-        COLOR.optional(&["The precision of images of the format `Color` that only passes of the frame draw and sample; `Balanced` if left out."]),
+        COLOR.optional(&["The precision of images of the format `Color`, if nothing but passes of the frame draws and samples them; `Balanced` if left out."]),
         DEPTH_FORMAT.optional(&[
-            "The precision of images of the formats `Depth` and `DepthStencil` that only passes of the frame draw and sample; `Exact`",
+            "The precision of images of the formats `Depth` and `DepthStencil`, if nothing but passes of the frame draws and samples them; `Exact`",
             "if left out.",
         ]),
-        CHANGES.optional(&["Changes to all of that, which come after the extensions."]),
+        CHANGES.optional(&["Changes to the fields above. They are made after the extensions."]),
     ],
 };
 
@@ -127,11 +127,11 @@ pub(crate) const EXTENDING: Table = Table {
         ],
         &ADDED,
         &[
-            PASSES.optional(&["None: passes are inserted by `changes`."]),
+            PASSES.optional(&["Not allowed here: `changes` inserts passes."]),
             OUTPUTS.optional(&["Outputs in place of those that there are."]),
         ],
         &REPLACED,
-        &[CHANGES.optional(&["Changes to all of that."])],
+        &[CHANGES.optional(&["Changes to the pipeline that is extended, and to the fields above."])],
     ]),
 };
 

@@ -35,10 +35,10 @@ fields! {
         format: Leaf<'src> => Form::Words(&FORMATS),
         /// Width and height.
         size: Leaf<'src> => sizes::SIZE,
-        /// Samples a texel; 1 if left out.
+        /// The number of samples of each texel; 1 if left out.
         samples: Option<Leaf<'src>> => Form::Words(&SAMPLES),
-        /// How several samples become one value where one is wanted; if left out colour is averaged, and depth is as the
-        /// pipeline's `depth` says. An image that another is forwarded to has its own.
+        /// The way in which several samples become one value where one is wanted. If left out, colour is averaged, and depth
+        /// follows the pipeline's `depth`. The target of a forward keeps its own way.
         resolve: Option<Leaf<'src>> => resolves::RESOLVE,
         /// Mip levels; 1 if left out.
         mips: Option<Leaf<'src>> => Form::Words(&MIPS),
@@ -48,8 +48,8 @@ fields! {
         shape: Option<Leaf<'src>> => Form::Words(&SHAPES),
         /// How long its contents live; `Transient` if left out.
         lifetime: Option<Leaf<'src>> => lifetimes::LIFETIME,
-        /// Whether each eye has an image of its own where a frame is drawn for two; if left out as the image whose size it
-        /// follows, and not if it follows none.
+        /// Whether each eye has an image of its own where a frame is drawn for two eyes. If left out, as for the image whose
+        /// size it follows; false if it follows none.
         per_eye: Option<Leaf<'src>> => Form::Truth,
     }
 }
@@ -82,7 +82,12 @@ static FORMATS: Words = Words {
             "Depth and stencil: `D32_SFLOAT_S8_UINT`, unless the pipeline's `depth_format` says otherwise.",
         ),
         Word::alone("Output", "The format of a picture that leaves the frame: `R8G8B8A8_SRGB`."),
-        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
+        Word::new(
+            "Like",
+            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &["Like(\"image\")"],
+            "The format of another image.",
+        ),
     ],
 };
 

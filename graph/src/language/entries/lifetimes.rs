@@ -86,7 +86,7 @@ static LIFETIMES: Words = Words {
             "Like",
             &[Takes::Values(&[parts::WHOLE_RESOURCE])],
             &["Like(\"name\")"],
-            "That of another image or buffer.",
+            "The lifetime of another image or buffer.",
         ),
     ],
 };

@@ -59,7 +59,7 @@ static EYES: Words = Words {
         "Eye",
         &[Takes::Values(&[EYE, WHOLE_IMAGE])],
         &["Eye(Left, \"image\")", "Eye(Right, \"image\")"],
-        "That of one eye, of an image that each eye has of its own.",
+        "The image of one eye, where each eye has an image of its own.",
     )],
 };
 

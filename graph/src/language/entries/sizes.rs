@@ -47,7 +47,7 @@ static SIZES: Words = Words {
             &["Fixed(640, 480)"],
             "This many texels wide and high.",
         ),
-        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
+        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "The size of another image."),
     ],
 };
 

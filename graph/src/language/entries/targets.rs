@@ -49,7 +49,7 @@ fields! {
         clear: Option<Leaf<'src>> => Form::Number,
         /// The test that fragments have to pass; `GreaterOrEqual` if left out.
         test: Option<Leaf<'src>> => TEST,
-        /// Whether fragments that pass write their depth; they do if it is left out.
+        /// Whether fragments that pass write their depth; true if left out.
         write: Option<Leaf<'src>> => Form::Truth,
         /// The stencil state; nothing happens to stencil if left out.
         stencil: Option<Leaf<'src>> => Form::Fields(StencilFields::<'static>::table),

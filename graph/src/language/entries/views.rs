@@ -24,7 +24,7 @@ fields! {
         name: Leaf<'src> => Form::Plain(Plain::Name),
         /// A description for people.
         about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
-        /// Width and height; `Output` if left out, and always of the first.
+        /// Width and height; `Output` if left out. The first view always has `Output`.
         size: Option<Leaf<'src>> => Form::Words(&SIZES),
         /// The scene's camera of that name; the scene's own if left out.
         camera: Option<Leaf<'src>> => Form::Plain(Plain::Text),
@@ -34,8 +34,8 @@ fields! {
         allows_hdr: Option<Leaf<'src>> => Form::Truth,
         /// The value of `view.allows_scale` in conditions; true if left out.
         allows_scale: Option<Leaf<'src>> => Form::Truth,
-        /// The number of frames, 1 to 256, over which its picture is shifted by parts of a texel, each time otherwise; 1, not
-        /// at all, if left out.
+        /// The number of frames, 1 to 256, after which shifts of its picture by parts of a texel repeat; 1, no shift, if left
+        /// out.
         jitter: Option<Leaf<'src>> => JITTER,
         /// The size of the picture in whose texels the shifts are counted. `Output` is the view's size, and the default.
         jitter_size: Option<Leaf<'src>> => Form::Words(&SIZES),

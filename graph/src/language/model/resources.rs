@@ -17,7 +17,7 @@ pub struct Image {
     pub format: Decided<Format>,
     /// Width and height, with the cause of the factor.
     pub size: Decided<Size>,
-    /// Samples a texel.
+    /// The number of samples of each texel.
     pub samples: Decided<Samples>,
     /// How several samples become one value, if the file says it.
     pub resolve: Option<Resolves>,
@@ -119,7 +119,7 @@ pub enum Size {
     Like(ImageRef),
 }
 
-/// Samples a texel.
+/// The number of samples of each texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Samples {
     /// A number: 1, 2, 4, 8 or 16.
