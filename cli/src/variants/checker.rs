@@ -1,7 +1,7 @@
 //! Checks one variant: expands, compiles and verifies it.
 
 use super::axes::{self, Axes};
-use super::decisions::{Decisions, axes_of};
+use super::decisions::{SharedDecisions, axes_of};
 use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
@@ -42,8 +42,7 @@ pub(crate) struct VariantChecker<'a> {
     /// By device.
     compilers: Vec<Compiler>,
     identities: Identities,
-    /// By device.
-    decisions: Vec<Decisions>,
+    decisions: &'a SharedDecisions,
     /// The last frame, and its choice without the device unless frames depend on it.
     last: Option<(Choice, ExpandedFrame)>,
 }
@@ -68,9 +67,12 @@ pub(crate) struct VerifiedPlan {
 impl<'a> VariantChecker<'a> {
     /// A checker with empty caches.
     #[must_use]
-    pub(crate) fn new(subject: &'a CheckedPipeline<'a>, shaders: SharedShaders<'a>) -> VariantChecker<'a> {
+    pub(crate) fn new(
+        subject: &'a CheckedPipeline<'a>,
+        shaders: SharedShaders<'a>,
+        decisions: &'a SharedDecisions,
+    ) -> VariantChecker<'a> {
         let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
-        let decisions = subject.devices.iter().map(|_| Decisions::default()).collect();
         VariantChecker { subject, shaders, compilers, identities: Identities::default(), decisions, last: None }
     }
 
@@ -80,14 +82,14 @@ impl<'a> VariantChecker<'a> {
     /// Its mistakes.
     pub(crate) fn check(&mut self, choice: &Choice) -> Verdict {
         let device = axes::device(choice);
-        if let Some(known) = self.decisions[device].find(choice) {
-            return known.clone();
+        if let Some(known) = self.decisions.find(device, choice) {
+            return known;
         }
         let ExpandedFrame { frame, reads } = self.frame(choice);
         let verdict = frame.and_then(|frame| self.judge(&frame, device));
         // A shader whose compilation was given up is no mistake.
         if !interrupt::asked() {
-            self.decisions[device].add(choice, &reads, verdict.clone());
+            self.decisions.add(device, choice, &reads, verdict.clone());
         }
         verdict
     }
@@ -176,12 +178,15 @@ mod tests {
         };
         let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets()).expect("few variants");
         let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interface));
-        let checker = || VariantChecker::new(&subject, SharedShaders::new(&library));
-        let mut one = checker();
+        let decisions = || SharedDecisions::of(subject.devices.len());
+        let shared = decisions();
+        let mut one = VariantChecker::new(&subject, SharedShaders::new(&library), &shared);
         let mut judged = [Vec::new(), Vec::new()];
         for choice in (0..space.len()).map(|number| space.choice(number)) {
             judged[0].push(format!("{:?}", one.check(&choice)));
-            judged[1].push(format!("{:?}", checker().check(&choice)));
+            let own = decisions();
+            let mut new = VariantChecker::new(&subject, SharedShaders::new(&library), &own);
+            judged[1].push(format!("{:?}", new.check(&choice)));
         }
         judged
     }

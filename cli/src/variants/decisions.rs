@@ -6,10 +6,36 @@
 use super::axis::{Axis, Varied};
 use super::checker::Verdict;
 use framewright_graph::language::{Fact, Read};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The verdicts of all threads, by device.
+#[derive(Debug)]
+pub(crate) struct SharedDecisions(Vec<Mutex<Decisions>>);
+
+impl SharedDecisions {
+    /// None so far, for this number of devices.
+    pub(super) fn of(devices: usize) -> SharedDecisions {
+        SharedDecisions((0..devices).map(|_| Mutex::default()).collect())
+    }
+
+    /// The verdict on a variant, if it is known.
+    pub(super) fn find(&self, device: usize, choice: &[usize]) -> Option<Verdict> {
+        self.on(device).find(choice).cloned()
+    }
+
+    /// Adds the verdict on a variant, which reads these axes in this order.
+    pub(super) fn add(&self, device: usize, choice: &[usize], reads: &[usize], verdict: Verdict) {
+        self.on(device).add(choice, reads, verdict);
+    }
+
+    fn on(&self, device: usize) -> MutexGuard<'_, Decisions> {
+        self.0[device].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 /// The verdicts on one device.
 #[derive(Debug, Default)]
-pub(super) struct Decisions {
+struct Decisions {
     root: Option<Node>,
 }
 
@@ -22,8 +48,7 @@ enum Node {
 }
 
 impl Decisions {
-    /// The verdict on a variant, if it is known.
-    pub(super) fn find(&self, choice: &[usize]) -> Option<&Verdict> {
+    fn find(&self, choice: &[usize]) -> Option<&Verdict> {
         let mut node = self.root.as_ref()?;
         loop {
             match node {
@@ -33,8 +58,7 @@ impl Decisions {
         }
     }
 
-    /// Adds the verdict on a variant, which reads these axes in this order.
-    pub(super) fn add(&mut self, choice: &[usize], reads: &[usize], verdict: Verdict) {
+    fn add(&mut self, choice: &[usize], reads: &[usize], verdict: Verdict) {
         let mut node = &mut self.root;
         for axis in reads {
             let branches = match node.get_or_insert_with(|| Node::Reads { axis: *axis, branches: Vec::new() }) {

@@ -29,6 +29,7 @@ use crate::planning::{self, Loaded, View, device};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
 use checker::{CheckedPipeline, VariantChecker};
+use decisions::SharedDecisions;
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
 use progress::Progress;
@@ -89,13 +90,15 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     interrupt::watch();
 
     let library = Mutex::new(shaders);
+    let decisions = SharedDecisions::of(subject.devices.len());
     let threads = arguments.threads.map_or_else(processors, usize::from);
     let progress = Progress::new(space.len());
-    let mut found = run::run(&subject, &space, &library, threads, &progress);
+    let mut found = run::run(&subject, &space, &library, &decisions, threads, &progress);
     progress.finish();
     let failures = std::mem::take(&mut found.failures);
     let distinct = failures.len();
-    let causes = causes::find(failures, &space, &mut VariantChecker::new(&subject, SharedShaders::new(&library)));
+    let mut checker = VariantChecker::new(&subject, SharedShaders::new(&library), &decisions);
+    let causes = causes::find(failures, &space, &mut checker);
     let further = distinct - causes.len();
     Ok(Report { further_failures: further, ..Report::new(arguments, &subject, &space, found, causes) })
 }

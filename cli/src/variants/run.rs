@@ -2,6 +2,7 @@
 
 use super::axes;
 use super::checker::{CheckedPipeline, VariantChecker, VerifiedPlan};
+use super::decisions::SharedDecisions;
 use super::identity::Identity;
 use super::progress::Progress;
 use super::shaders::SharedShaders;
@@ -80,13 +81,14 @@ pub(crate) fn run(
     subject: &CheckedPipeline<'_>,
     space: &Space,
     library: &Mutex<ShaderLibrary>,
+    decisions: &SharedDecisions,
     threads: usize,
     progress: &Progress,
 ) -> Findings {
     let batch = (space.len() / (threads * BATCHES)).clamp(1, LARGEST_BATCH);
     let next = AtomicUsize::new(0);
     let work = || {
-        let mut checker = VariantChecker::new(subject, SharedShaders::new(library));
+        let mut checker = VariantChecker::new(subject, SharedShaders::new(library), decisions);
         let mut found = Findings::default();
         loop {
             let from = next.fetch_add(batch, Ordering::Relaxed);
