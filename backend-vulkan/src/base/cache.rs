@@ -74,7 +74,7 @@ impl Cache {
     /// Removes the files of each kind, and says how many it removed. Other processes may write at the same time.
     ///
     /// # Errors
-    /// The first file or folder that can't be listed or removed; all others are removed nonetheless.
+    /// The first file or folder that can't be listed or removed; other kinds are cleared nonetheless.
     pub fn clear(&self) -> io::Result<Vec<CachedFiles>> {
         let mut first = Ok(());
         let removed = KINDS.map(|kind| {

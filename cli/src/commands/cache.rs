@@ -10,7 +10,7 @@ use std::path::Path;
 #[derive(Debug, Serialize)]
 struct Answer {
     format_version: u32,
-    /// Where they are kept; nothing if the user has no home folder.
+    /// Where they are kept; `null` if the user has no home folder.
     folder: Option<String>,
     cleared: bool,
     kinds: Vec<Entry>,
@@ -52,7 +52,7 @@ fn look(cache: &Cache, clear: bool) -> Result<Vec<CachedFiles>, Error> {
 
 fn words(folder: Option<&Path>, found: &[CachedFiles], cleared: bool) -> String {
     let Some(folder) = folder else {
-        return "nothing is kept: neither `XDG_CACHE_HOME` nor `HOME` is set\n".to_owned();
+        return "nothing is kept: neither `XDG_CACHE_HOME` nor `HOME` is an absolute path\n".to_owned();
     };
     let done = if cleared { "removed from" } else { "kept in" };
     let kinds = found.iter().map(|CachedFiles { kind, files, bytes }| {

@@ -102,3 +102,41 @@ fn parts_of(fact: Fact) -> Vec<Fact> {
         fact => vec![fact],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_graph::base::Diagnostic;
+
+    fn verdict(words: &str) -> Verdict {
+        Err(vec![Diagnostic::nowhere(words)])
+    }
+
+    fn words(found: Option<Verdict>) -> Option<String> {
+        found.map(|verdict| verdict.expect_err("a mistake")[0].message.clone())
+    }
+
+    #[test]
+    fn variants_that_agree_on_what_was_read_share_a_verdict_and_others_do_not() {
+        let known = SharedDecisions::of(2);
+        known.add(0, &[0, 1, 0], &[1], verdict("one"));
+        known.add(0, &[0, 0, 2], &[1, 2], verdict("two"));
+        let find = |device: usize, choice: [usize; 3]| words(known.find(device, &choice));
+        assert_eq!([find(0, [0, 1, 0]), find(0, [7, 1, 5])], [Some("one".to_owned()), Some("one".to_owned())]);
+        assert_eq!([find(0, [3, 0, 2]), find(0, [3, 0, 1])], [Some("two".to_owned()), None]);
+        assert_eq!([find(0, [0, 2, 0]), find(1, [0, 1, 0])], [None, None]);
+        // The first verdict stays, and another order of reads says nothing.
+        known.add(0, &[7, 1, 5], &[1], verdict("three"));
+        known.add(0, &[0, 0, 1], &[2], verdict("four"));
+        assert_eq!([find(0, [7, 1, 5]), find(0, [0, 0, 1])], [Some("one".to_owned()), None]);
+    }
+
+    #[test]
+    fn the_number_of_lights_reads_both_of_its_parts_and_what_does_not_vary_is_no_axis() {
+        let axis = |varied| Axis::new(varied, vec!["0".to_owned(), "1".to_owned()]);
+        let axes =
+            [Varied::Fact(Fact::Suns), Varied::Setting("b".to_owned()), Varied::Fact(Fact::PointLights)].map(axis);
+        let reads = [Read::Setting(1), Read::Fact(Fact::Objects), Read::Fact(Fact::Lights), Read::Setting(0)];
+        assert_eq!(axes_of(&reads, &["a", "b"], &axes), [1, 0, 2]);
+    }
+}

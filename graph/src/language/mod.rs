@@ -11,7 +11,7 @@
 //! The modules, each of which uses only those above it:
 //! - `model`: a pipeline as data, with its settings and presets.
 //! - `inputs`: the surroundings of a pipeline: facts of the scene, the view and the device.
-//! - `scope`: the names of one level of a file; values that are known or asked for, and where they are found.
+//! - `scope`: the names of one level of a file; values of fields, constant or computed at each lowering.
 //! - `entries`: one file per kind of entry: its field table and its reading.
 //! - `compose`: the files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.
 //! - `evaluate`: all entries, repetitions and fragments become the flat lists of the model.

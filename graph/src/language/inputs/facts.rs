@@ -27,8 +27,8 @@ pub struct Facts {
     pub objects: u32,
     /// See [`Fact::Triangles`].
     pub triangles: u64,
-    /// The greatest distance between a camera and anything in the scene, divided by the least near distance of its cameras; at
-    /// least 1. `None`: not known. Formats of depth follow it; pipeline files have no name for it.
+    /// The diameter of the box around all objects and cameras, divided by the least near distance of the cameras; at least 1. So
+    /// it holds for a camera anywhere among them. `None`: not known. Formats of depth follow it; pipeline files have no name for it.
     pub depth_range: Option<f64>,
 }
 

@@ -172,7 +172,7 @@ fn on_step(distance: f64, step: f64) -> bool {
     (steps - steps.round()).abs() <= 1e-9 * steps.abs().max(1.0)
 }
 
-/// The number of steps from `min` to the greatest value. A last step that only rounding takes beyond `max` counts.
+/// The number of steps from `min` to the greatest value that they reach. A last step that only rounding takes beyond `max` counts.
 #[must_use]
 pub fn last_step(min: f64, max: f64, step: f64) -> f64 {
     ((max - min) / step * (1.0 + 1e-9)).floor()

@@ -17,7 +17,8 @@ use std::sync::Arc;
 const MOST_SHOWN: usize = 20;
 
 /// The settings, dumps and size that a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`.
-/// Beside them may stand `//! rotate 90`, `//! eyes 2`, `//! device NAME` and `//! device NAME without FORMAT`.
+/// Beside them may stand `//! rotate 90` and `//! eyes 2`; `//! device NAME` has the file compiled for a shipped device too,
+/// `//! device NAME without FORMAT` for that device without a format.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
     for line in text.lines().map_while(|line| line.strip_prefix("//! ")) {
