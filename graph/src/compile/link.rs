@@ -4,7 +4,7 @@
 
 use super::parts::Grids;
 use crate::base::Diagnostic;
-use crate::frame::{Access, BufferIndex, Effect, Frame, ImageIndex, Pass, Resource};
+use crate::frame::{Access, BufferIndex, Effect, Frame, ImageIndex, Pass, Resource, VisitAccess};
 
 /// The access of one pass to one part of an image, or to a buffer.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +78,7 @@ pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnosti
     starts.push(0);
     for (pass, number) in frame.passes.iter().zip(1_u32..) {
         let first = linker.uses.len();
-        linker.pass(pass);
+        pass.visit_accesses(&mut PassLinker { linker: &mut linker, pass });
         linker.commit(pass, number, first);
         starts.push(linker.uses.len() as u32);
     }
@@ -95,6 +95,35 @@ pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnosti
     if linker.errors.is_empty() { Ok(Linked { uses: linker.uses, starts, needed }) } else { Err(linker.errors) }
 }
 
+/// Links one pass.
+struct PassLinker<'l, 'f> {
+    linker: &'l mut Linker<'f>,
+    pass: &'f Pass,
+}
+
+impl VisitAccess for PassLinker<'_, '_> {
+    #[inline(always)]
+    fn visit(&mut self, access: Access<'_>) {
+        if access.frames_ago() > 0 {
+            return;
+        }
+        let (linker, pass) = (&mut *self.linker, self.pass);
+        let Linker { frame, grids, .. } = *linker;
+        let (number, image, grid) = match access.resource() {
+            Resource::Image(index) => (index.0 as usize, Some(&frame.images[index.0 as usize]), grids.of(index)),
+            Resource::Buffer(index) => (frame.images.len() + index.0 as usize, None, None),
+        };
+        let first = linker.first_part[number];
+        access.for_each_effect(pass, image, |effect| match (image, grid) {
+            (Some(image), Some(grid)) => {
+                let parts = grid.cover(image.part(effect.range));
+                parts.for_each(|part| linker.access(pass, &access, first + part, effect));
+            }
+            _ => linker.access(pass, &access, first, effect),
+        });
+    }
+}
+
 struct Linker<'f> {
     frame: &'f Frame,
     grids: &'f Grids,
@@ -109,27 +138,6 @@ struct Linker<'f> {
 }
 
 impl Linker<'_> {
-    fn pass(&mut self, pass: &Pass) {
-        let (frame, grids) = (self.frame, self.grids);
-        pass.accesses().for_each(|access| {
-            if access.frames_ago() > 0 {
-                return;
-            }
-            let (number, image, grid) = match access.resource() {
-                Resource::Image(index) => (index.0 as usize, Some(&frame.images[index.0 as usize]), grids.of(index)),
-                Resource::Buffer(index) => (frame.images.len() + index.0 as usize, None, None),
-            };
-            let first = self.first_part[number];
-            access.for_each_effect(pass, image, |effect| match (image, grid) {
-                (Some(image), Some(grid)) => {
-                    grid.cover(image.part(effect.range))
-                        .for_each(|part| self.access(pass, &access, first + part, effect));
-                }
-                _ => self.access(pass, &access, first, effect),
-            });
-        });
-    }
-
     fn name(&self, resource: Resource) -> &str {
         match resource {
             Resource::Image(image) => &self.frame.images[image.0 as usize].name,

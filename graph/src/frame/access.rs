@@ -20,6 +20,12 @@ pub(crate) enum Access<'p> {
     ForwardTarget(ImageIndex, Span),
 }
 
+/// Takes all accesses of a pass, one after the other.
+pub(crate) trait VisitAccess {
+    /// Takes the next one. Where it is inlined, it is compiled for each role by itself, and looks up nothing by role.
+    fn visit(&mut self, access: Access<'_>);
+}
+
 /// The effect of an access on one part.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effect {
@@ -45,6 +51,21 @@ impl Pass {
             _ => None,
         };
         images.chain(attachments).chain(others).chain(forwarded.into_iter().flatten())
+    }
+
+    /// Shows `visitor` what [`Pass::accesses`] gives, for those who look at all accesses of all passes.
+    #[inline(always)]
+    pub(crate) fn visit_accesses(&self, visitor: &mut impl VisitAccess) {
+        self.sampled.iter().for_each(|it| visitor.visit(Access::Sampled(it)));
+        self.storage.iter().for_each(|it| visitor.visit(Access::Storage(it)));
+        self.color.iter().for_each(|it| visitor.visit(Access::Color(it)));
+        self.depth.iter().for_each(|it| visitor.visit(Access::Depth(it)));
+        self.buffers.iter().for_each(|it| visitor.visit(Access::Buffer(it)));
+        self.transfers.iter().for_each(|it| visitor.visit(Access::Transfer(it)));
+        if let Work::Forward { from, to, .. } = self.work {
+            visitor.visit(Access::ForwardSource(from, self.span));
+            visitor.visit(Access::ForwardTarget(to, self.span));
+        }
     }
 
     /// Whether the pass relies on the very format of an accessed image: a shader or a program is told the layout of the texels,
@@ -118,6 +139,7 @@ impl Access<'_> {
     }
 
     /// Where it is named.
+    #[inline]
     pub(crate) fn span(&self) -> Span {
         match *self {
             Access::Sampled(it) => it.span,
@@ -140,12 +162,13 @@ impl Access<'_> {
     }
 
     /// Whether it is an attachment.
+    #[inline]
     pub(crate) fn attaches(&self) -> bool {
         matches!(self, Access::Color(_) | Access::Depth(_))
     }
 
     /// Calls `visit` with the effect on each part. `pass`: the pass of this access. `image`: the accessed image, if it is one.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn for_each_effect(&self, pass: &Pass, image: Option<&Image>, mut visit: impl FnMut(Effect)) {
         let (reads, writes) = match (*self, image) {
             (Access::Sampled(it), Some(image)) => {

@@ -5,7 +5,7 @@ use super::demote::Demotions;
 use super::input::Input;
 use super::last_accesses::LastAccesses;
 use crate::base::{Diagnostic, Place, Span};
-use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, Use};
+use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, SubresourceIndex, Use};
 use crate::frame::{ImageIndex, ResolveWay};
 use crate::plan::{Inserted, Note, Stage};
 use crate::vulkan::Subresources;
@@ -19,10 +19,8 @@ pub(super) struct Adapter<'a> {
     pub(super) resource_of: Vec<Option<PhysicalIndex>>,
     /// The same for buffers.
     pub(super) buffer_resource_of: Vec<Option<PhysicalIndex>>,
-    /// For each physical image its resolved copy of one sample and the way of resolving, if a pass asked for one.
-    pub(super) resolved_of: Vec<Option<(ResolveWay, PhysicalIndex)>>,
-    /// For each physical image its depth-only copy of one sample, if a pass asked for one.
-    pub(super) redrawn_of: Vec<Option<PhysicalIndex>>,
+    /// The version that each physical resource holds.
+    pub(super) versions: Vec<Version>,
     /// For each multisampled depth image the operations that wrote its current version.
     pub(super) depth_writers: BTreeMap<PhysicalIndex, Vec<u32>>,
     /// How often each pass is drawn again.
@@ -43,14 +41,26 @@ pub(super) struct Adapter<'a> {
     pub(super) images: u32,
     pub(super) buffers: u32,
     pub(super) adapted: Adapted,
-    /// For each physical image whether a draw wrote it last.
-    pub(super) drawn: Vec<bool>,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
     /// Uses of the current pass.
     pub(super) scratch: Vec<Use>,
     /// Images that the current pass reads and writes: each one, and the copy that it reads.
     pub(super) copies: Vec<(PhysicalIndex, PhysicalIndex)>,
+}
+
+/// The version that a physical resource holds, with all that each use asks of the resource.
+pub(super) struct Version {
+    /// Samples of the image; 1 of a buffer.
+    pub(super) samples: u32,
+    /// The only subresource, or [`Use::SEVERAL`].
+    pub(super) subresource: SubresourceIndex,
+    /// Its resolved copy of one sample and the way of resolving, if a pass asked for one.
+    pub(super) resolved: Option<(ResolveWay, PhysicalIndex)>,
+    /// Its depth-only copy of one sample, if a pass asked for one.
+    pub(super) redrawn: Option<PhysicalIndex>,
+    /// Whether a draw wrote it last.
+    pub(super) drawn: bool,
 }
 
 impl<'a> Adapter<'a> {
@@ -60,8 +70,7 @@ impl<'a> Adapter<'a> {
             input,
             resource_of: vec![None; frame.images.len()],
             buffer_resource_of: vec![None; frame.buffers.len()],
-            resolved_of: Vec::with_capacity(frame.images.len()),
-            redrawn_of: Vec::with_capacity(frame.images.len()),
+            versions: Vec::with_capacity(frame.images.len()),
             depth_writers: BTreeMap::new(),
             redrawn_times: BTreeMap::new(),
             is_output: vec![false; frame.images.len()],
@@ -73,7 +82,6 @@ impl<'a> Adapter<'a> {
             images: 0,
             buffers: 0,
             adapted: Adapted::default(),
-            drawn: Vec::with_capacity(frame.images.len()),
             notes: Vec::new(),
             errors: Vec::new(),
             scratch: Vec::new(),
@@ -83,14 +91,12 @@ impl<'a> Adapter<'a> {
 
     pub(super) fn push(&mut self, kind: OpKind, uses: &[Use]) {
         let start = self.adapted.uses.len() as u32;
-        for used in uses {
-            if used.writes {
-                self.drawn[used.resource as usize] = kind.draws();
-                self.note_depth_writer(used, kind.draws());
-            }
-            let resource = &self.adapted.resources[used.resource as usize];
-            let subresource = if resource.grid.is_none() { resource.first_subresource } else { Use::SEVERAL };
-            self.adapted.uses.push(Use { subresource, ..*used });
+        let versions = &self.versions;
+        let of_parts = |used: &Use| Use { subresource: versions[used.resource as usize].subresource, ..*used };
+        self.adapted.uses.extend(uses.iter().map(of_parts));
+        for used in uses.iter().filter(|used| used.writes) {
+            self.versions[used.resource as usize].drawn = kind.draws();
+            self.note_depth_writer(used, kind.draws());
         }
         let own = if kind.inserted().is_none() { kind.pass() } else { None };
         let side_effect = own.is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
@@ -105,10 +111,27 @@ impl<'a> Adapter<'a> {
     }
 
     /// The number under which a part of an image is known; [`Use::ALL`] if it is all of it.
+    #[inline]
     pub(super) fn range(&mut self, image: ImageIndex, range: Subresources) -> u32 {
-        if range == Subresources::WHOLE && self.input.grids.of(image).is_none() {
+        if self.is_all(image, range) { Use::ALL } else { self.part(image, range) }
+    }
+
+    /// The same for the part that a pass samples.
+    #[inline]
+    pub(super) fn sampled_range(&mut self, image: ImageIndex, range: Subresources) -> u32 {
+        if self.is_all(image, range) {
             return Use::ALL;
         }
+        let range = self.input.frame.images[image.0 as usize].sampled_part(range);
+        self.part(image, range)
+    }
+
+    /// Whether a range is all of an image that is one part, so of one plane.
+    fn is_all(&self, image: ImageIndex, range: Subresources) -> bool {
+        range == Subresources::WHOLE && self.input.grids.of(image).is_none()
+    }
+
+    fn part(&mut self, image: ImageIndex, range: Subresources) -> u32 {
         let image = &self.input.frame.images[image.0 as usize];
         let range = image.part(range);
         if range == image.whole() {

@@ -21,8 +21,10 @@ impl Adapter<'_> {
     /// Notes the operations that wrote the current version of multisampled depth.
     pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
         let Use { resource, contents, role, .. } = *used;
-        let depth = self.adapted.resources[resource as usize].image();
-        if role == Role::Stencil || depth.is_none_or(|image| image.samples == 1 || !image.format.is_depth()) {
+        if role == Role::Stencil || self.samples(resource) == 1 {
+            return;
+        }
+        if !self.adapted.resources[resource as usize].image().is_some_and(|image| image.format.is_depth()) {
             return;
         }
         let op = self.adapted.ops.len() as u32;
@@ -44,7 +46,7 @@ impl Adapter<'_> {
     /// The single-sample depth that drawing the current version of `image` again leaves.
     pub(super) fn redrawn(&mut self, image: ImageIndex, because: String, span: Span) -> Option<PhysicalIndex> {
         let source = self.current(image);
-        if let Some(redrawn) = self.redrawn_of[source as usize] {
+        if let Some(redrawn) = self.versions[source as usize].redrawn {
             return Some(redrawn);
         }
         let declared = &self.input.frame.images[image.0 as usize];
@@ -76,7 +78,7 @@ impl Adapter<'_> {
             let name = self.depth_only_name(pass);
             self.push(OpKind::DepthOnly { pass, name, why: why.clone() }, &uses);
         }
-        self.redrawn_of[source as usize] = Some(target);
+        self.versions[source as usize].redrawn = Some(target);
         Some(target)
     }
 

@@ -132,7 +132,7 @@ impl Adapter<'_> {
         if cut || [from, to].iter().any(|image| images[image.0 as usize].lifetime.outlives_frame()) {
             return false;
         }
-        let Adapter { last_accesses, resource_of, resolved_of, is_output, known_as, adapted, .. } = self;
+        let Adapter { last_accesses, resource_of, versions, is_output, known_as, adapted, .. } = self;
         let after = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
         let held = |image: ImageIndex| resource_of[image.0 as usize] == Some(resource) || image == to;
         let first = match adapted.resources[resource as usize].of {
@@ -144,7 +144,9 @@ impl Adapter<'_> {
         let used = |image: &ImageIndex| after(last_accesses.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
         let resolved = |image: ImageIndex| {
-            resource_of[image.0 as usize].and_then(|held| resolved_of[held as usize]).map(|(_, resolved)| resolved)
+            resource_of[image.0 as usize]
+                .and_then(|held| versions[held as usize].resolved)
+                .map(|(_, resolved)| resolved)
         };
         known.retain(|image| held(*image) || resolved(*image) == Some(resource));
         known.push(to);

@@ -19,8 +19,7 @@ impl Adapter<'_> {
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(resource) = self.sampled(number, pass, sampled) {
-                let range = frame.images[sampled.image.0 as usize].sampled_part(sampled.range);
-                let range = self.range(sampled.image, range);
+                let range = self.sampled_range(sampled.image, sampled.range);
                 uses.push(access::sampled(sampled, entry, resource, range));
             }
         }

@@ -126,7 +126,7 @@ impl Adapter<'_> {
             ResolveShader::Weighted => ResolveWay::Weighted,
         };
         self.push(OpKind::ResolveDraw { by, name, view, why }, &uses);
-        self.resolved_of[source as usize] = Some((way, target));
+        self.versions[source as usize].resolved = Some((way, target));
         target
     }
 
@@ -148,7 +148,7 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let by_draw = if declared.format.aspects().contains(Aspects::STENCIL) {
             "it has stencil beside the depth".to_owned()
-        } else if !self.drawn[source as usize] {
+        } else if !self.versions[source as usize].drawn {
             format!("no draw wrote `{}` last", declared.name)
         } else if let Some(lacks) = lacks(self.input.device, mode, declared.eyes == Some(EyeForm::Layers)) {
             lacks
@@ -171,7 +171,7 @@ impl Adapter<'_> {
             let range = self.range(image, part);
             self.push_transfer(OpKind::Resolve { mode, why: why.clone() }, source, target, range);
         }
-        self.resolved_of[source as usize] = Some((ResolveWay::By(mode), target));
+        self.versions[source as usize].resolved = Some((ResolveWay::By(mode), target));
         target
     }
 
@@ -218,7 +218,7 @@ impl Adapter<'_> {
     /// The resolved copy of an image in a certain way, if there is one: images that are forwarded to each other may ask for
     /// different ways.
     fn resolved_so(&self, source: PhysicalIndex, way: ResolveWay) -> Option<PhysicalIndex> {
-        self.resolved_of[source as usize].filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
+        self.versions[source as usize].resolved.filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
     }
 }
 

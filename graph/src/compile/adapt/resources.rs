@@ -1,6 +1,6 @@
 //! Physical images and buffers: made at their first use, replaced when a version needs another one.
 
-use super::adapter::Adapter;
+use super::adapter::{Adapter, Version};
 use super::demote::copies_samples;
 use crate::compile::model::{Kind, MemorySource, PhysicalIndex, PhysicalResource, Use};
 use crate::compile::parts::Grid;
@@ -49,7 +49,7 @@ impl Adapter<'_> {
 
     /// The samples of a physical image.
     pub(super) fn samples(&self, resource: PhysicalIndex) -> u32 {
-        self.adapted.resources[resource as usize].image().map_or(1, |descriptor| descriptor.samples)
+        self.versions[resource as usize].samples
     }
 
     /// By how much what a physical image holds is turned.
@@ -63,8 +63,9 @@ impl Adapter<'_> {
     /// The physical image that takes the next version: another one if nothing is kept and the last draws moved to fewer
     /// samples.
     pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> PhysicalIndex {
+        let Some(resource) = self.resource_of[image.0 as usize] else { return self.first_resource(image) };
         let wanted = self.input.negotiated.samples(image);
-        if !keeps && self.resource_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
+        if !keeps && self.samples(resource) != wanted {
             let declared = &self.input.frame.images[image.0 as usize];
             let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
             let why = self.reason(because, declared.span);
@@ -76,8 +77,8 @@ impl Adapter<'_> {
     /// The physical image with the current version, which is about to change.
     pub(super) fn continued(&mut self, image: ImageIndex) -> PhysicalIndex {
         let resource = self.current(image);
-        self.resolved_of[resource as usize] = None;
-        self.redrawn_of[resource as usize] = None;
+        let version = &mut self.versions[resource as usize];
+        (version.resolved, version.redrawn) = (None, None);
         resource
     }
 
@@ -185,8 +186,12 @@ impl Adapter<'_> {
             self.input.grids.of(image).cloned(),
         );
         self.adapted.resources[resource as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
-        self.adapted.allocated.extend(declared.allocated.map(|allocated| (resource, allocated)));
-        self.adapted.eyes.extend(declared.eyes.map(|form| (resource, (form, declared.rotation))));
+        if let Some(allocated) = declared.allocated {
+            self.adapted.allocated.insert(resource, allocated);
+        }
+        if let Some(form) = declared.eyes {
+            self.adapted.eyes.insert(resource, (form, declared.rotation));
+        }
         resource
     }
 
@@ -198,10 +203,12 @@ impl Adapter<'_> {
     }
 
     fn add(&mut self, of: Resource, id: u32, kind: Kind, grid: Option<Arc<Grid>>) -> PhysicalIndex {
-        self.resolved_of.push(None);
-        self.redrawn_of.push(None);
-        self.drawn.push(false);
-        let subresources = grid.as_ref().map_or(1, |grid| grid.len());
+        let (subresource, subresources) = match &grid {
+            None => (self.adapted.subresources, 1),
+            Some(grid) => (Use::SEVERAL, grid.len()),
+        };
+        let samples = if let Kind::Image(image) = &kind { image.samples } else { 1 };
+        self.versions.push(Version { samples, subresource, resolved: None, redrawn: None, drawn: false });
         self.adapted.resources.push(PhysicalResource {
             id,
             of,

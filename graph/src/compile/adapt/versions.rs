@@ -89,8 +89,8 @@ impl Adapter<'_> {
             let same = sampled.image == image && sampled.frames_ago == 0 && declared.overlap(sampled.range, range);
             same && (sampled.face == Face::Samples || wanted == 1)
         });
-        let there = self.resource_of[image.0 as usize].is_some() && self.current_samples(image) == wanted;
-        if samples_it && there && self.moves_on(number, image, range, keeps) {
+        let there = || self.resource_of[image.0 as usize].is_some_and(|resource| self.samples(resource) == wanted);
+        if samples_it && there() && self.moves_on(number, image, range, keeps) {
             let because = format!("`{}` samples `{}` while it replaces it", pass.name, declared.name);
             let why = self.reason(because, span);
             return self.replace(image, "next", why, wanted);

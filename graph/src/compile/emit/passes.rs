@@ -124,17 +124,16 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
             (None, None, nothing())
         }
     };
-    let mut planned = bare(name, cause, draw, groups, shader);
-    planned.view = view(results, declared.view);
-    planned.accesses = Vec::with_capacity(uses.len());
+    let (mut accesses, mut buffers) = (Vec::with_capacity(uses.len()), Vec::new());
     for used in uses {
         if results.subjects[used.resource as usize].is_image {
-            let eye = if used.role == Role::Sampled { declared.sampled[used.entry as usize].eye } else { None };
-            planned.accesses.push(Access { eye, ..access(results, used, binding(results, used, declared)) });
+            accesses.push(declared_access(results, used, declared));
         } else {
-            planned.buffers.push(buffer_access(results, used, declared));
+            buffers.push(buffer_access(results, used, declared));
         }
     }
+    let view = view(results, declared.view);
+    let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, groups, shader) };
     if matches!(declared.work, FrameWork::Draw { .. }) {
         drawn(&mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
@@ -246,18 +245,28 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
     }
 }
 
-fn binding(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
+/// The access to an image by the pass that declares it.
+fn declared_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> Access {
     let entry = used.entry as usize;
-    let bound = |name: &Arc<str>, kind| Some(Binding { name: name.clone(), kind, texture: None });
+    let bound = |name: &Arc<str>, kind, texture| Some(Binding { name: name.clone(), kind, texture });
     match used.role {
         Role::Sampled => {
             let sampled = &declared.sampled[entry];
             let texture = sampled.texture.map(|texture| adapted(results, used, texture));
-            Some(Binding { texture, ..bound(&sampled.binding, BindingKind::Sampled(sampled.sampler))? })
+            let binding = bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture);
+            Access { eye: sampled.eye, ..access(results, used, binding) }
         }
-        Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment),
-        Role::Storage => bound(&declared.storage[entry].binding, BindingKind::Storage),
-        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
+        Role::Input => {
+            let binding = bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None);
+            access(results, used, binding)
+        }
+        Role::Storage => {
+            let binding = bound(&declared.storage[entry].binding, BindingKind::Storage, None);
+            access(results, used, binding)
+        }
+        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => {
+            access(results, used, None)
+        }
     }
 }
 
@@ -267,7 +276,8 @@ fn adapted(results: &StageResults<'_>, used: &Use, texture: ImageShape) -> Image
     ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }
 }
 
-/// One access of a pass; load, store and resolve operations are the scope's.
+/// One access of a pass to an image; load, store and resolve operations are the scope's.
+#[inline]
 fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
     let subject = &results.subjects[used.resource as usize];
     let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);

@@ -1,7 +1,7 @@
 //! Demands of passes on the formats of images, and the support of a device for formats.
 
 use crate::device::{FormatSupport, Profile};
-use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work};
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{Format, State, Usage};
 
@@ -37,11 +37,7 @@ impl Needs {
     pub(super) fn of<'f>(frame: &'f Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<Needs> {
         let mut needs = vec![Needs::default(); frame.images.len()];
         for pass in passes {
-            pass.accesses().for_each(|access| {
-                if let Resource::Image(image) = access.resource() {
-                    needs[image.0 as usize].add(access);
-                }
-            });
+            pass.visit_accesses(&mut AddNeeds(&mut needs));
             if let Work::Forward { from, to, .. } = pass.work
                 && is_drawn(frame, from, to)
             {
@@ -53,6 +49,7 @@ impl Needs {
         needs
     }
 
+    #[inline(always)]
     fn add(&mut self, access: Access<'_>) {
         self.usage |= match access {
             Access::Sampled(_) => Usage::SAMPLED,
@@ -88,6 +85,18 @@ impl Needs {
             missing.extend((self.blend && !support.blend).then_some("blending"));
         }
         missing.join(", ")
+    }
+}
+
+/// Adds the needs of accesses to those of each image.
+struct AddNeeds<'n>(&'n mut [Needs]);
+
+impl VisitAccess for AddNeeds<'_> {
+    #[inline(always)]
+    fn visit(&mut self, access: Access<'_>) {
+        if let Resource::Image(image) = access.resource() {
+            self.0[image.0 as usize].add(access);
+        }
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::frame::{
+    Access, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work,
+};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -12,7 +14,21 @@ pub(super) struct Check<'c> {
     pub(super) errors: &'c mut Vec<Diagnostic>,
 }
 
+impl VisitAccess for Check<'_> {
+    #[inline(always)]
+    fn visit(&mut self, access: Access<'_>) {
+        match access.resource() {
+            Resource::Image(image) => self.image(image, &access),
+            Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago(), access.span()),
+        }
+        if access.frames_ago() > 0 && matches!(access, Access::Transfer(used) if used.write) {
+            self.wrong(access.span(), "writes into an earlier frame");
+        }
+    }
+}
+
 impl Check<'_> {
+    #[cold]
     pub(super) fn wrong(&mut self, span: Span, what: &str) {
         self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
     }
@@ -21,15 +37,7 @@ impl Check<'_> {
     pub(super) fn resources(&mut self) -> bool {
         let before = self.errors.len();
         let pass = self.pass;
-        pass.accesses().for_each(|access| {
-            match access.resource() {
-                Resource::Image(image) => self.image(image, &access),
-                Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago(), access.span()),
-            }
-            if access.frames_ago() > 0 && matches!(access, Access::Transfer(used) if used.write) {
-                self.wrong(access.span(), "writes into an earlier frame");
-            }
-        });
+        pass.visit_accesses(self);
         self.errors.len() == before
     }
 
@@ -46,10 +54,11 @@ impl Check<'_> {
         }
     }
 
+    #[inline(always)]
     fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
         let (range, span) = (access.range(), access.span());
         let Some(image) = self.frame.images.get(index.0 as usize) else {
-            return self.wrong(span, &format!("names image number {}, which does not exist", index.0));
+            return self.no_image(index, span);
         };
         if access.frames_ago() > 0 {
             self.history(&image.lifetime, access.frames_ago(), &image.name, span);
@@ -63,6 +72,11 @@ impl Check<'_> {
         if matches!(access, Access::Depth(_)) && !image.format.is_depth() {
             self.wrong(span, "tests depth in an image that has none");
         }
+    }
+
+    #[cold]
+    fn no_image(&mut self, index: ImageIndex, span: Span) {
+        self.wrong(span, &format!("names image number {}, which does not exist", index.0));
     }
 
     fn inside(&mut self, image: &Image, range: Subresources, span: Span) {
@@ -117,14 +131,16 @@ impl Check<'_> {
             _ => {}
         }
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
-        let sampled = pass.sampled.iter().filter(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
-        let storage = pass.storage.iter().filter(|storage| !fits(storage.stages)).map(|storage| &storage.binding);
-        let buffers = pass.buffers.iter().filter(|used| match used.role {
-            BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
-        });
-        let buffers = buffers.map(|used| &self.frame.buffers[used.buffer.0 as usize].name);
-        if let Some(name) = sampled.chain(storage).chain(buffers).next() {
+        let sampled = pass.sampled.iter().find(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
+        let storage = || pass.storage.iter().find(|storage| !fits(storage.stages)).map(|storage| &storage.binding);
+        let buffers = || {
+            let wrong = pass.buffers.iter().find(|used| match used.role {
+                BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
+                BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
+            });
+            wrong.map(|used| &self.frame.buffers[used.buffer.0 as usize].name)
+        };
+        if let Some(name) = sampled.or_else(storage).or_else(buffers) {
             return self.wrong(pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
         }
         if !clears_are_finite(pass) {
