@@ -114,12 +114,16 @@ impl VisitAccess for PassLinker<'_, '_> {
             Resource::Buffer(index) => (frame.images.len() + index.0 as usize, None, None),
         };
         let first = linker.first_part[number];
-        access.for_each_effect(pass, image, |effect| match (image, grid) {
+        if let (Access::Sampled(_), None) = (access, grid) {
+            // The image itself isn't looked at: a large frame has more of them than a cache holds.
+            return linker.access(pass, &access, first, true, false);
+        }
+        access.for_each_effect(pass, image, |Effect { range, reads, writes }| match (image, grid) {
             (Some(image), Some(grid)) => {
-                let parts = grid.cover(image.part(effect.range));
-                parts.for_each(|part| linker.access(pass, &access, first + part, effect));
+                let parts = grid.cover(image.part(range));
+                parts.for_each(|part| linker.access(pass, &access, first + part, reads, writes));
             }
-            _ => linker.access(pass, &access, first, effect),
+            _ => linker.access(pass, &access, first, reads, writes),
         });
     }
 }
@@ -157,7 +161,7 @@ impl Linker<'_> {
 
     /// Notes one access. Later passes alone can read its writes ([`Linker::commit`]).
     #[inline]
-    fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, Effect { reads, writes, .. }: Effect) {
+    fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, reads: bool, writes: bool) {
         if reads && !self.written[part as usize] {
             // Reported once for each part.
             self.written[part as usize] = true;

@@ -1,6 +1,6 @@
 //! Plans that differ in values alone: the memory and the shaders of one serve for the other.
 
-use super::{Attachment, Cause, Fill, Pass, Plan, RenderScope, Side, Transfer, Work};
+use super::{Attachment, Cause, Fill, Pass, Plan, Reason, RenderScope, Side, Transfer, Work};
 use crate::frame::{Groups, ParamValue};
 use crate::vulkan::FillValue;
 
@@ -66,7 +66,7 @@ fn of_scope(scope: &mut RenderScope, changing: bool) {
     let attachments = scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil);
     for Attachment { clear, resolve, because, .. } in attachments {
         *clear = clear.map(|_| [0.0; 4]);
-        because.clear();
+        *because = Reason::from("");
         if let Some(resolve) = resolve {
             resolve.cause = Cause::Written(None);
         }
@@ -76,7 +76,7 @@ fn of_scope(scope: &mut RenderScope, changing: bool) {
 
 fn of_pass(pass: &mut Pass) {
     pass.cause = Cause::Written(None);
-    pass.merged = pass.merged.take().map(|_| String::new());
+    pass.merged = pass.merged.take().map(|_| Reason::from(""));
     pass.params.iter_mut().for_each(|param| param.value = ParamValue::Bool(false));
     pass.groups = pass.groups.map(|groups| match groups {
         Groups::Count(_) => Groups::Count([0; 3]),

@@ -1,6 +1,6 @@
 //! The work of a Plan's steps: rendering scopes, passes, dispatches, resolves, copies, fills.
 
-use super::{BufferId, Cause, ImageId, Resource, ViewId};
+use super::{BufferId, Cause, ImageId, Reason, Resource, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
 use crate::vulkan::{
     Accesses, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
@@ -71,7 +71,7 @@ pub struct Attachment {
     /// Resolve at the end of the scope.
     pub resolve: Option<AttachmentResolve>,
     /// Why these operations.
-    pub because: String,
+    pub because: Reason,
 }
 
 /// A resolve that a rendering scope carries.
@@ -133,7 +133,7 @@ pub struct Pass {
     /// may be drawn over.
     pub local_barrier: bool,
     /// Why it shares its scope with the pass before it.
-    pub merged: Option<String>,
+    pub merged: Option<Reason>,
 }
 
 /// Depth comparison and writing.

@@ -257,13 +257,14 @@ impl Adapter<'_> {
         };
         let declared = &self.input.frame.images[image.0 as usize];
         let count = self.current_samples(image);
-        let because = format!("`{}` is an output and has {count} samples", declared.name);
-        let resource = match count {
-            1 => self.current(image),
-            _ => match self.resolved_as_it_is(image, because, output.span) {
+        let resource = if count == 1 {
+            self.current(image)
+        } else {
+            let because = format!("`{}` is an output and has {count} samples", declared.name);
+            match self.resolved_as_it_is(image, because, output.span) {
                 Some(resolved) => resolved,
                 None => return,
-            },
+            }
         };
         self.leaves(resource, output);
     }

@@ -5,8 +5,8 @@ use super::stage_results::{StageResults, cause};
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
-use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
-use crate::vulkan::{Layout, LoadOp, StoreOp};
+use crate::plan::{Attachment, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
+use crate::vulkan::{Layout, LoadOp};
 
 pub(super) fn scope(results: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(results, scope);
@@ -85,7 +85,7 @@ fn attachment(results: &StageResults<'_>, scope: &Scope, ops: &AttachmentOps, re
         store: ops.store,
         clear: ops.clear,
         resolve: resolve.and_then(|op| attachment_resolve(results, op)),
-        because: format!("{}; {}", load_reason(results, ops), store_reason(results, ops)),
+        because: reason(results, ops),
     }
 }
 
@@ -107,33 +107,18 @@ fn attachment_resolve(results: &StageResults<'_>, number: u32) -> Option<Attachm
     })
 }
 
-fn name<'n>(results: &'n StageResults<'_>, op: u32) -> &'n str {
-    op_name(results.frame, results.adapted, op).map_or("", |name| name)
-}
-
-fn load_reason(results: &StageResults<'_>, ops: &AttachmentOps) -> String {
-    let name = if ops.first == u32::MAX { "" } else { name(results, ops.first) };
-    match ops.load {
-        LoadOp::Clear => format!("`{name}` clears it"),
-        LoadOp::Load => format!("`{name}` continues on what is there"),
-        LoadOp::DontCare => format!("`{name}` covers every pixel"),
-    }
-}
-
-fn store_reason(results: &StageResults<'_>, ops: &AttachmentOps) -> String {
-    let words = match ops.next {
-        Next::Op(op) => match op_name(results.frame, results.adapted, op) {
-            Some(name) => Some(format!("`{name}` uses it next")),
-            None => Some("it is resolved or copied next".to_owned()),
+/// Why an attachment has these operations.
+fn reason(results: &StageResults<'_>, ops: &AttachmentOps) -> Reason {
+    let name = |op: u32| op_name(results.frame, results.adapted, op).cloned();
+    Reason::LoadStore {
+        load: ops.load,
+        first: if ops.first == u32::MAX { None } else { name(ops.first) },
+        store: ops.store,
+        next: match ops.next {
+            Next::Op(op) => name(op).map_or(NextUse::Transfer, NextUse::Pass),
+            Next::After => NextUse::AfterFrame,
+            Next::Replaced => NextUse::Replaced,
+            Next::Nobody => NextUse::Never,
         },
-        Next::After => Some("it outlives the frame".to_owned()),
-        Next::Nobody | Next::Replaced => None,
-    };
-    match (ops.store, words, ops.next) {
-        (StoreOp::Store, Some(words), _) => words,
-        (StoreOp::None, Some(words), _) => format!("only tested here, and {words}"),
-        (StoreOp::None, None, _) => "only tested here".to_owned(),
-        (_, _, Next::Replaced) => "what comes next starts afresh".to_owned(),
-        (_, _, _) => "nobody needs it afterwards".to_owned(),
     }
 }

@@ -1,8 +1,9 @@
-//! The gain of passes that share a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
+//! The gain of passes that share a rendering scope. Its bytes are counted for the Plan: sizes may have changed by then.
 
 use super::step::{Scope, Target, op_name, resource_name};
 use crate::compile::model::{Adapted, Use};
 use crate::frame::Frame;
+use crate::plan::Reason;
 
 /// The gain of a pass by joining the scope before it.
 #[derive(Debug, Clone)]
@@ -29,25 +30,15 @@ impl Gain {
         Gain::ReadLocally(Target::of(adapted, used))
     }
 
-    pub(super) fn words(&self, frame: &Frame, adapted: &Adapted) -> String {
-        let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
-        let name = |target: &Target| resource_name(frame, adapted, target.resource);
+    pub(super) fn reason(&self, frame: &Frame, adapted: &Adapted) -> Reason {
+        let name = |target: &Target| resource_name(frame, adapted, target.resource).clone();
         match self {
-            Gain::Shared { before, attachments } => {
-                let bytes = attachments.iter().map(|target| bytes(adapted, target)).fold(0, u64::saturating_add);
-                let names: Vec<String> = attachments.iter().map(|target| format!("`{}`", name(target))).collect();
-                let before = before.and_then(|op| op_name(frame, adapted, op)).map_or("", |name| name);
-                format!(
-                    "draws into {} like `{before}`: {:.1} MiB need neither be stored nor loaded",
-                    names.join(" and "),
-                    mebibytes(bytes)
-                )
-            }
-            Gain::ReadLocally(target) => format!(
-                "reads `{}` at its own position: {:.1} MiB need not be read from memory",
-                name(target),
-                mebibytes(bytes(adapted, target))
-            ),
+            Gain::Shared { before, attachments } => Reason::SharesAttachments {
+                attachments: attachments.iter().map(name).collect(),
+                before: before.and_then(|op| op_name(frame, adapted, op)).cloned(),
+                bytes: attachments.iter().map(|target| bytes(adapted, target)).fold(0, u64::saturating_add),
+            },
+            Gain::ReadLocally(target) => Reason::ReadsLocally { image: name(target), bytes: bytes(adapted, target) },
         }
     }
 }

@@ -11,7 +11,7 @@ mod trace;
 use super::model::Adapted;
 use crate::device::Profile;
 use crate::frame::Frame;
-use crate::plan::Note;
+use crate::plan::{Note, Reason};
 use builder::Builder;
 use gain::Gain;
 
@@ -28,8 +28,8 @@ pub(super) struct Scoped {
 
 impl Scoped {
     /// Why operation number `op` shares its scope with the one before it.
-    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<String> {
-        Some(self.gains.get(op as usize)?.as_ref()?.words(frame, adapted))
+    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<Reason> {
+        Some(self.gains.get(op as usize)?.as_ref()?.reason(frame, adapted))
     }
 }
 

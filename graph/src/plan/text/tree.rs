@@ -156,7 +156,10 @@ impl Tree<'_> {
         };
         let part = self.part(attachment.image, attachment.range);
         let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];
-        Node::leaf(format!("{place}: {part}, load {load}{clear}, store {store}: {}", Shown(&attachment.because)))
+        Node::leaf(format!(
+            "{place}: {part}, load {load}{clear}, store {store}: {}",
+            Shown(&attachment.because.to_string())
+        ))
     }
 
     fn pass(self, pass: &Pass) -> Node {
@@ -215,7 +218,7 @@ impl Tree<'_> {
             parts.push(Node::leaf(format!("{} = {value}", Shown(&param.name))));
         }
         if let Some(merged) = &pass.merged {
-            parts.push(Node::leaf(format!("in the scope of the pass before: {}", Shown(merged))));
+            parts.push(Node::leaf(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
         }
         Node::new(text, parts)
     }

@@ -127,7 +127,7 @@ pub(crate) fn attachment(image: &Image, layout: Layout, load: LoadOp, store: Sto
         store,
         clear: (load == LoadOp::Clear).then_some([0.0; 4]),
         resolve: None,
-        because: because.to_owned(),
+        because: because.into(),
     }
 }
 
