@@ -20,6 +20,8 @@ mod eyes;
 mod findings;
 mod frames;
 mod memory;
+mod names;
+mod owners;
 mod ownership;
 mod parts;
 mod passes;
