@@ -8,9 +8,10 @@
 //! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and every
 //! write without attachments. Undefined contents stay so, in part, after any other.
 
+use super::lookup::Scope;
 use super::parts::overlap;
 use super::program::Builder;
-use super::scopes::{PairSet, Scope, StageSet};
+use super::scopes::{PairSet, StageSet};
 use super::work::mip_extent;
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};

@@ -3,6 +3,7 @@
 use super::accesses::does;
 use super::clocks::Time;
 use super::findings::{Finding, name};
+use super::program::Access;
 use super::subresources::{Contents, Lost, SubresourceState};
 use super::violation::{Loss, Rule, StepName};
 use super::walk::Walk;
@@ -10,7 +11,7 @@ use crate::plan::StepId;
 
 impl<const Q: usize> SubresourceState<Q> {
     /// The effects of an access now.
-    pub(super) fn change_contents(&mut self, effects: u8, now: Time) {
+    fn change_contents(&mut self, effects: u8, now: Time) {
         if effects & does::FILL != 0 {
             self.contents = Contents::Defined;
             self.filled = now;
@@ -36,11 +37,15 @@ impl<const Q: usize> SubresourceState<Q> {
 }
 
 impl<const Q: usize> Walk<'_, '_, Q> {
-    /// A step reads a part that is not defined.
-    #[cold]
-    pub(super) fn read_late(&mut self, step: StepId, resource: u32, index: usize) {
-        let finding = self.undefined(step, resource, index);
-        self.late.push(finding);
+    /// Checks and updates the contents of a part for an access.
+    #[inline]
+    pub(super) fn contents(&mut self, step: StepId, access: &Access, index: usize) {
+        if access.contents & does::READ != 0 && self.subresources[index].contents != Contents::Defined {
+            let finding = self.undefined(step, access.resource, index);
+            self.late.push(finding);
+        }
+        let now = self.now(step);
+        self.subresources[index].change_contents(access.contents, now);
     }
 
     /// What relies on the contents of a part reads them.

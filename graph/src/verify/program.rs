@@ -6,8 +6,9 @@
 
 use super::accesses::{self, BufferAccess, ImageAccess, Kind};
 use super::findings::{Finding, Findings, role};
+use super::lookup::Scopes;
 use super::parts::{RangeId, Ranges, fits, is_whole};
-use super::scopes::{PairSet, Scopes, StageSet};
+use super::scopes::{PairSet, StageSet};
 use super::violation::{Rule, StepName};
 use crate::plan::{Image, ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId};
 use crate::vulkan::{Accesses, Layout, Sharing, Stages, Subresources, name_of};

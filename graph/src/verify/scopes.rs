@@ -3,7 +3,7 @@
 //! Only accesses that an image or a buffer can have form a pair. The order of the graphics pipeline's stages, and the stages
 //! of each access, are those of the Vulkan specification, chapter "Synchronization and Cache Control".
 
-use crate::vulkan::{Accesses, Stages, Usage};
+use crate::vulkan::{Accesses, Stages};
 
 /// Number of stages.
 pub(super) const STAGES: usize = 13;
@@ -19,29 +19,6 @@ pub(super) struct StageSet(pub(super) u16);
 /// A set of pairs of stage and access.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct PairSet(pub(super) u32);
-
-/// Stages and accesses that a Plan names together, in dense form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Scope {
-    /// Exactly these stages.
-    pub(super) stages: StageSet,
-    /// With what a barrier's source waits for, see [`StageSet::and_earlier`].
-    pub(super) earlier: StageSet,
-    /// With what a barrier's destination holds up, see [`StageSet::and_later`].
-    pub(super) later: StageSet,
-    /// Every pair of one of the stages and one of the accesses.
-    pub(super) pairs: PairSet,
-    /// Whether all flags are known, and each access belongs to one of the stages.
-    pub(super) sound: bool,
-    /// The usages that an image must have for these accesses, other than as an attachment.
-    pub(super) usage: Usage,
-}
-
-/// The dense forms of the last stages and accesses: a Plan names few of them, over and over.
-#[derive(Debug)]
-pub(super) struct Scopes {
-    known: [(Stages, Accesses, Scope); Scopes::KNOWN],
-}
 
 const DRAW_INDIRECT: usize = 0;
 const VERTEX_INPUT: usize = 1;
@@ -277,57 +254,6 @@ impl PairSet {
     }
 }
 
-impl Scope {
-    #[inline(never)]
-    fn of(stages: Stages, accesses: Accesses) -> Scope {
-        let known = Stages::from_bits(stages.bits()).is_some() && Accesses::from_bits(accesses.bits()).is_some();
-        let set = StageSet::of(stages);
-        Scope {
-            stages: set,
-            earlier: set.and_earlier(),
-            later: set.and_later(),
-            pairs: PairSet::of(stages, accesses),
-            sound: known && impossible(stages, accesses).is_empty(),
-            usage: usage(accesses),
-        }
-    }
-}
-
-impl Scopes {
-    const KNOWN: usize = 32;
-
-    pub(super) fn new() -> Scopes {
-        let (stages, accesses) = (Stages::empty(), Accesses::empty());
-        Scopes { known: [(stages, accesses, Scope::of(stages, accesses)); Scopes::KNOWN] }
-    }
-
-    /// The dense form of `stages` and `accesses`.
-    #[inline]
-    pub(super) fn of(&mut self, stages: Stages, accesses: Accesses) -> Scope {
-        // Odd factors with bits all over mix the few bits that are set; the highest ones depend on all of them.
-        let mixed = stages.bits().wrapping_mul(0x9e37_79b1) ^ accesses.bits().wrapping_mul(0x85eb_ca77);
-        let known = &mut self.known[(mixed >> (u32::BITS - Scopes::KNOWN.ilog2())) as usize];
-        if (known.0, known.1) != (stages, accesses) {
-            *known = (stages, accesses, Scope::of(stages, accesses));
-        }
-        known.2
-    }
-}
-
-fn usage(accesses: Accesses) -> Usage {
-    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
-    [
-        (Accesses::SHADER_SAMPLED_READ, Usage::SAMPLED),
-        (storage, Usage::STORAGE),
-        (Accesses::INPUT_ATTACHMENT_READ, Usage::INPUT_ATTACHMENT),
-        (Accesses::TRANSFER_READ, Usage::TRANSFER_SRC),
-        (Accesses::TRANSFER_WRITE, Usage::TRANSFER_DST),
-    ]
-    .into_iter()
-    .filter(|(those, _)| accesses.intersects(*those))
-    .fold(Usage::empty(), |all, (_, usage)| all | usage)
-}
-
 /// The stage of a pair.
 pub(super) fn stage_of(pair: usize) -> usize {
     PAIR[pair].0
@@ -416,17 +342,5 @@ mod tests {
         assert_eq!(all.0.count_ones() as usize, PAIRS);
         let reads = PairSet::of(Stages::ALL_COMMANDS, Accesses::MEMORY_READ);
         assert!(reads.writes().is_empty());
-    }
-
-    #[test]
-    fn what_was_asked_before_changes_no_answer() {
-        let mut scopes = Scopes::new();
-        for _ in 0..2 {
-            for stages in Stages::all().iter().chain([Stages::empty(), Stages::all()]) {
-                for accesses in Accesses::all().iter().chain([Accesses::empty(), Accesses::all()]) {
-                    assert_eq!(scopes.of(stages, accesses), Scope::of(stages, accesses), "{stages:?} {accesses:?}");
-                }
-            }
-        }
     }
 }

@@ -44,13 +44,13 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     let mut names = Names::new(plan.images.len() + plan.buffers.len());
     for (image, index) in plan.images.iter().zip(0..) {
         check_image(plan, image, found);
-        if !names.insert(&*image.name) {
+        if !names.insert(&image.name) {
             found.structure(None, Some(index), "has the name of another image");
         }
     }
     for (buffer, index) in plan.buffers.iter().zip(buffers..) {
         check_buffer(plan, buffer, index, found);
-        if !names.insert(&*buffer.name) {
+        if !names.insert(&buffer.name) {
             found.structure(None, Some(index), "has the name of another image or buffer");
         }
     }

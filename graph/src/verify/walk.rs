@@ -1,6 +1,6 @@
 //! The walk over the steps, frame after frame.
 
-use super::accesses::{Kind, does};
+use super::accesses::Kind;
 use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
 use super::findings::{Finding, Findings};
@@ -258,18 +258,9 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             for access in accesses {
                 let mut part = self.begin_access(id, queue, access);
                 while let Some(index) = self.parts.next(&mut part) {
-                    if Q > 1 {
-                        self.use_on(id, queue, access.resource, index);
-                    }
-                    if !self.is_ordered(access, queue, index) {
-                        self.check_access(id, queue, access, index);
-                    }
-                    let state = &mut self.subresources[index];
-                    state.record(queue, access.pairs, now);
-                    if access.contents & does::READ != 0 && state.contents != Contents::Defined {
-                        self.read_late(id, access.resource, index);
-                    }
-                    self.subresources[index].change_contents(access.contents, now);
+                    self.check_access(id, queue, access, index);
+                    self.subresources[index].record(queue, access.pairs, now);
+                    self.contents(id, access, index);
                 }
             }
         }
@@ -285,9 +276,6 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             let writes = access.pairs.reads().is_empty() && !access.pairs.is_empty();
             let mut part = self.begin_access(id, queue, access);
             while let Some(index) = self.parts.next(&mut part) {
-                if Q > 1 {
-                    self.use_on(id, queue, access.resource, index);
-                }
                 self.check_access(id, queue, access, index);
                 if writes {
                     self.subresources[index].rasterised = now;
@@ -297,9 +285,6 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         for access in accesses.iter().filter(|access| !attached(access)) {
             let mut part = self.begin_access(id, queue, access);
             while let Some(index) = self.parts.next(&mut part) {
-                if Q > 1 {
-                    self.use_on(id, queue, access.resource, index);
-                }
                 self.check_access(id, queue, access, index);
                 self.subresources[index].record(queue, access.pairs, now);
             }
@@ -313,10 +298,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         for access in accesses.iter().filter(|access| access.contents != 0) {
             let mut part = self.parts.of(access.resource, access.range);
             while let Some(index) = self.parts.next(&mut part) {
-                if access.contents & does::READ != 0 && self.subresources[index].contents != Contents::Defined {
-                    self.read_late(id, access.resource, index);
-                }
-                self.subresources[index].change_contents(access.contents, now);
+                self.contents(id, access, index);
             }
         }
     }
@@ -330,15 +312,22 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         self.parts.of(access.resource, access.range)
     }
 
-    /// Whether an access finds the layout that it names, and comes after all that it conflicts with.
-    fn is_ordered(&self, access: &Access, queue: u8, index: usize) -> bool {
+    /// Whether a step may access a part: on its queue, in the layout that it names, after all that it conflicts with.
+    #[inline]
+    fn check_access(&mut self, step: StepId, queue: u8, access: &Access, index: usize) {
+        if Q > 1 {
+            self.use_on(step, queue, access.resource, index);
+        }
         let state = &self.subresources[index];
-        let ordered =
-            || before_access(state, &self.clocks, queue, access.stages, access.pairs).is_none() || state.excused;
-        state.layout == access.layout && ordered()
+        let in_order = || before_access(state, &self.clocks, queue, access.stages, access.pairs).is_none();
+        if state.layout != access.layout || !in_order() {
+            self.report_access(step, queue, access, index);
+        }
     }
 
-    fn check_access(&mut self, step: StepId, queue: u8, access: &Access, index: usize) {
+    /// Reports what is wrong with an access, unless it is excused.
+    #[inline(never)]
+    fn report_access(&mut self, step: StepId, queue: u8, access: &Access, index: usize) {
         self.check_layout(step, access.resource, index, access.layout);
         let state = &self.subresources[index];
         let ordered = match access.kind {

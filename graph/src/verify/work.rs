@@ -6,10 +6,10 @@
 use super::accesses::{ATTACHMENT, attachments};
 use super::barriers::planes;
 use super::findings::{Finding, Findings};
+use super::lookup::Scopes;
 use super::names::Names;
 use super::parts::overlap;
 use super::program::{Builder, Program};
-use super::scopes::Scopes;
 use super::violation::{Accessed, Rule, StepName};
 use crate::frame::Draw;
 use crate::plan::names::Shown;
