@@ -1,10 +1,11 @@
 //! Whether the waits and barriers of each step are well formed.
 
+use super::layouts::{planes, usage_for};
 use super::parts::overlap;
 use super::scopes::impossible;
 use super::work::Check;
 use crate::plan::{ImageBarrier, Queue, Step, StepId};
-use crate::vulkan::{Accesses, Aspects, Layout, Sharing, Stages, Usage, name_of};
+use crate::vulkan::{Accesses, Aspects, Layout, Sharing, Stages, name_of};
 
 impl Check<'_, '_> {
     /// Reports malformed waits and barriers before and after the work of a step.
@@ -160,45 +161,5 @@ pub(super) const fn possible(queue: Queue) -> Stages {
         Queue::Graphics => Stages::all(),
         Queue::Compute => transfer.union(Stages::COMPUTE_SHADER).union(Stages::DRAW_INDIRECT),
         Queue::Transfer => transfer,
-    }
-}
-
-/// The planes, of an image that has `planes`, that can be in a layout: where there are depth and stencil each has its own.
-pub(super) fn planes(layout: Layout, planes: Aspects) -> Aspects {
-    let both = Aspects::DEPTH | Aspects::STENCIL;
-    match layout {
-        Layout::ColorAttachmentOptimal | Layout::PresentSrcKhr => planes & Aspects::COLOR,
-        Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal if planes == both => {
-            Aspects::empty()
-        }
-        Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal => planes & both,
-        Layout::DepthAttachmentOptimal | Layout::DepthReadOnlyOptimal if planes != both => Aspects::empty(),
-        Layout::StencilAttachmentOptimal | Layout::StencilReadOnlyOptimal if planes != both => Aspects::empty(),
-        Layout::DepthAttachmentOptimal | Layout::DepthReadOnlyOptimal => Aspects::DEPTH,
-        Layout::StencilAttachmentOptimal | Layout::StencilReadOnlyOptimal => Aspects::STENCIL,
-        Layout::Undefined
-        | Layout::General
-        | Layout::ShaderReadOnlyOptimal
-        | Layout::TransferSrcOptimal
-        | Layout::TransferDstOptimal
-        | Layout::RenderingLocalReadKhr => planes,
-    }
-}
-
-/// The usages of which an image must have one to be in a layout.
-fn usage_for(layout: Layout) -> Usage {
-    match layout {
-        Layout::ColorAttachmentOptimal => Usage::COLOR_ATTACHMENT,
-        Layout::DepthStencilAttachmentOptimal | Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal => {
-            Usage::DEPTH_STENCIL_ATTACHMENT
-        }
-        Layout::DepthStencilReadOnlyOptimal | Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal => {
-            Usage::DEPTH_STENCIL_ATTACHMENT
-        }
-        Layout::ShaderReadOnlyOptimal => Usage::SAMPLED | Usage::INPUT_ATTACHMENT,
-        Layout::TransferSrcOptimal => Usage::TRANSFER_SRC,
-        Layout::TransferDstOptimal => Usage::TRANSFER_DST,
-        Layout::RenderingLocalReadKhr => Usage::INPUT_ATTACHMENT,
-        Layout::Undefined | Layout::General | Layout::PresentSrcKhr => Usage::all(),
     }
 }

@@ -19,6 +19,7 @@ mod dependencies;
 mod eyes;
 mod findings;
 mod frames;
+mod layouts;
 mod lookup;
 mod memory;
 mod names;

@@ -1,7 +1,8 @@
 //! Whether each pass is well formed: its draws or dispatches, and its accesses.
 
 use super::accesses::{ATTACHMENT, attachments};
-use super::barriers::{planes, possible};
+use super::barriers::possible;
+use super::layouts::planes;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};

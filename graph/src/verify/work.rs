@@ -4,8 +4,8 @@
 //! about contents. On the way the steps get their dense form: a Plan is too large to be read several times.
 
 use super::accesses::{ATTACHMENT, attachments};
-use super::barriers::planes;
 use super::findings::{Finding, Findings};
+use super::layouts::planes;
 use super::lookup::Scopes;
 use super::names::Names;
 use super::parts::overlap;
