@@ -48,7 +48,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         self.subresources[index].change_contents(access.contents, now);
     }
 
-    /// What relies on the contents of a part reads them.
+    /// The contents of a part are relied on.
     pub(super) fn read(&mut self, step: StepId, resource: u32, index: usize) {
         if self.subresources[index].contents != Contents::Defined {
             let finding = self.undefined(step, resource, index);
