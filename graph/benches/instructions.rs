@@ -1,9 +1,10 @@
-//! `cargo bench -p framewright-graph --bench instructions`: the instructions that compiling takes, beside the committed
-//! ones. It fails if a graph takes 3 % more, and names the command that accepts the new figures. It needs valgrind.
+//! `cargo bench -p framewright-graph --bench instructions`: the instructions that compiling and checking take, beside the
+//! committed ones. It fails if a graph takes 3 % more, and names the command that accepts the new figures. It needs
+//! valgrind.
 //!
 //! Instructions are counted because time on a busy machine says nothing about a few per cent. Valgrind's callgrind runs
 //! this program once for each row and counts what happens within [`counted`] alone: neither building the graph nor a first
-//! compilation, which fills the allocator's lists, is part of it.
+//! run, which fills the allocator's lists, is part of it.
 //!
 //! `instructions.txt` holds the committed figures. Its first line names the tools that they depend on: the compiler, the
 //! C library (its allocator is counted too), valgrind and the processor's architecture. With other tools the figures can't
@@ -33,7 +34,7 @@ const TOLERANCE: f64 = 0.03;
 const ONLY: &str = "--only";
 
 /// A row of the table, and what is run for it.
-const ROWS: [(&str, fn()); 11] = [
+const ROWS: [(&str, fn()); 13] = [
     ("deferred", || compile(&graphs::deferred())),
     ("chain 100", || compile(&graphs::chain(100))),
     ("chain 1000", || compile(&graphs::chain(1_000))),
@@ -44,7 +45,9 @@ const ROWS: [(&str, fn()); 11] = [
     ("local 1000", || compile(&graphs::local(1_000))),
     ("wide 1000, other values", || compile_again(changed::with_values, Reuse::Placement)),
     ("wide 1000, other sizes", || compile_again(changed::with_sizes, Reuse::Structure)),
-    ("wide 1000, verify", verify_plan),
+    ("deferred, verify", || check(&graphs::deferred())),
+    ("chain 1000, verify", || check(&graphs::chain(1_000))),
+    ("wide 1000, verify", || check(&graphs::wide(1_000))),
 ];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -135,10 +138,10 @@ fn compile_again(changed: fn(&Frame) -> Frame, expected: Reuse) {
     assert!(compiler.reuse() >= expected, "{expected:?} was to be reused, not {:?}", compiler.reuse());
 }
 
-fn verify_plan() {
+/// Checks the Plan of a frame.
+fn check(frame: &Frame) {
     let device = graphs::device();
-    let frame = graphs::wide(1_000);
-    let compiled = framewright_graph::compile::compile(&frame, &device, &mut Estimated(&device), &Options::default());
+    let compiled = framewright_graph::compile::compile(frame, &device, &mut Estimated(&device), &Options::default());
     let plan = compiled.expect("the graph is valid");
     black_box(verify(&plan));
     black_box(counted(|| verify(&plan)));

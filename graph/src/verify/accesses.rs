@@ -8,6 +8,7 @@
 //! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and every
 //! write without attachments. Undefined contents stay so, in part, after any other.
 
+use super::lookup::Scope;
 use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
@@ -89,6 +90,17 @@ pub(super) fn list(work: &Work, to: &mut Builder) {
     }
 }
 
+/// About how many accesses `work` makes.
+pub(super) fn expected(work: &Work) -> usize {
+    let of_pass = |pass: &Pass| pass.accesses.len() + pass.buffers.len();
+    match work {
+        Work::Render(scope) => 3 * attachments(scope).count() + scope.passes.iter().map(of_pass).sum::<usize>(),
+        Work::Dispatch(pass) | Work::Custom(pass) => of_pass(pass),
+        Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) => 2,
+        Work::Export => 0,
+    }
+}
+
 fn both(transfer: &Transfer, stages: Stages, to: &mut Builder) {
     let access = Accesses::TRANSFER_READ;
     side(
@@ -114,7 +126,7 @@ fn written(target: &Side, stages: Stages, to: &mut Builder) {
 }
 
 fn side(side: &Side, stages: Stages, accesses: Accesses, usage: [u32; 2], contents: u8, to: &mut Builder) {
-    let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
+    let Scope { stages, pairs, .. } = to.scopes.of(stages, accesses);
     match *side {
         Side::Image { image, range, layout, .. } => {
             let usage = Usage::from_bits_truncate(usage[0]);
@@ -147,7 +159,7 @@ fn render(scope: &RenderScope, to: &mut Builder) {
         if local && attachment.load != LoadOp::Load {
             to.drawn.push((attachment.image, attachment.range));
         }
-        to.image(attached(attachment, is_color, stages, accesses, contents));
+        attached(attachment, is_color, stages, accesses, contents, to);
     }
     for pass in &scope.passes {
         pass_accesses(pass, Some(scope), to);
@@ -162,9 +174,9 @@ fn render(scope: &RenderScope, to: &mut Builder) {
     for (attachment, is_color) in attachments(scope) {
         if let Some(resolve) = &attachment.resolve {
             let output = Stages::COLOR_ATTACHMENT_OUTPUT;
-            to.image(attached(attachment, is_color, output, Accesses::COLOR_ATTACHMENT_READ, does::READ));
+            attached(attachment, is_color, output, Accesses::COLOR_ATTACHMENT_READ, does::READ, to);
             let part = (resolve.image, resolve.range, resolve.layout);
-            to.image(part_attached(part, is_color, output, Accesses::COLOR_ATTACHMENT_WRITE, does::FILL));
+            part_attached(part, is_color, output, Accesses::COLOR_ATTACHMENT_WRITE, does::FILL, to);
         }
     }
     for (attachment, is_color) in attachments(scope) {
@@ -178,7 +190,7 @@ fn render(scope: &RenderScope, to: &mut Builder) {
             StoreOp::DontCare => (stages, write, does::NOT_STORE),
             StoreOp::None => (Stages::empty(), Accesses::empty(), does::STORE_NONE),
         };
-        to.image(attached(attachment, is_color, stages, accesses, contents));
+        attached(attachment, is_color, stages, accesses, contents, to);
     }
 }
 
@@ -187,8 +199,9 @@ const COLOR_LOAD: (Stages, Accesses, Accesses) =
 const DEPTH_LOAD: (Stages, Accesses, Accesses) =
     (Stages::EARLY_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_READ, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8) -> ImageAccess {
-    part_attached((attachment.image, attachment.range, attachment.layout), color, stages, accesses, contents)
+fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8, to: &mut Builder) {
+    let part = (attachment.image, attachment.range, attachment.layout);
+    part_attached(part, color, stages, accesses, contents, to);
 }
 
 fn part_attached(
@@ -197,16 +210,17 @@ fn part_attached(
     stages: Stages,
     accesses: Accesses,
     contents: u8,
-) -> ImageAccess {
+    to: &mut Builder,
+) {
     let usage = if color { Usage::COLOR_ATTACHMENT } else { Usage::DEPTH_STENCIL_ATTACHMENT };
-    let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
-    ImageAccess { image, range, layout, stages, pairs, kind: Kind::Attachment, contents, usage }
+    let Scope { stages, pairs, .. } = to.scopes.of(stages, accesses);
+    to.image(ImageAccess { image, range, layout, stages, pairs, kind: Kind::Attachment, contents, usage });
 }
 
 fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
     for access in &pass.accesses {
         let plan::Access { image, range, layout, .. } = *access;
-        let (stages, pairs) = (StageSet::of(access.stages), PairSet::of(access.stages, access.accesses));
+        let Scope { stages, pairs, mut usage, .. } = to.scopes.of(access.stages, access.accesses);
         let attachment = access.accesses.intersects(ATTACHMENT);
         let own = || to.drawn.iter().any(|(drawn, part)| *drawn == image && overlap(*part, range));
         let kind = match access.accesses {
@@ -222,12 +236,15 @@ fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
             (false, Some(scope)) if whole(scope) => does::FILL,
             (false, Some(_)) => does::ADD,
         };
-        let usage = image_usage(access.accesses, to.plan.image(image).format.is_depth());
+        if attachment {
+            let depth = to.plan.image(image).format.is_depth();
+            usage |= if depth { Usage::DEPTH_STENCIL_ATTACHMENT } else { Usage::COLOR_ATTACHMENT };
+        }
         to.image(ImageAccess { image, range, layout, stages, pairs, kind, contents: read | write, usage });
     }
     for access in &pass.buffers {
         let plan::BufferAccess { buffer, stages, accesses, .. } = *access;
-        let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
+        let Scope { stages, pairs, .. } = to.scopes.of(stages, accesses);
         let read = if pairs.reads().is_empty() { 0 } else { does::READ };
         let write = if pairs.writes().is_empty() { 0 } else { does::FILL };
         let usage = buffer_usage(accesses);
@@ -251,22 +268,6 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
         && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
             || deep && scope.depth.as_ref().is_some_and(same)
             || set && scope.stencil.as_ref().is_some_and(same))
-}
-
-fn image_usage(accesses: Accesses, depth: bool) -> Usage {
-    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
-    let attachment = if depth { Usage::DEPTH_STENCIL_ATTACHMENT } else { Usage::COLOR_ATTACHMENT };
-    [
-        (ATTACHMENT, attachment),
-        (Accesses::SHADER_SAMPLED_READ, Usage::SAMPLED),
-        (storage, Usage::STORAGE),
-        (Accesses::INPUT_ATTACHMENT_READ, Usage::INPUT_ATTACHMENT),
-        (Accesses::TRANSFER_READ, Usage::TRANSFER_SRC),
-        (Accesses::TRANSFER_WRITE, Usage::TRANSFER_DST),
-    ]
-    .into_iter()
-    .filter(|(those, _)| accesses.intersects(*those))
-    .fold(Usage::empty(), |all, (_, usage)| all | usage)
 }
 
 fn buffer_usage(accesses: Accesses) -> BufferUsage {

@@ -1,7 +1,7 @@
 //! The order of steps as clocks: constant work for each barrier, constant work for each question.
 //!
 //! A *time* numbers a step in the walk. For each stage `q` of a queue the clock row says how far back work in `q` that
-//! starts now is ordered: everything in stage `s` of some queue at times below `ordered[queue][s]`. A barrier from stages S
+//! starts now is ordered: everything in stage `s` of some queue at times below its lane. A barrier from stages S
 //! to stages D joins the rows of S (its source scope, and all that an execution dependency chain through S brings along),
 //! sets its own stages to now, and raises the rows of D to that. Chains need no search: they are what joining rows means.
 //! A semaphore is a barrier from everything on one queue to everything on another.
@@ -16,18 +16,15 @@ use super::scopes::{PAIRS, PairSet, STAGES, StageSet, WRITE_PAIRS};
 /// Number of a step in the walk; 0 is before everything.
 pub(super) type Time = u32;
 
-/// Rounded up, so that rows are joined by whole vector instructions.
-const LANES: usize = 16;
-const _: () = assert!(STAGES <= LANES && WRITE_PAIRS <= LANES);
+/// A time for each stage, and then for each pair that writes: whole vector instructions join two rows.
+const LANES: usize = STAGES + WRITE_PAIRS;
+const _: () = assert!(LANES.is_multiple_of(4));
 
-/// A time for each stage, or each pair that writes, of each queue.
-type Row<const Q: usize> = [[Time; LANES]; Q];
-
-/// How far back something is ordered.
+/// How far back something is ordered: everything in a stage at times below its lane, and of each pair that writes everything
+/// made available below its lane; for each queue.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Clock<const Q: usize> {
-    ordered: Row<Q>,
-    available: Row<Q>,
+    times: [[Time; LANES]; Q],
 }
 
 /// The event that made a write available: an image barrier, or a layout change, which makes itself available.
@@ -42,31 +39,36 @@ pub(super) struct Availability {
 }
 
 impl<const Q: usize> Clock<Q> {
-    pub(super) const START: Clock<Q> = Clock { ordered: [[0; LANES]; Q], available: [[0; LANES]; Q] };
+    pub(super) const START: Clock<Q> = Clock { times: [[0; LANES]; Q] };
 
     pub(super) fn join(&mut self, other: &Clock<Q>) {
-        raise(&mut self.ordered, &other.ordered);
-        raise(&mut self.available, &other.available);
+        for (times, others) in self.times.iter_mut().zip(&other.times) {
+            for (time, other) in times.iter_mut().zip(others) {
+                *time = (*time).max(*other);
+            }
+        }
     }
 
     /// Whether work in `stage` of `queue` at `time` comes before.
     pub(super) fn is_after(&self, queue: u8, stage: usize, time: Time) -> bool {
-        reaches(&self.ordered, queue, stage, time)
+        self.times[usize::from(queue)][stage] > time
     }
 
     /// Whether the write `pair` of `queue` at `time` was made available, by more than an image barrier, before.
     pub(super) fn has_available(&self, queue: u8, pair: usize, time: Time) -> bool {
-        reaches(&self.available, queue, pair, time)
+        self.times[usize::from(queue)][STAGES + pair] > time
     }
 
     /// Whether an image barrier comes before.
     pub(super) fn is_after_barrier(&self, barrier: &Availability) -> bool {
-        barrier.stages.iter().any(|stage| reaches(&self.ordered, barrier.queue, stage, barrier.time))
+        let times = &self.times[usize::from(barrier.queue)];
+        barrier.stages.iter().any(|stage| times[stage] > barrier.time)
     }
 
     /// A memory barrier on `queue` with this as its source makes the writes `pairs` available.
     pub(super) fn make_available(&mut self, queue: u8, pairs: PairSet, now: Time) {
-        pairs.writes().iter().for_each(|pair| self.available[usize::from(queue)][pair] = now);
+        let times = &mut self.times[usize::from(queue)][STAGES..];
+        pairs.writes().iter().for_each(|pair| times[pair] = now);
     }
 }
 
@@ -74,33 +76,30 @@ impl<const Q: usize> Clock<Q> {
 #[derive(Debug)]
 pub(super) struct Clocks<const Q: usize> {
     stages: [[Clock<Q>; STAGES]; Q],
-    /// For each pair of each queue: which writes have been made visible to it.
-    visible: [[Row<Q>; PAIRS]; Q],
-    /// For each pair of each queue: which image barriers come before a barrier that made writes visible to it.
-    through: [[Row<Q>; PAIRS]; Q],
+    /// For each pair of each queue: all that comes before the barriers that made writes visible to it, so which image
+    /// barriers do, and which writes they found available.
+    shown: [[Clock<Q>; PAIRS]; Q],
 }
 
 impl<const Q: usize> Clocks<Q> {
     pub(super) fn new() -> Clocks<Q> {
-        let none = [[[[0; LANES]; Q]; PAIRS]; Q];
-        Clocks { stages: [[Clock::START; STAGES]; Q], visible: none, through: none }
+        Clocks { stages: [[Clock::START; STAGES]; Q], shown: [[Clock::START; PAIRS]; Q] }
     }
 
     /// The clock of all that comes before a barrier on `queue` at `now` with the source stages `source`, earlier ones included.
     pub(super) fn before(&self, queue: u8, source: StageSet, now: Time) -> Clock<Q> {
         let queue = usize::from(queue);
-        let mut joined = Clock::START;
-        for stage in source.iter() {
-            joined.join(&self.stages[queue][stage]);
-        }
-        source.iter().for_each(|stage| joined.ordered[queue][stage] = now);
+        let mut stages = source.iter();
+        let mut joined = stages.next().map_or(Clock::START, |first| self.stages[queue][first]);
+        stages.for_each(|stage| joined.join(&self.stages[queue][stage]));
+        source.iter().for_each(|stage| joined.times[queue][stage] = now);
         joined
     }
 
     /// The clock of a wait for all that `queue` was given before `now`: all of it, made available.
     pub(super) fn signal(&self, queue: u8, now: Time) -> Clock<Q> {
         let mut joined = self.before(queue, StageSet::ALL, now);
-        joined.available[usize::from(queue)] = [now; LANES];
+        joined.times[usize::from(queue)][STAGES..].fill(now);
         joined
     }
 
@@ -120,10 +119,7 @@ impl<const Q: usize> Clocks<Q> {
 
     /// Makes the writes that are available in `before` visible to `pairs` of `queue`.
     pub(super) fn show(&mut self, queue: u8, pairs: PairSet, before: &Clock<Q>) {
-        for pair in pairs.iter() {
-            raise(&mut self.visible[usize::from(queue)][pair], &before.available);
-            raise(&mut self.through[usize::from(queue)][pair], &before.ordered);
-        }
+        pairs.iter().for_each(|pair| self.shown[usize::from(queue)][pair].join(before));
     }
 
     /// The clock of work in `stage` of `queue` that starts now.
@@ -138,25 +134,11 @@ impl<const Q: usize> Clocks<Q> {
 
     /// Whether the write `write` of the queue `by` at `time` is visible to `pair` of `queue` without an image barrier.
     pub(super) fn is_visible(&self, queue: u8, pair: usize, by: u8, write: usize, time: Time) -> bool {
-        reaches(&self.visible[usize::from(queue)][pair], by, write, time)
+        self.shown[usize::from(queue)][pair].has_available(by, write, time)
     }
 
     /// Whether writes that this image barrier made available were made visible to `pair` of `queue` after it.
     pub(super) fn is_visible_through(&self, queue: u8, pair: usize, barrier: &Availability) -> bool {
-        let through = &self.through[usize::from(queue)][pair];
-        barrier.stages.iter().any(|stage| reaches(through, barrier.queue, stage, barrier.time))
-    }
-}
-
-/// Whether a row reaches beyond `time` in the lane of `queue`.
-fn reaches<const Q: usize>(row: &Row<Q>, queue: u8, lane: usize, time: Time) -> bool {
-    row[usize::from(queue)][lane] > time
-}
-
-fn raise<const Q: usize>(times: &mut Row<Q>, to: &Row<Q>) {
-    for (times, others) in times.iter_mut().zip(to) {
-        for (time, other) in times.iter_mut().zip(others) {
-            *time = (*time).max(*other);
-        }
+        self.shown[usize::from(queue)][pair].is_after_barrier(barrier)
     }
 }

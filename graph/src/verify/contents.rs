@@ -1,50 +1,66 @@
 //! Whether contents that are read were ever written, and not lost since.
 
 use super::accesses::does;
+use super::clocks::Time;
 use super::findings::{Finding, name};
 use super::program::Access;
-use super::subresources::{Contents, Lost};
+use super::subresources::{Contents, Lost, SubresourceState};
 use super::violation::{Loss, Rule, StepName};
 use super::walk::Walk;
 use crate::plan::StepId;
 
+impl<const Q: usize> SubresourceState<Q> {
+    /// The effects of an access now.
+    fn change_contents(&mut self, effects: u8, now: Time) {
+        if effects & does::FILL != 0 {
+            self.contents = Contents::Defined;
+            self.filled = now;
+        } else if effects & does::ADD != 0 {
+            match self.contents {
+                Contents::Defined => self.filled = now,
+                Contents::Unwritten => self.contents = Contents::InPart(now),
+                Contents::InPart(_) | Contents::Lost(..) => {}
+            }
+        }
+        if effects & (does::NOT_LOAD | does::NOT_STORE | does::STORE_NONE) == 0 {
+            return;
+        }
+        let lost = match self.contents {
+            Contents::Defined if effects & does::NOT_LOAD != 0 => Lost::NotLoaded,
+            Contents::Defined if effects & does::NOT_STORE != 0 => Lost::NotStored,
+            // A store operation `NONE` keeps the contents before the scope, but not the scope's writes.
+            Contents::Defined if effects & does::STORE_NONE != 0 && self.filled == now => Lost::NotStored,
+            _ => return,
+        };
+        self.contents = Contents::Lost(lost, now);
+    }
+}
+
 impl<const Q: usize> Walk<'_, '_, Q> {
-    /// Checks and updates contents for an access.
-    pub(super) fn contents(&mut self, step: StepId, access: &Access) {
+    /// Checks and updates the contents of a part for an access.
+    #[inline]
+    pub(super) fn contents(&mut self, step: StepId, access: &Access, index: usize) {
+        if access.contents & does::READ != 0 && self.subresources[index].contents != Contents::Defined {
+            let finding = self.undefined(step, access.resource, index);
+            self.late.push(finding);
+        }
         let now = self.now(step);
-        let mut part = self.parts.of(access.resource, access.range);
-        while let Some(index) = self.parts.next(&mut part) {
-            if access.contents & does::READ != 0 {
-                self.read(step, access.resource, index);
-            }
-            let state = &mut self.subresources[index];
-            if access.contents & does::FILL != 0 {
-                state.contents = Contents::Defined;
-                state.filled = now;
-            } else if access.contents & does::ADD != 0 {
-                match state.contents {
-                    Contents::Defined => state.filled = now,
-                    Contents::Unwritten => state.contents = Contents::InPart(now),
-                    Contents::InPart(_) | Contents::Lost(..) => {}
-                }
-            }
-            let lost = match state.contents {
-                Contents::Defined if access.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
-                Contents::Defined if access.contents & does::NOT_STORE != 0 => Lost::NotStored,
-                // A store operation `NONE` keeps the contents before the scope, but not the scope's writes.
-                Contents::Defined if access.contents & does::STORE_NONE != 0 && state.filled == now => Lost::NotStored,
-                _ => continue,
-            };
-            state.contents = Contents::Lost(lost, now);
+        self.subresources[index].change_contents(access.contents, now);
+    }
+
+    /// The contents of a part are relied on.
+    pub(super) fn read(&mut self, step: StepId, resource: u32, index: usize) {
+        if self.subresources[index].contents != Contents::Defined {
+            let finding = self.undefined(step, resource, index);
+            self.found.push(finding);
         }
     }
 
-    /// A step reads a part.
-    pub(super) fn read(&mut self, step: StepId, resource: u32, index: usize) {
-        let contents = self.subresources[index].contents;
-        let (rule, other) = match contents {
-            Contents::Defined => return,
-            Contents::Unwritten => {
+    /// The mistake of reading a part that is not defined.
+    #[cold]
+    fn undefined(&mut self, step: StepId, resource: u32, index: usize) -> Finding {
+        let (rule, other) = match self.subresources[index].contents {
+            Contents::Defined | Contents::Unwritten => {
                 let first = self.program.used[resource as usize].steps().map(|[first, _]| first);
                 (Rule::Uninitialised { in_part: false }, first.map(|first| StepName::new(self.plan, first, 0)))
             }
@@ -53,7 +69,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         };
         self.subresources[index].contents = Contents::Defined;
         let (range, bytes) = (self.range(resource, index), self.buffer_bytes(resource));
-        self.found.push(Finding { rule, step, other, resource, range, bytes });
+        Finding { rule, step, other, resource, range, bytes }
     }
 
     fn loss(&self, lost: Lost) -> Loss {

@@ -44,6 +44,7 @@ impl Gap {
 }
 
 /// The dependency that is missing before an access in `stages` of `queue` by `pairs`.
+#[inline]
 pub(super) fn before_access<const Q: usize>(
     state: &SubresourceState<Q>,
     clocks: &Clocks<Q>,
@@ -52,14 +53,21 @@ pub(super) fn before_access<const Q: usize>(
     pairs: PairSet,
 ) -> Option<Gap> {
     if state.write.exists()
+        && !state.write.is_layout_change_for(queue, stages, pairs)
         && let Some(gap) = after_write(&state.write, clocks, queue, stages, pairs)
     {
         return Some(gap);
     }
+    if pairs.writes().is_empty() || state.reads.is_empty() { None } else { after_reads(state, clocks, queue, pairs) }
+}
+
+fn after_reads<const Q: usize>(
+    state: &SubresourceState<Q>,
+    clocks: &Clocks<Q>,
+    queue: u8,
+    pairs: PairSet,
+) -> Option<Gap> {
     let writes = pairs.writes();
-    if writes.is_empty() {
-        return None;
-    }
     state.reads.iter().find_map(|read| {
         let early = |pair: &usize| !clocks.of(queue, stage_of(*pair)).is_after(read.queue, read.stage, read.time);
         let later = by(writes.iter().find(early)?);
@@ -72,6 +80,7 @@ pub(super) fn before_access<const Q: usize>(
     })
 }
 
+#[inline(never)]
 fn after_write<const Q: usize>(
     write: &Write,
     clocks: &Clocks<Q>,

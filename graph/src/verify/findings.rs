@@ -30,6 +30,7 @@ impl<'p> Findings<'p> {
     }
 
     /// Adds a mistake, unless the same rule was broken by the same step on the same image or buffer before.
+    #[cold]
     pub(super) fn push(&mut self, finding: Finding) {
         let Finding { rule, step, other, resource, range, bytes } = finding;
         if self.seen.insert((std::mem::discriminant(&rule), step, resource)) {
@@ -40,6 +41,7 @@ impl<'p> Findings<'p> {
     }
 
     /// Adds a mistake of form.
+    #[cold]
     pub(super) fn structure(&mut self, step: Option<StepId>, resource: Option<u32>, what: impl Into<String>) {
         self.violations.push(Violation {
             rule: Rule::Structure { what: what.into() },

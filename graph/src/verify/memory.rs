@@ -14,19 +14,18 @@
 use super::clocks::Clock;
 use super::dependencies::{Missing, before_access, before_layout_change};
 use super::findings::{Finding, name, role};
+use super::owners::Owners;
 use super::program::Access;
 use super::scopes::PairSet;
 use super::subresources::{Contents, Lost, SubresourceState};
 use super::violation::{Rule, StepName};
 use super::walk::Walk;
-use crate::plan::{Placement, Plan, Role, StepId};
-use std::collections::BTreeMap;
+use crate::plan::{Plan, Role, StepId};
 
 /// The owners of the heaps' bytes. Images and buffers are numbered in one row.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// For each heap: start of a piece → its end and who took it last.
-    owners: Vec<BTreeMap<u64, (u64, u32)>>,
+    owners: Owners,
     /// For each image and buffer: how it stands to its bytes.
     holders: Vec<Holder>,
     /// From whom bytes were taken, one taking after the other.
@@ -57,9 +56,14 @@ pub(super) enum Taking<'t, const Q: usize> {
 
 impl Memory {
     pub(super) fn new(plan: &Plan) -> Memory {
+        let resources = plan.images.len() + plan.buffers.len();
+        let placements = (0..resources as u32).filter_map(|resource| match role(plan, resource) {
+            Role::Transient(placement) => Some((resource, placement)),
+            Role::Persistent { .. } | Role::External { .. } => None,
+        });
         Memory {
-            owners: vec![BTreeMap::new(); plan.heaps.len()],
-            holders: vec![Holder::default(); plan.images.len() + plan.buffers.len()],
+            owners: Owners::new(plan.heaps.len(), resources, placements),
+            holders: vec![Holder::default(); resources],
             predecessors: Vec::new(),
         }
     }
@@ -68,45 +72,14 @@ impl Memory {
     pub(super) fn generation(&self, resource: u32) -> u32 {
         self.holders[resource as usize].generations
     }
-
-    /// Gives the bytes of `placement` to `resource`; who had them before is added to the predecessors.
-    fn take(&mut self, resource: u32, placement: &Placement) {
-        let owners = &mut self.owners[placement.heap as usize];
-        let (start, end) = (placement.offset, placement.offset + placement.bytes);
-        if let Some((until, owner)) = owners.get_mut(&start)
-            && *until == end
-        {
-            let before = std::mem::replace(owner, resource);
-            self.predecessors.extend((before != resource).then_some(before));
-            return;
-        }
-        let first = owners.range(..=start).next_back().map_or(start, |(first, _)| *first);
-        let pieces: Vec<_> = owners
-            .range(first..end)
-            .map(|(from, (to, owner))| (*from, *to, *owner))
-            .filter(|(_, to, _)| *to > start)
-            .collect();
-        let known = self.predecessors.len();
-        for (from, to, owner) in pieces {
-            owners.remove(&from);
-            if from < start {
-                owners.insert(from, (start, owner));
-            }
-            if to > end {
-                owners.insert(end, (to, owner));
-            }
-            if owner != resource && !self.predecessors[known..].contains(&owner) {
-                self.predecessors.push(owner);
-            }
-        }
-        owners.insert(start, (end, resource));
-    }
 }
 
 impl<const Q: usize> Walk<'_, '_, Q> {
     /// An image or buffer takes its bytes, unless it has them.
     pub(super) fn alias(&mut self, step: StepId, resource: u32) {
-        let Role::Transient(placement) = role(self.plan, resource) else { return };
+        if self.program.used[resource as usize].outlives {
+            return;
+        }
         let now = self.now(step);
         let holder = &mut self.memory.holders[resource as usize];
         if std::mem::replace(&mut holder.held, true) {
@@ -115,7 +88,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         holder.generations += 1;
         holder.taken = now;
         let first = self.memory.predecessors.len();
-        self.memory.take(resource, placement);
+        self.memory.owners.take(resource, &mut self.memory.predecessors);
         let mut kept = first;
         for at in first..self.memory.predecessors.len() {
             let owner = self.memory.predecessors[at];

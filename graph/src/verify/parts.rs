@@ -72,15 +72,17 @@ pub(super) fn fits(image: &Image, range: Subresources) -> bool {
         && within(range.base_layer, range.layers, image.layers)
 }
 
+/// Whether a range is all of its image.
+pub(super) fn is_whole(image: &Image, range: Subresources) -> bool {
+    range == Subresources::all(image.format, image.mips, image.layers)
+}
+
 impl Ranges {
-    /// The number of a range that lies within its image.
-    pub(super) fn number(&mut self, image: &Image, range: Subresources) -> RangeId {
-        if range == Subresources::all(image.format, image.mips, image.layers) {
-            return RangeId::WHOLE;
-        }
+    /// The number of a range that lies within its image, and is not all of it.
+    pub(super) fn number(&mut self, image: u32, range: Subresources) -> RangeId {
         // Steps name the same range several times in a row.
-        if self.ranges.last() != Some(&(image.id.0, range)) {
-            self.ranges.push((image.id.0, range));
+        if self.ranges.last() != Some(&(image, range)) {
+            self.ranges.push((image, range));
         }
         RangeId(self.ranges.len() as u32)
     }

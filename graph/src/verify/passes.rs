@@ -1,7 +1,8 @@
 //! Whether each pass is well formed: its draws or dispatches, and its accesses.
 
 use super::accesses::{ATTACHMENT, attachments};
-use super::barriers::{check_scope, planes, possible};
+use super::barriers::possible;
+use super::layouts::planes;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};
@@ -154,7 +155,7 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn access(&mut self, access: &Access, stages: Stages, accesses: Accesses) {
-        check_scope(self.id, Some(access.image.0), access.stages, access.accesses, self.found);
+        self.stages_and_accesses(Some(access.image.0), access.stages, access.accesses);
         if access.stages.is_empty() || access.accesses.is_empty() || !stages.contains(access.stages) {
             self.wrong(access.image, format!("is accessed in {}", name_of(&access.stages)));
         }
@@ -245,7 +246,7 @@ impl<'p> Check<'_, 'p> {
 
     fn buffer(&mut self, access: &BufferAccess, possible: Stages) {
         let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
-        check_scope(self.id, resource, access.stages, access.accesses, self.found);
+        self.stages_and_accesses(resource, access.stages, access.accesses);
         let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
         let (stages, accesses) = match access.role {
             Some(BufferRole::Uniform) => (SHADERS | Stages::COMPUTE_SHADER, Accesses::UNIFORM_READ),

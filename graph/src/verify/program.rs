@@ -6,11 +6,13 @@
 
 use super::accesses::{self, BufferAccess, ImageAccess, Kind};
 use super::findings::{Finding, Findings, role};
-use super::parts::{RangeId, Ranges, fits};
+use super::lookup::Scopes;
+use super::parts::{RangeId, Ranges, fits, is_whole};
 use super::scopes::{PairSet, StageSet};
 use super::violation::{Rule, StepName};
-use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId};
-use crate::vulkan::{Layout, Sharing, Subresources, name_of};
+use crate::plan::{Image, ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId};
+use crate::vulkan::{Accesses, Layout, Sharing, Stages, Subresources, name_of};
+use serde::Serialize;
 
 /// The steps of a Plan.
 #[derive(Debug, Default)]
@@ -34,6 +36,7 @@ pub(super) struct Program {
 #[derive(Debug, Clone, Copy, Default)]
 struct Ends {
     queue: u8,
+    has_attachments: bool,
     waits: u32,
     memory_barriers: u32,
     barriers: u32,
@@ -45,6 +48,8 @@ struct Ends {
 #[derive(Debug, Clone)]
 pub(super) struct Span {
     pub(super) queue: u8,
+    /// Whether some of its accesses are those of attachments.
+    pub(super) has_attachments: bool,
     pub(super) waits: std::ops::Range<usize>,
     pub(super) memory_barriers: std::ops::Range<usize>,
     pub(super) barriers: std::ops::Range<usize>,
@@ -109,6 +114,10 @@ pub(super) struct Used {
     worked: bool,
     /// Whether only one queue at a time may use it.
     pub(super) exclusive: bool,
+    /// Whether the frame has to find or leave it in a stated state.
+    pub(super) outlives: bool,
+    /// The first and last step that the Plan states.
+    stated: [StepId; 2],
 }
 
 impl Used {
@@ -131,6 +140,7 @@ impl Program {
         let range = |start: u32, end: u32| start as usize..end as usize;
         Span {
             queue: end.queue,
+            has_attachments: end.has_attachments,
             waits: range(start.waits, end.waits),
             memory_barriers: range(start.memory_barriers, end.memory_barriers),
             barriers: range(start.releases, end.barriers),
@@ -153,9 +163,12 @@ pub(super) const fn number(queue: Queue) -> u8 {
 pub(super) struct Builder<'b, 'p> {
     pub(super) plan: &'p Plan,
     pub(super) found: &'b mut Findings<'p>,
+    pub(super) scopes: Scopes,
     program: Program,
     step: StepId,
     queue: u8,
+    /// Whether the step at hand accesses attachments.
+    has_attachments: bool,
     /// Whether every range so far is one that its image has.
     fits: bool,
     /// Parts of attachments that the scope at hand has drawn to; only kept where passes may read them in it.
@@ -164,22 +177,49 @@ pub(super) struct Builder<'b, 'p> {
 
 impl<'b, 'p> Builder<'b, 'p> {
     pub(super) fn new(plan: &'p Plan, found: &'b mut Findings<'p>) -> Builder<'b, 'p> {
-        let used = |sharing| {
-            let exclusive = sharing == Sharing::Exclusive;
-            Used { first: u32::MAX, last: 0, queue: 0, last_queue: 0, worked: false, exclusive }
+        let used = |sharing, role: &Role| {
+            let stated = match role {
+                Role::Transient(placement) => Some(placement.lifetime),
+                Role::Persistent { .. } | Role::External { .. } => None,
+            };
+            Used {
+                first: u32::MAX,
+                last: 0,
+                queue: 0,
+                last_queue: 0,
+                worked: false,
+                exclusive: sharing == Sharing::Exclusive,
+                outlives: stated.is_none(),
+                stated: stated.unwrap_or([StepId(0), StepId(u32::MAX)]),
+            }
         };
-        let sharing = plan.images.iter().map(|image| image.sharing).chain(plan.buffers.iter().map(|it| it.sharing));
+        let images = plan.images.iter().map(|image| used(image.sharing, &image.role));
+        let buffers = plan.buffers.iter().map(|buffer| used(buffer.sharing, &buffer.role));
+        let barriers = plan.steps.iter().map(|step| step.image_barriers.len() + step.releases.len()).sum();
+        let accesses = plan.steps.iter().map(|step| accesses::expected(&step.work)).sum();
         let program = Program {
             steps: Vec::with_capacity(plan.steps.len()),
-            used: sharing.map(used).collect(),
+            barriers: Vec::with_capacity(barriers),
+            accesses: Vec::with_capacity(accesses),
+            used: images.chain(buffers).collect(),
             ..Program::default()
         };
-        Builder { plan, found, program, step: StepId(0), queue: 0, fits: true, drawn: Vec::new() }
+        Builder {
+            plan,
+            found,
+            scopes: Scopes::new(),
+            program,
+            step: StepId(0),
+            queue: 0,
+            has_attachments: false,
+            fits: true,
+            drawn: Vec::new(),
+        }
     }
 
     /// Adds the next step.
     pub(super) fn add(&mut self, id: StepId, step: &Step) {
-        (self.step, self.queue) = (id, number(step.queue));
+        (self.step, self.queue, self.has_attachments) = (id, number(step.queue), false);
         self.program.several_queues |= self.queue != 0;
         for wait in &step.waits {
             let stages = StageSet::of(wait.stages);
@@ -187,12 +227,9 @@ impl<'b, 'p> Builder<'b, 'p> {
             self.program.signals.push(wait.step.0);
         }
         for barrier in &step.memory_barriers {
-            self.program.memory_barriers.push(MemoryScopes {
-                from: StageSet::of(barrier.src_stages).and_earlier(),
-                to: StageSet::of(barrier.dst_stages).and_later(),
-                source: PairSet::of(barrier.src_stages, barrier.src_accesses),
-                shown: PairSet::of(barrier.dst_stages, barrier.dst_accesses),
-            });
+            let source = (barrier.src_stages, barrier.src_accesses);
+            let scopes = self.memory_scopes(source, (barrier.dst_stages, barrier.dst_accesses));
+            self.program.memory_barriers.push(scopes);
         }
         step.image_barriers.iter().for_each(|barrier| self.barrier(barrier));
         let barriers = self.program.barriers.len() as u32;
@@ -200,6 +237,7 @@ impl<'b, 'p> Builder<'b, 'p> {
         step.releases.iter().for_each(|barrier| self.barrier(barrier));
         self.program.steps.push(Ends {
             queue: self.queue,
+            has_attachments: self.has_attachments,
             waits: self.program.waits.len() as u32,
             memory_barriers: self.program.memory_barriers.len() as u32,
             barriers,
@@ -218,19 +256,21 @@ impl<'b, 'p> Builder<'b, 'p> {
     fn barrier(&mut self, barrier: &ImageBarrier) {
         let Some(range) = self.range(barrier.image, barrier.range) else { return };
         self.note(barrier.image.0, Some(barrier.range), true);
+        let source = (barrier.src_stages, barrier.src_accesses);
+        let scopes = self.memory_scopes(source, (barrier.dst_stages, barrier.dst_accesses));
         self.program.barriers.push(Barrier {
             image: barrier.image.0,
             range,
-            scopes: MemoryScopes {
-                from: StageSet::of(barrier.src_stages).and_earlier(),
-                to: StageSet::of(barrier.dst_stages).and_later(),
-                source: PairSet::of(barrier.src_stages, barrier.src_accesses),
-                shown: PairSet::of(barrier.dst_stages, barrier.dst_accesses),
-            },
+            scopes,
             old: barrier.old_layout,
             new: barrier.new_layout,
             ownership: barrier.ownership.map(|queues| queues.map(number)),
         });
+    }
+
+    fn memory_scopes(&mut self, source: (Stages, Accesses), destination: (Stages, Accesses)) -> MemoryScopes {
+        let (source, destination) = (self.scopes.of(source.0, source.1), self.scopes.of(destination.0, destination.1));
+        MemoryScopes { from: source.earlier, to: destination.later, source: source.pairs, shown: destination.pairs }
     }
 
     /// Adds an access to an image.
@@ -240,9 +280,9 @@ impl<'b, 'p> Builder<'b, 'p> {
         self.note(image.0, Some(range), false);
         let missing = usage.difference(self.plan.image(image).usage);
         if !missing.is_empty() {
-            let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
-            self.found.structure(Some(self.step), Some(image.0), what);
+            self.not_made_for(image.0, &missing);
         }
+        self.has_attachments |= kind == Kind::Attachment;
         self.program.accesses.push(Access { resource: image.0, range: number, pairs, stages, layout, kind, contents });
     }
 
@@ -253,17 +293,28 @@ impl<'b, 'p> Builder<'b, 'p> {
         self.note(resource, None, false);
         let missing = usage.difference(self.plan.buffers[buffer.0 as usize].usage);
         if !missing.is_empty() {
-            let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
-            self.found.structure(Some(self.step), Some(resource), what);
+            self.not_made_for(resource, &missing);
         }
         let (range, layout, kind) = (RangeId::WHOLE, Layout::Undefined, Kind::Plain);
         self.program.accesses.push(Access { resource, range, pairs, stages, layout, kind, contents });
     }
 
+    #[cold]
+    fn not_made_for(&mut self, resource: u32, missing: &impl Serialize) {
+        let what = format!("is used as {}, which its usage leaves out", name_of(missing));
+        self.found.structure(Some(self.step), Some(resource), what);
+    }
+
+    #[inline]
     fn range(&mut self, image: ImageId, range: Subresources) -> Option<RangeId> {
         let described = self.plan.image(image);
+        if is_whole(described, range) { Some(RangeId::WHOLE) } else { self.part(image, described, range) }
+    }
+
+    #[inline(never)]
+    fn part(&mut self, image: ImageId, described: &Image, range: Subresources) -> Option<RangeId> {
         if fits(described, range) {
-            return Some(self.program.ranges.number(described, range));
+            return Some(self.program.ranges.number(image.0, range));
         }
         self.found.structure(Some(self.step), Some(image.0), format!("has no part {range}"));
         self.fits = false;
@@ -271,26 +322,33 @@ impl<'b, 'p> Builder<'b, 'p> {
     }
 
     /// Barriers may stand before the stated lifetime: whether the memory is free by then is found out on the way.
+    #[inline]
     fn note(&mut self, resource: u32, range: Option<Subresources>, barrier: bool) {
+        let step = self.step;
         let used = &mut self.program.used[resource as usize];
-        if used.steps().is_none() {
-            *used = Used { first: self.step.0, queue: self.queue, ..*used };
-        } else if used.last == self.step.0 && used.worked {
+        if used.worked && used.last == step.0 {
             return;
         }
-        (used.last, used.last_queue, used.worked) = (self.step.0, self.queue, !barrier);
-        if let Role::Transient(placement) = role(self.plan, resource)
-            && (self.step > placement.lifetime[1] || !barrier && self.step < placement.lifetime[0])
-        {
-            let nearest = placement.lifetime[usize::from(self.step > placement.lifetime[1])];
-            self.found.push(Finding {
-                rule: Rule::Lifetime { stated: placement.lifetime },
-                step: self.step,
-                other: Some(StepName::new(self.plan, nearest, 0)),
-                resource,
-                range,
-                bytes: Some([placement.offset, placement.offset.saturating_add(placement.bytes)]),
-            });
+        if used.steps().is_none() {
+            (used.first, used.queue) = (step.0, self.queue);
         }
+        (used.last, used.last_queue, used.worked) = (step.0, self.queue, !barrier);
+        if step > used.stated[1] || !barrier && step < used.stated[0] {
+            self.outside_lifetime(resource, range);
+        }
+    }
+
+    #[cold]
+    fn outside_lifetime(&mut self, resource: u32, range: Option<Subresources>) {
+        let Role::Transient(placement) = role(self.plan, resource) else { return };
+        let nearest = placement.lifetime[usize::from(self.step > placement.lifetime[1])];
+        self.found.push(Finding {
+            rule: Rule::Lifetime { stated: placement.lifetime },
+            step: self.step,
+            other: Some(StepName::new(self.plan, nearest, 0)),
+            resource,
+            range,
+            bytes: Some([placement.offset, placement.offset.saturating_add(placement.bytes)]),
+        });
     }
 }

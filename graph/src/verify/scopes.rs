@@ -80,6 +80,8 @@ const EARLIER: [u16; STAGES] = closure(true);
 const LATER: [u16; STAGES] = closure(false);
 const PAIRS_OF_STAGE: [u32; STAGES] = pairs_of_stages();
 const PAIRS_OF_ACCESS: [u32; 32] = pairs_of_accesses();
+/// The accesses that happen in each stage.
+const ACCESSES_OF_STAGE: [u32; STAGES] = accesses_of_stages();
 
 const fn closure(earlier: bool) -> [u16; STAGES] {
     let mut reach = [0; STAGES];
@@ -118,6 +120,16 @@ const fn pairs_of_stages() -> [u32; STAGES] {
         pair += 1;
     }
     pairs
+}
+
+const fn accesses_of_stages() -> [u32; STAGES] {
+    let mut accesses = [0; STAGES];
+    let mut pair = 0;
+    while pair < PAIRS {
+        accesses[PAIR[pair].0] |= PAIR[pair].1.bits();
+        pair += 1;
+    }
+    accesses
 }
 
 /// The pairs of each access, by the number of its bit.
@@ -160,6 +172,15 @@ impl StageSet {
 
     fn spread(self, reach: &[u16; STAGES]) -> StageSet {
         StageSet(self.iter().fold(0, |set, stage| set | reach[stage]))
+    }
+
+    pub(super) fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether all of `other` is among these.
+    pub(super) fn contains_all(self, other: StageSet) -> bool {
+        other.0 & !self.0 == 0
     }
 
     /// Indices of its stages.
@@ -268,9 +289,9 @@ pub(super) fn impossible(stages: Stages, accesses: Accesses) -> Accesses {
     if stages.contains(Stages::ALL_COMMANDS) {
         return accesses & (Accesses::HOST_READ | Accesses::HOST_WRITE);
     }
-    let pairs = PairSet::of_stages(StageSet::of(stages));
     let any = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
-    pairs.iter().fold(accesses - any, |left, pair| left - PAIR[pair].1)
+    let possible = StageSet::of(stages).iter().fold(any.bits(), |all, stage| all | ACCESSES_OF_STAGE[stage]);
+    accesses.difference(Accesses::from_bits_retain(possible))
 }
 
 fn bits(mut set: u64) -> impl Iterator<Item = usize> {

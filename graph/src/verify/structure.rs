@@ -2,6 +2,7 @@
 
 use super::findings::{Findings, name, role};
 use super::frames::{self, Frames};
+use super::names::Names;
 use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
 use crate::plan::names::Shown;
@@ -40,16 +41,16 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
         }
     }
     let buffers = plan.images.len() as u32;
-    let mut names = HashSet::with_capacity(plan.images.len() + plan.buffers.len());
+    let mut names = Names::new(plan.images.len() + plan.buffers.len());
     for (image, index) in plan.images.iter().zip(0..) {
         check_image(plan, image, found);
-        if !names.insert(&*image.name) {
+        if !names.insert(&image.name) {
             found.structure(None, Some(index), "has the name of another image");
         }
     }
     for (buffer, index) in plan.buffers.iter().zip(buffers..) {
         check_buffer(plan, buffer, index, found);
-        if !names.insert(&*buffer.name) {
+        if !names.insert(&buffer.name) {
             found.structure(None, Some(index), "has the name of another image or buffer");
         }
     }

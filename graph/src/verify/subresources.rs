@@ -138,6 +138,16 @@ impl Write {
         &self.barriers[..usize::from(self.count)]
     }
 
+    /// Whether it is a layout change that its own barrier puts before `stages` of `queue`, and makes visible to `pairs`.
+    pub(super) fn is_layout_change_for(&self, queue: u8, stages: StageSet, pairs: PairSet) -> bool {
+        let last = &self.barriers[usize::from(self.count.saturating_sub(1))];
+        self.pairs.is_empty()
+            && last.queue == queue
+            && last.stages.contains_all(stages)
+            && self.visible.contains_all(pairs)
+            && self.count > 0
+    }
+
     /// Whether image barriers on `queue` have made it visible to all of `pairs`.
     pub(super) fn is_shown(&self, queue: u8, pairs: PairSet) -> bool {
         self.visible.contains_all(pairs)
@@ -173,6 +183,10 @@ impl<const Q: usize> Reads<Q> {
             let times = &self.times[queue];
             self.stages[queue].iter().map(move |stage| Read { queue: queue as u8, stage, time: times[stage] })
         })
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.stages.iter().all(|stages| stages.is_empty())
     }
 
     pub(super) fn clear(&mut self) {

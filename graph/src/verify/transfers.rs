@@ -1,6 +1,6 @@
 //! Whether copies, blits, resolves and fills are well formed.
 
-use super::barriers::planes;
+use super::layouts::planes;
 use super::parts::overlap;
 use super::structure::{fill_fits, is_of_file};
 use super::work::{Check, mip_extent};

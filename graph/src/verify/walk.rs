@@ -3,15 +3,15 @@
 use super::accesses::Kind;
 use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
-use super::findings::{Finding, Findings, role};
+use super::findings::{Finding, Findings};
 use super::frames::Frames;
 use super::memory::{Memory, Taking};
-use super::parts::SubresourceMap;
+use super::parts::{Part, SubresourceMap};
 use super::program::{Access, Barrier, Program, Span};
 use super::scopes::{PairSet, StageSet};
 use super::subresources::{Contents, Lost, Owner, SubresourceState, Write};
 use super::violation::{Rule, StepName};
-use crate::plan::{Plan, Role, StepId};
+use crate::plan::{Plan, StepId};
 use crate::vulkan::{Layout, Subresources};
 
 /// All that is known between two steps.
@@ -24,6 +24,8 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     pub(super) memory: Memory,
     pub(super) clocks: Clocks<Q>,
     pub(super) frame: u32,
+    /// Mistakes of contents in the step at hand: they are reported after those of order.
+    pub(super) late: Vec<Finding>,
     batch: Vec<(Clock<Q>, StageSet, PairSet)>,
     /// For each queue, the clock of all that its semaphores have waited for.
     waited: [Clock<Q>; Q],
@@ -54,6 +56,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             memory: Memory::new(plan),
             clocks: Clocks::new(),
             frame: 0,
+            late: Vec::new(),
             batch: Vec::new(),
             waited: [Clock::START; Q],
             held: Clock::START,
@@ -154,10 +157,11 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     /// Barriers of one call don't order each other, and none finds writes available that another one makes available: they take
     /// effect once all are judged.
     fn take_effect(&mut self, queue: u8, call: &mut Vec<(Clock<Q>, StageSet, PairSet)>) {
-        for (before, stages, shown) in call.drain(..) {
-            self.clocks.hold_up(queue, stages, &before);
-            self.clocks.show(queue, shown, &before);
+        for (before, stages, shown) in &*call {
+            self.clocks.hold_up(queue, *stages, before);
+            self.clocks.show(queue, *shown, before);
         }
+        call.clear();
     }
 
     fn before(&self, queue: u8, stages: StageSet, now: Time) -> Clock<Q> {
@@ -177,7 +181,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
         let generation = self.memory.generation(barrier.image);
         let frame_start = self.frame_start();
-        let outlives = !matches!(role(self.plan, barrier.image), Role::Transient(_));
+        let outlives = self.program.used[barrier.image as usize].outlives;
         let mut part = self.parts.of(barrier.image, barrier.range);
         while let Some(index) = self.parts.next(&mut part) {
             let acquired = Q > 1 && self.own_by_barrier(id, queue, barrier, number, index);
@@ -246,74 +250,118 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     }
 
     fn work(&mut self, id: StepId, span: &Span) {
-        let (now, queue) = (self.now(id), span.queue);
-        let accesses = &self.program.accesses[span.accesses.clone()];
-        // Attachments of a scope are kept in order by rasterisation: its accesses are held against the accesses before
-        // the scope, not against each other, and up to its own first write.
-        for access in accesses.iter().filter(|access| access.kind == Kind::Attachment) {
-            self.access(id, queue, access);
-            if access.pairs.reads().is_empty() && !access.pairs.is_empty() {
-                let mut part = self.parts.of(access.resource, access.range);
+        let (now, queue, program) = (self.now(id), span.queue, self.program);
+        let accesses = &program.accesses[span.accesses.clone()];
+        if span.has_attachments {
+            self.scope(id, queue, accesses);
+        } else {
+            for access in accesses {
+                let mut part = self.begin_access(id, queue, access);
                 while let Some(index) = self.parts.next(&mut part) {
+                    self.check_access(id, queue, access, index);
+                    self.subresources[index].record(queue, access.pairs, now);
+                    self.contents(id, access, index);
+                }
+            }
+        }
+        self.late.drain(..).for_each(|finding| self.found.push(finding));
+    }
+
+    /// The accesses of a rendering scope. Attachments are kept in order by rasterisation: its accesses are held against the
+    /// accesses before the scope, not against each other, and up to its own first write.
+    fn scope(&mut self, id: StepId, queue: u8, accesses: &[Access]) {
+        let now = self.now(id);
+        let attached = |access: &&Access| access.kind == Kind::Attachment;
+        for access in accesses.iter().filter(attached) {
+            let writes = access.pairs.reads().is_empty() && !access.pairs.is_empty();
+            let mut part = self.begin_access(id, queue, access);
+            while let Some(index) = self.parts.next(&mut part) {
+                self.check_access(id, queue, access, index);
+                if writes {
                     self.subresources[index].rasterised = now;
                 }
             }
         }
-        for access in accesses.iter().filter(|access| access.kind != Kind::Attachment) {
-            self.access(id, queue, access);
-            self.record(queue, access, now);
+        for access in accesses.iter().filter(|access| !attached(access)) {
+            let mut part = self.begin_access(id, queue, access);
+            while let Some(index) = self.parts.next(&mut part) {
+                self.check_access(id, queue, access, index);
+                self.subresources[index].record(queue, access.pairs, now);
+            }
         }
-        for access in accesses.iter().filter(|access| access.kind == Kind::Attachment) {
-            self.record(queue, access, now);
+        for access in accesses.iter().filter(attached) {
+            let mut part = self.parts.of(access.resource, access.range);
+            while let Some(index) = self.parts.next(&mut part) {
+                self.subresources[index].record(queue, access.pairs, now);
+            }
         }
         for access in accesses.iter().filter(|access| access.contents != 0) {
-            self.contents(id, access);
+            let mut part = self.parts.of(access.resource, access.range);
+            while let Some(index) = self.parts.next(&mut part) {
+                self.contents(id, access, index);
+            }
         }
     }
 
-    fn access(&mut self, step: StepId, queue: u8, access: &Access) {
+    /// The parts that a step accesses. A buffer may have to take its bytes first.
+    #[inline]
+    fn begin_access(&mut self, step: StepId, queue: u8, access: &Access) -> Part {
         if access.resource as usize >= self.plan.images.len() {
             self.alias_buffer(step, queue, access);
         }
-        let mut part = self.parts.of(access.resource, access.range);
-        while let Some(index) = self.parts.next(&mut part) {
-            if Q > 1 {
-                self.use_on(step, queue, access.resource, index);
-            }
-            self.check_layout(step, access.resource, index, access.layout);
-            let state = &self.subresources[index];
-            let ordered = match access.kind {
-                Kind::Plain => false,
-                Kind::Attachment => state.rasterised == self.now(step),
-                Kind::Local => true,
-            };
-            if !ordered
-                && !state.excused
-                && let Some(gap) = before_access(state, &self.clocks, queue, access.stages, access.pairs)
-            {
-                self.subresources[index].excused = true;
-                self.report(step, access.resource, index, gap.rule(), gap.time);
-            }
+        self.parts.of(access.resource, access.range)
+    }
+
+    /// Whether a step may access a part: on its queue, in the layout that it names, after all that it conflicts with.
+    #[inline]
+    fn check_access(&mut self, step: StepId, queue: u8, access: &Access, index: usize) {
+        if Q > 1 {
+            self.use_on(step, queue, access.resource, index);
+        }
+        let state = &self.subresources[index];
+        let in_order = || before_access(state, &self.clocks, queue, access.stages, access.pairs).is_none();
+        if state.layout != access.layout || !in_order() {
+            self.report_access(step, queue, access, index);
         }
     }
 
-    fn record(&mut self, queue: u8, access: &Access, now: Time) {
-        let mut part = self.parts.of(access.resource, access.range);
-        while let Some(index) = self.parts.next(&mut part) {
-            self.subresources[index].record(queue, access.pairs, now);
+    /// Reports what is wrong with an access, unless it is excused.
+    #[inline(never)]
+    fn report_access(&mut self, step: StepId, queue: u8, access: &Access, index: usize) {
+        self.check_layout(step, access.resource, index, access.layout);
+        let state = &self.subresources[index];
+        let ordered = match access.kind {
+            Kind::Plain => false,
+            Kind::Attachment => state.rasterised == self.now(step),
+            Kind::Local => true,
+        };
+        if !ordered
+            && !state.excused
+            && let Some(gap) = before_access(state, &self.clocks, queue, access.stages, access.pairs)
+        {
+            self.subresources[index].excused = true;
+            self.report(step, access.resource, index, gap.rule(), gap.time);
         }
     }
 
+    #[inline]
     pub(super) fn check_layout(&mut self, step: StepId, resource: u32, index: usize, needed: Layout) {
         let state = &mut self.subresources[index];
         let found = std::mem::replace(&mut state.layout, needed);
         if found != needed {
-            state.excused = true;
-            let last = state.last();
-            self.report(step, resource, index, Rule::Layout { found, needed }, last);
+            self.wrong_layout(step, resource, index, Rule::Layout { found, needed });
         }
     }
 
+    #[cold]
+    fn wrong_layout(&mut self, step: StepId, resource: u32, index: usize, rule: Rule) {
+        let state = &mut self.subresources[index];
+        state.excused = true;
+        let last = state.last();
+        self.report(step, resource, index, rule, last);
+    }
+
+    #[cold]
     pub(super) fn report(&mut self, step: StepId, resource: u32, index: usize, rule: Rule, time: Time) {
         let other = self.name_at(time, resource);
         let range = self.range(resource, index);

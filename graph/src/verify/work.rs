@@ -4,8 +4,10 @@
 //! about contents. On the way the steps get their dense form: a Plan is too large to be read several times.
 
 use super::accesses::{ATTACHMENT, attachments};
-use super::barriers;
 use super::findings::{Finding, Findings};
+use super::layouts::planes;
+use super::lookup::Scopes;
+use super::names::Names;
 use super::parts::overlap;
 use super::program::{Builder, Program};
 use super::violation::{Accessed, Rule, StepName};
@@ -15,15 +17,17 @@ use crate::plan::{
     Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
 };
 use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Shape, Stages, StoreOp, Subresources, name_of};
-use std::collections::HashSet;
 
 /// Reports malformed steps; returns the steps in dense form, if they can be followed.
 pub(super) fn check<'p>(plan: &'p Plan, found: &mut Findings<'p>) -> Option<Program> {
     let mut builder = Builder::new(plan, found);
-    let mut names = HashSet::with_capacity(plan.steps.len());
+    let mut names = Names::new(plan.steps.len());
+    let mut calls = vec![0; plan.images.len()];
     for (id, step) in (0..).map(StepId).zip(&plan.steps) {
-        barriers::check(plan, id, step, builder.found);
-        Check { plan, id, queue: step.queue, found: builder.found, names: &mut names }.step(step);
+        let Builder { found, scopes, .. } = &mut builder;
+        let mut check = Check { plan, id, queue: step.queue, found, scopes, names: &mut names, calls: &mut calls };
+        check.waits_and_barriers(step);
+        check.step(step);
         builder.add(id, step);
     }
     builder.finish()
@@ -35,11 +39,15 @@ pub(super) struct Check<'c, 'p> {
     pub(super) id: StepId,
     pub(super) queue: Queue,
     pub(super) found: &'c mut Findings<'p>,
+    pub(super) scopes: &'c mut Scopes,
     /// The passes up to here.
-    names: &'c mut HashSet<&'p str>,
+    names: &'c mut Names<'p>,
+    /// For each image: the last call with a barrier of it. Each step numbers two calls, from 1 on.
+    pub(super) calls: &'c mut [u32],
 }
 
 impl<'p> Check<'_, 'p> {
+    #[cold]
     pub(super) fn wrong(&mut self, image: ImageId, what: impl Into<String>) {
         self.found.structure(Some(self.id), Some(image.0), what);
     }
@@ -50,10 +58,12 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
+    #[cold]
     pub(super) fn wrong_pass(&mut self, pass: &Pass, what: &str) {
         self.found.structure(Some(self.id), None, format!("pass `{}` {what}", Shown(&pass.name)));
     }
 
+    #[cold]
     pub(super) fn wrong_step(&mut self, what: impl Into<String>) {
         self.found.structure(Some(self.id), None, what);
     }
@@ -112,7 +122,7 @@ impl<'p> Check<'_, 'p> {
         let read_only = is_read_only(layout);
         let fits = read_only || layout == Layout::RenderingLocalReadKhr || is_written(layout);
         self.demand(
-            fits && barriers::planes(layout, image.format.aspects()).contains(plane),
+            fits && planes(layout, image.format.aspects()).contains(plane),
             id,
             "can't be an attachment in its layout",
         );
@@ -141,7 +151,7 @@ impl<'p> Check<'_, 'p> {
             (_, false) => mode == ResolveMode::Average,
         };
         self.demand(fits, source.id, "can't be resolved in that mode with its format");
-        let fits = is_written(resolve.layout) && barriers::planes(resolve.layout, format.aspects()).contains(plane);
+        let fits = is_written(resolve.layout) && planes(resolve.layout, format.aspects()).contains(plane);
         self.demand(fits, target.id, "can't be the target of a resolve in its layout");
     }
 
