@@ -5,21 +5,22 @@
 //! cargo run --release --manifest-path tests/peers/Cargo.toml
 //! ```
 //!
-//! Add `-- wide` to measure only what has this in its name, `-- --short` to see that it runs, and `-- --format json` for a
-//! program that reads the figures. vulkano-taskgraph and vk-graph need a Vulkan device; nothing is executed on it but one
-//! empty frame of vk-graph.
+//! Add `-- wide` to measure only what has this in its name, `-- --short` to see that it runs, `-- --long` for graphs of 100,000
+//! passes, and `-- --format json` for a program that reads the figures. vulkano-taskgraph and vk-graph need a Vulkan device;
+//! nothing is executed on it but one frame of vk-graph that draws nothing.
 //!
-//! Each figure is the least of many runs, in microseconds a pass. The systems take turns of some milliseconds, so that other
-//! work on the machine disturbs all of them. A run has two parts, and freeing what came out belongs to neither:
+//! Each figure is the least of many runs, in microseconds a pass: time on the processor, which other work on the machine
+//! interrupts but doesn't lengthen much. The systems take turns of some milliseconds, so that such work disturbs all of them.
+//! A run has two parts, and freeing what came out belongs to neither:
 //!
 //! - **build**: the graph is described in the system's own words. Framewright's part makes the graph and its names. The peers'
 //!   parts read a list of accesses that was made before.
 //! - **compile**: the description becomes an order and barriers. [`systems`] says of each system where this begins and ends, and
 //!   what it does and doesn't do.
 //!
-//! Images are compute-style: sampled reads, storage writes, one mip level, one layer. Each system sees the same images and the
-//! same accesses. A graph of 10,000 passes is deep, and vulkano-taskgraph visits it by recursion: everything runs on a thread
-//! with a large stack.
+//! Passes are compute-style: sampled reads and storage writes of images with one mip level and one layer. Each system sees the
+//! same images and the same accesses. vulkano-taskgraph visits the graph by recursion: everything runs on a thread whose stack
+//! is large enough for chains of 100,000 passes.
 
 mod accesses;
 #[path = "../../../graph/benches/compile/allocator.rs"]
@@ -47,9 +48,12 @@ const STACK_BYTES: usize = 1 << 30;
 struct Arguments {
     /// Parts of names of graphs; none: all graphs.
     graphs: Vec<String>,
-    /// Runs everything twice, and no graph of 10,000 passes.
+    /// Runs everything twice, and no graph of more than 1,000 passes.
     #[arg(long)]
     short: bool,
+    /// Compiles graphs of 100,000 passes, too.
+    #[arg(long, conflicts_with = "short")]
+    long: bool,
     /// The form of the figures.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -93,11 +97,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn run(arguments: &Arguments) -> Result<(), String> {
     let devices = systems::Devices::find();
+    let most_passes = match (arguments.short, arguments.long) {
+        (true, _) => 1_000,
+        (_, true) => 100_000,
+        _ => 10_000,
+    };
     let mut rows = Vec::new();
     for graph in graphs() {
         let name = graph.name();
         let wanted = arguments.graphs.is_empty() || arguments.graphs.iter().any(|part| name.contains(part));
-        if !wanted || (arguments.short && graph.passes > 1_000) {
+        if !wanted || graph.passes > most_passes {
             continue;
         }
         let accesses = Accesses::of(&graph.frame());
@@ -112,7 +121,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 fn graphs() -> Vec<Graph> {
-    let of = |family, make: fn(u32) -> Frame| [100, 1_000, 10_000].map(|passes| Graph { family, passes, make });
+    let of =
+        |family, make: fn(u32) -> Frame| [100, 1_000, 10_000, 100_000].map(|passes| Graph { family, passes, make });
     let deferred = Graph { family: "deferred", passes: 25, make: |_| graphs::deferred() };
     let families = [of("chain", graphs::chain), of("wide", graphs::wide), of("local", graphs::local)];
     std::iter::once(deferred).chain(families.into_iter().flatten()).collect()

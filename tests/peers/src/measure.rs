@@ -1,5 +1,6 @@
 //! The least times of systems that take turns.
 
+use rustix::time::{ClockId, clock_gettime};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,15 @@ pub(crate) trait Candidate {
 
     /// The barriers of the run before, if the system tells.
     fn barriers(&self) -> Option<Barriers>;
+}
+
+/// What `work` returns, and the time that it takes: on the processor, where other work on the machine interrupts it.
+pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let processor = || Duration::try_from(clock_gettime(ClockId::ThreadCPUTime)).expect("processor time is positive");
+    let (processor_before, before) = (processor(), Instant::now());
+    let made = work();
+    let elapsed = before.elapsed();
+    (made, elapsed.min(processor() - processor_before))
 }
 
 /// The two parts of a run.

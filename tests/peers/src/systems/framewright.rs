@@ -4,19 +4,19 @@ use super::About;
 use crate::Graph;
 use crate::changed::with_sizes;
 use crate::graphs::device;
-use crate::measure::{Barriers, Candidate, Times};
+use crate::measure::{Barriers, Candidate, Times, timed};
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 pub(super) const ANEW: About = About {
     system: "framewright",
     package: "framewright-graph",
-    does: "validates the frame, culls passes, orders them, tracks parts of images, shares memory among images, merges barriers, \
-           and writes a Plan with names and reasons",
+    does: "validates the frame, culls passes, orders them, tracks parts of images, shares memory among images, puts \
+           barriers into few calls, and writes a Plan with names and reasons",
     lacks: "no Vulkan object is made: sizes of images in memory are estimates",
 };
 
@@ -42,13 +42,11 @@ impl Anew {
 
 impl Candidate for Anew {
     fn run(&mut self) -> Result<Times, String> {
-        let start = Instant::now();
-        let frame = self.graph.frame();
-        let built = Instant::now();
-        let plan = compile(&frame, &self.device, &mut Estimated(&self.device), &Options::default());
-        let compiled = Instant::now();
+        let (frame, build) = timed(|| self.graph.frame());
+        let (plan, compile) =
+            timed(|| compile(&frame, &self.device, &mut Estimated(&self.device), &Options::default()));
         self.barriers = Some(counted(&plan.map_err(|errors| format!("{errors:?}"))?));
-        Ok(Times { build: Some(built - start), compile: compiled - built })
+        Ok(Times { build: Some(build), compile })
     }
 
     fn barriers(&self) -> Option<Barriers> {
@@ -73,10 +71,9 @@ impl OtherSizes {
 
     fn compile(&mut self) -> Result<Duration, String> {
         self.frames.swap(0, 1);
-        let start = Instant::now();
+        let [frame, _] = &self.frames;
         let memory = &mut Estimated(&self.device);
-        let plan = self.compiler.compile(&self.frames[0], &self.device, memory, &Options::default());
-        let compile = start.elapsed();
+        let (plan, compile) = timed(|| self.compiler.compile(frame, &self.device, memory, &Options::default()));
         self.barriers = Some(counted(plan.map_err(|errors| format!("{errors:?}"))?));
         Ok(compile)
     }

@@ -9,6 +9,7 @@ use crate::Graph;
 use crate::accesses::Accesses;
 use crate::measure::Candidate;
 use barrier_calls::Driver;
+use vulkano::Origin;
 
 /// What a system does in the part "compile", and what it doesn't do.
 pub(crate) struct About {
@@ -21,8 +22,8 @@ pub(crate) struct About {
 }
 
 /// All systems, in the order of [`candidates`].
-pub(crate) const ALL: [About; 5] =
-    [framewright::ANEW, framewright::OTHER_SIZES, vulkano::TASKGRAPH, vk_graph::SKIPPED, vk_graph::CALLED];
+pub(crate) const ALL: [About; 6] =
+    [framewright::ANEW, framewright::OTHER_SIZES, vulkano::GIVEN, vulkano::FOUND, vk_graph::SKIPPED, vk_graph::CALLED];
 
 /// Devices of the peers. `Err`: why there is none.
 pub(crate) struct Devices {
@@ -46,16 +47,22 @@ pub(crate) fn candidates<'a>(
     graph: Graph,
     accesses: &'a Accesses,
     devices: &'a Devices,
-) -> [Result<Box<dyn Candidate + 'a>, String>; 5] {
-    let taskgraph = devices.vulkano.as_ref().map_err(Clone::clone);
+) -> [Result<Box<dyn Candidate + 'a>, String>; 6] {
+    let taskgraph = |origin| -> Result<Box<dyn Candidate + 'a>, String> {
+        let device = devices.vulkano.as_ref().map_err(Clone::clone)?;
+        Ok(Box::new(vulkano::Taskgraph::new(device, accesses, origin)))
+    };
     let commands = devices.vk_graph.as_ref().map_err(Clone::clone);
     let commands = commands.and_then(|device| vk_graph::Commands::new(device, accesses));
-    let with = |driver| commands.clone().map(|commands| vk_graph::Recorded { commands, driver });
+    let recorded = |driver| -> Result<Box<dyn Candidate + 'a>, String> {
+        Ok(Box::new(vk_graph::Recorded { commands: commands.clone()?, driver }))
+    };
     [
         Ok(Box::new(framewright::Anew::new(graph))),
         Ok(Box::new(framewright::OtherSizes::new(graph))),
-        taskgraph.map(|device| Box::new(vulkano::Taskgraph::new(device, accesses)) as Box<dyn Candidate>),
-        with(Driver::Skipped).map(|recorded| Box::new(recorded) as Box<dyn Candidate>),
-        with(Driver::Called).map(|recorded| Box::new(recorded) as Box<dyn Candidate>),
+        taskgraph(Origin::Given),
+        taskgraph(Origin::Found),
+        recorded(Driver::Skipped),
+        recorded(Driver::Called),
     ]
 }

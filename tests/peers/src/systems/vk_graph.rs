@@ -3,11 +3,10 @@
 use super::About;
 use super::barrier_calls::{self, Driver};
 use crate::accesses::Accesses;
-use crate::measure::{Barriers, Candidate, Times};
+use crate::measure::{Barriers, Candidate, Times, timed};
 use ash::vk;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::Instant;
 use vk_graph::Graph;
 use vk_graph::driver::cmd_buf::{CommandBuffer, CommandBufferInfo};
 use vk_graph::driver::device::Device as VulkanDevice;
@@ -91,7 +90,7 @@ impl<'a> Commands<'a> {
         let images: Vec<_> = self.images.iter().map(|image| graph.bind_resource(image)).collect();
         for pass in &self.accesses.passes {
             let mut command = graph.begin_cmd();
-            let mut access = |image: usize, access| command.set_resource_access(images[image], access);
+            let mut access = |image: u32, access| command.set_resource_access(images[image as usize], access);
             let sample = AccessType::ComputeShaderReadSampledImageOrUniformTexelBuffer;
             pass.sampled.iter().for_each(|image| access(*image, sample));
             pass.written.iter().for_each(|image| access(*image, AccessType::ComputeShaderWrite));
@@ -115,14 +114,11 @@ impl Candidate for Recorded<'_> {
         barrier_calls::begin(self.driver);
         let once = vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT;
         buffer.begin(&vk::CommandBufferBeginInfo::default().flags(once)).map_err(|error| error.to_string())?;
-        let start = Instant::now();
-        let graph = self.commands.graph();
-        let built = Instant::now();
-        let recording = graph.finalize().record(&mut pool, buffer.as_ref(), RecordSelection::All);
-        let times = Times { build: Some(built - start), compile: built.elapsed() };
+        let (graph, build) = timed(|| self.commands.graph());
+        let (recording, compile) = timed(|| graph.finalize().record(&mut pool, buffer.as_ref(), RecordSelection::All));
         recording.map(drop).map_err(|error| error.to_string())?;
         buffer.end().map_err(|error| error.to_string())?;
-        Ok(times)
+        Ok(Times { build: Some(build), compile })
     }
 
     fn barriers(&self) -> Option<Barriers> {

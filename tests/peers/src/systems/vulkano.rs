@@ -1,12 +1,12 @@
 //! vulkano-taskgraph: a graph of tasks and edges becomes an executable graph.
 
 use super::About;
-use crate::accesses::Accesses;
-use crate::measure::{Barriers, Candidate, Times};
+use crate::accesses::{Accesses, Edges};
+use crate::measure::{Barriers, Candidate, Times, timed};
 use ash::vk;
 use std::marker::PhantomData;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::Duration;
 use vulkano::VulkanLibrary;
 use vulkano::device::{Device as VulkanDevice, DeviceCreateInfo, Queue, QueueCreateInfo, QueueFlags};
 use vulkano::format::Format;
@@ -16,13 +16,29 @@ use vulkano_taskgraph::QueueFamilyType;
 use vulkano_taskgraph::graph::{CompileInfo, ExecutableTaskGraph, TaskGraph};
 use vulkano_taskgraph::resource::{AccessTypes, ImageLayoutType, Resources, ResourcesCreateInfo};
 
-pub(super) const TASKGRAPH: About = About {
+pub(super) const GIVEN: About = About {
     system: "vulkano-taskgraph",
     package: "vulkano-taskgraph",
     does: "checks that the graph is connected and has no cycle, sorts it by its edges, and finds barriers; images are virtual",
-    lacks: "the caller names the edges; no validation of accesses, no culling, no memory shared, images tracked as a whole, all \
-            first transitions in one call at the begin; recording and executing are not measured",
+    lacks: "the caller finds the edges; no validation of accesses, no culling, no memory shared, no parts of images; recording \
+            and executing are not measured",
 };
+
+pub(super) const FOUND: About = About {
+    system: "taskgraph, edges",
+    package: "vulkano-taskgraph",
+    does: "the same, and before it the edges are found from the accesses, by this program",
+    lacks: "the same, but for the edges",
+};
+
+/// Where edges come from.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Origin {
+    /// They were known before.
+    Given,
+    /// They are found in each run.
+    Found,
+}
 
 /// A queue, and where resources of graphs are registered.
 pub(super) struct Device {
@@ -60,12 +76,14 @@ impl Device {
 pub(super) struct Taskgraph<'a> {
     device: &'a Device,
     accesses: &'a Accesses,
+    edges: Edges,
+    origin: Origin,
     compiled: Option<ExecutableTaskGraph<()>>,
 }
 
 impl<'a> Taskgraph<'a> {
-    pub(super) fn new(device: &'a Device, accesses: &'a Accesses) -> Taskgraph<'a> {
-        Taskgraph { device, accesses, compiled: None }
+    pub(super) fn new(device: &'a Device, accesses: &'a Accesses, origin: Origin) -> Taskgraph<'a> {
+        Taskgraph { device, accesses, edges: accesses.edges(), origin, compiled: None }
     }
 
     fn graph(&self) -> TaskGraph<()> {
@@ -85,17 +103,16 @@ impl<'a> Taskgraph<'a> {
         for pass in passes {
             let task = PhantomData::<fn() -> ()>;
             let mut node = graph.create_task_node("pass", QueueFamilyType::Compute, task);
-            let mut access = |image: usize, types| {
-                node.image_access(images[image], types, ImageLayoutType::Optimal);
+            let mut access = |image: u32, types| {
+                node.image_access(images[image as usize], types, ImageLayoutType::Optimal);
             };
             pass.sampled.iter().for_each(|image| access(*image, AccessTypes::COMPUTE_SHADER_SAMPLED_READ));
             pass.written.iter().for_each(|image| access(*image, write));
             pass.changed.iter().for_each(|image| access(*image, AccessTypes::COMPUTE_SHADER_STORAGE_READ | write));
-            let node = node.build();
-            for before in &pass.after {
-                graph.add_edge(nodes[*before], node).expect("each edge is named once");
-            }
-            nodes.push(node);
+            nodes.push(node.build());
+        }
+        for [before, after] in &self.edges {
+            graph.add_edge(nodes[*before as usize], nodes[*after as usize]).expect("each edge is there once");
         }
         graph
     }
@@ -103,15 +120,16 @@ impl<'a> Taskgraph<'a> {
 
 impl Candidate for Taskgraph<'_> {
     fn run(&mut self) -> Result<Times, String> {
-        let start = Instant::now();
-        let graph = self.graph();
-        let built = Instant::now();
+        let mut finding = Duration::ZERO;
+        if self.origin == Origin::Found {
+            (self.edges, finding) = timed(|| self.accesses.edges());
+        }
+        let (graph, build) = timed(|| self.graph());
         let info = CompileInfo { queues: &[&self.device.queue], ..Default::default() };
         // SAFETY: Edges order all conflicting accesses, and the queue computes. The compiled graph is never executed.
-        let compiled = unsafe { graph.compile(&info) };
-        let times = Times { build: Some(built - start), compile: built.elapsed() };
+        let (compiled, compile) = timed(|| unsafe { graph.compile(&info) });
         self.compiled = Some(compiled.map_err(|error| error.to_string())?);
-        Ok(times)
+        Ok(Times { build: Some(build), compile: finding + compile })
     }
 
     /// Counted in the debug text of the compiled graph, which shows its instructions and barriers.
