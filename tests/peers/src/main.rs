@@ -5,9 +5,9 @@
 //! cargo run --release --manifest-path tests/peers/Cargo.toml
 //! ```
 //!
-//! Add `-- wide` to measure only what has this in its name, `-- --short` to see that it runs, `-- --long` for graphs of 100,000
-//! passes, and `-- --format json` for a program that reads the figures. vulkano-taskgraph and vk-graph need a Vulkan device;
-//! nothing is executed on it but one frame of vk-graph that draws nothing.
+//! Add `-- wide` to measure only what has this in its name, `-- --short` to see that it runs, and `-- --format json` for a
+//! program that reads the figures. vulkano-taskgraph and vk-graph need a Vulkan device; nothing is executed on it but one
+//! frame of vk-graph that draws nothing.
 //!
 //! Each figure is the least of many runs, in microseconds a pass: time on the processor, which other work on the machine
 //! interrupts but doesn't lengthen much. The systems take turns of some milliseconds, so that such work disturbs all of them.
@@ -19,8 +19,8 @@
 //!   what it does and doesn't do.
 //!
 //! Passes are compute-style: sampled reads and storage writes of images with one mip level and one layer. Each system sees the
-//! same images and the same accesses. vulkano-taskgraph visits the graph by recursion: everything runs on a thread whose stack
-//! is large enough for chains of 100,000 passes.
+//! same images and the same accesses. vulkano-taskgraph visits the graph by recursion: everything runs on a thread with a
+//! large stack.
 
 mod accesses;
 #[path = "../../../graph/benches/compile/allocator.rs"]
@@ -51,9 +51,6 @@ struct Arguments {
     /// Runs everything twice, and no graph of more than 1,000 passes.
     #[arg(long)]
     short: bool,
-    /// Compiles graphs of 100,000 passes, too.
-    #[arg(long, conflicts_with = "short")]
-    long: bool,
     /// The form of the figures.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -97,11 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn run(arguments: &Arguments) -> Result<(), String> {
     let devices = systems::Devices::find();
-    let most_passes = match (arguments.short, arguments.long) {
-        (true, _) => 1_000,
-        (_, true) => 100_000,
-        _ => 10_000,
-    };
+    let most_passes = if arguments.short { 1_000 } else { 10_000 };
     let mut rows = Vec::new();
     for graph in graphs() {
         let name = graph.name();
@@ -121,8 +114,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 fn graphs() -> Vec<Graph> {
-    let of =
-        |family, make: fn(u32) -> Frame| [100, 1_000, 10_000, 100_000].map(|passes| Graph { family, passes, make });
+    let of = |family, make: fn(u32) -> Frame| [100, 1_000, 10_000].map(|passes| Graph { family, passes, make });
     let deferred = Graph { family: "deferred", passes: 25, make: |_| graphs::deferred() };
     let families = [of("chain", graphs::chain), of("wide", graphs::wide), of("local", graphs::local)];
     std::iter::once(deferred).chain(families.into_iter().flatten()).collect()
