@@ -127,8 +127,8 @@ impl Candidate for Taskgraph<'_> {
         let (graph, build) = timed(|| self.graph());
         let info = CompileInfo { queues: &[&self.device.queue], ..Default::default() };
         // SAFETY: Edges order all conflicting accesses, and the queue computes. The compiled graph is never executed.
-        let (compiled, compile) = timed(|| unsafe { graph.compile(&info) });
-        self.compiled = Some(compiled.map_err(|error| error.to_string())?);
+        let (compiled, compile) = timed(|| unsafe { graph.compile(&info) }.map_err(|error| error.to_string()));
+        self.compiled = Some(compiled?);
         Ok(Times { build: Some(build), compile: finding + compile })
     }
 
