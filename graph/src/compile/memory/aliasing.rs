@@ -168,7 +168,7 @@ mod tests {
         let edge = |resource, from, this_frame| AliasEdge { resource, from, this_frame };
         let expected = [edge(2, 0, true), edge(2, 1, true), edge(0, 2, false), edge(1, 2, false)];
         // Even ones, odd ones, and such that no word holds an offset and an end.
-        for factor in [1 << 16, 3, (1 << 59) + 1] {
+        for factor in [1 << 16, 3, (1 << 60) + 1] {
             let scaled = PLACES.map(|(offset, bytes)| (offset * factor, bytes * factor));
             assert_eq!(Aliasing::of(&placed(scaled), &[0, 1, 2]).edges, expected, "{factor}");
         }
@@ -180,10 +180,15 @@ mod tests {
         for same in [PLACES, [(0, 6), (6, 2), (0, 8)], [(8, 8), (16, 8), (8, 16)]] {
             assert!(aliasing.still_holds(&placed(same)), "{same:?}");
         }
-        // One ends lower, one begins higher, one is another's place, and all are upside down.
-        for other in
-            [[(0, 4), (4, 4), (0, 6)], [(0, 4), (5, 3), (0, 8)], [(0, 8), (0, 8), (0, 8)], [(4, 4), (0, 4), (0, 8)]]
-        {
+        let others = [
+            // One ends lower, one begins higher, one takes another's place, one takes no bytes, all are upside down.
+            [(0, 4), (4, 4), (0, 6)],
+            [(0, 4), (5, 3), (0, 8)],
+            [(0, 8), (0, 8), (0, 8)],
+            [(0, 4), (4, 0), (0, 4)],
+            [(4, 4), (0, 4), (0, 8)],
+        ];
+        for other in others {
             assert!(!aliasing.still_holds(&placed(other)), "{other:?}");
         }
         let mut elsewhere = placed(PLACES);
