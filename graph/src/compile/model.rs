@@ -176,12 +176,14 @@ impl Adapted {
     }
 
     /// The descriptor that a physical image is made with.
-    #[inline]
+    #[inline(always)]
     pub(super) fn made(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
         // Few frames have any.
-        if self.allocated.is_empty() && self.eyes.is_empty() {
-            return *image;
-        }
+        if self.allocated.is_empty() && self.eyes.is_empty() { *image } else { self.made_larger(resource, image) }
+    }
+
+    /// The descriptor of an image whose size may change, or that may hold both eyes' parts.
+    fn made_larger(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
         let extent = allocated_extent(image.extent, self.allocated(resource));
         let Some((form, rotation)) = self.eyes.get(&resource).copied() else {
             return ImageDescriptor { extent, ..*image };

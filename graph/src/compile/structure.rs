@@ -2,7 +2,7 @@
 
 use super::cull::{self, Live};
 use super::memory::{self, Aliasing, Placed};
-use super::model::{Adapted, Use};
+use super::model::{Adapted, PhysicalIndex, Use};
 use super::options::{Options, Order};
 use super::parts::Grids;
 use super::queues::{self, Assigned};
@@ -31,8 +31,11 @@ pub(super) struct Structure {
     pub(super) scoped: Scoped,
     pub(super) load_store: LoadStoreOps,
     pub(super) timeline: AccessTimeline,
-    /// How long memory is taken, where steps of several queues run side by side.
-    spans: Option<Vec<[u32; 2]>>,
+    /// How long memory is taken, where steps of several queues run side by side, and transient resources in the order in
+    /// which they begin to take it.
+    spans: Option<(Vec<[u32; 2]>, Vec<PhysicalIndex>)>,
+    /// Transient resources in the order of their first steps.
+    by_first_step: Vec<PhysicalIndex>,
 }
 
 /// The results of the stages from `place` on.
@@ -91,11 +94,27 @@ impl Structure {
             queues::assign(frame, &adapted, scoped, device, options);
         let load_store = retain::retain(frame, &adapted, &scoped);
         let timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
-        let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
+        let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes).map(|spans| {
+            let order = memory::by_first_step(&adapted, &spans);
+            (spans, order)
+        });
+        let by_first_step = memory::by_first_step(&adapted, &timeline.lifetimes);
         let adapted = usage::finish(adapted, &sharing, &timeline, &load_store, &scoped, options);
         fit::check_support(frame, &adapted, &scoped, device)?;
         let notes = [negotiated.notes, of_adapt, of_scope, of_queues].into_iter().flatten().collect();
-        Ok(Structure { live, notes, adapted, uses, scheduled, same_areas, scoped, load_store, timeline, spans })
+        Ok(Structure {
+            live,
+            notes,
+            adapted,
+            uses,
+            scheduled,
+            same_areas,
+            scoped,
+            load_store,
+            timeline,
+            spans,
+            by_first_step,
+        })
     }
 
     /// Whether it holds for another valid frame, which differs only in sizes and values, and forwards only between images of
@@ -129,7 +148,7 @@ impl Structure {
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
         let placed = self.place(device, memory, options)?;
-        let aliasing = Aliasing::of(&placed, &self.timeline.lifetimes);
+        let aliasing = Aliasing::of(&placed, &self.by_first_step);
         let barriers = self.barriers(barriers, &aliasing);
         Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
     }
@@ -146,7 +165,7 @@ impl Structure {
         settled.aliasing = Aliasing::default();
         settled.barriers.barriers.shrink_to_fit();
         self.timeline.forget_subresources();
-        self.scheduled.order = Vec::new();
+        (self.scheduled.order, self.by_first_step) = (Vec::new(), Vec::new());
         self.adapted.uses.shrink_to_fit();
         Ok(settled)
     }
@@ -163,7 +182,7 @@ impl Structure {
         if settled.aliasing.still_holds(&settled.placed) {
             return Ok(Settling::Same);
         }
-        let aliasing = Aliasing::of(&settled.placed, &self.timeline.lifetimes);
+        let aliasing = Aliasing::of(&settled.placed, &self.by_first_step);
         let before = std::mem::replace(&mut settled.aliasing, aliasing);
         if before.edges == settled.aliasing.edges {
             return Ok(Settling::Same);
@@ -184,7 +203,11 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Placed, Vec<Diagnostic>> {
-        memory::place(&self.adapted, &self.timeline.lifetimes, self.spans.as_deref(), device, memory, options)
+        let (spans, order) = match &self.spans {
+            Some((spans, order)) => (Some(&spans[..]), order),
+            None => (None, &self.by_first_step),
+        };
+        memory::place(&self.adapted, &self.timeline.lifetimes, spans, order, device, memory, options)
     }
 
     fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {

@@ -4,7 +4,7 @@ use crate::frame::{
     Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, Sampled, StencilState, Storage,
     View, Work,
 };
-use crate::vulkan::FillValue;
+use crate::vulkan::{FillValue, Subresources};
 use std::sync::Arc;
 
 /// How much two frames differ.
@@ -30,6 +30,13 @@ fn unless(same: bool, difference: Difference) -> Difference {
 /// Whether two names are the same: often they are one, since frames come from one another.
 fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
     Arc::ptr_eq(old, new) || old == new
+}
+
+/// Whether two parts of images are the same. As one number of 128 bits, the counts take one comparison.
+#[inline]
+fn same_range(old: Subresources, new: Subresources) -> bool {
+    let counts = |range: Subresources| [range.base_mip, range.mips, range.base_layer, range.layers];
+    counts(old) == counts(new) && old.aspects == new.aspects
 }
 
 /// Whether all members of two lists are the same.
@@ -106,8 +113,10 @@ fn buffer(old: &Buffer, new: &Buffer) -> Difference {
     if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
 }
 
+#[inline]
 fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
     let same_start = match (old, new) {
+        (Lifetime::Transient, Lifetime::Transient) => return true,
         (Lifetime::Persistent { initial: old }, Lifetime::Persistent { initial: new }) => same_fill(old, new),
         (Lifetime::History { initial: old, .. }, Lifetime::History { initial: new, .. }) => same_fill(old, new),
         _ => true,
@@ -158,7 +167,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
-    (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
+    (old.image, old.frames_ago, old.span) == (*image, *frames_ago, *span)
+        && same_range(old.range, *range)
         && (old.eye, old.face, old.own_pixel, old.sampler, old.stages) == (*eye, *face, *own_pixel, *sampler, *stages)
         && old.texture == *texture
         && same_name(&old.binding, binding)
@@ -166,7 +176,8 @@ fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
     let Storage { binding, image, range, span, read, write, stages } = new;
-    (old.image, old.range, old.span) == (*image, *range, *span)
+    (old.image, old.span) == (*image, *span)
+        && same_range(old.range, *range)
         && (old.read, old.write, old.stages) == (*read, *write, *stages)
         && same_name(&old.binding, binding)
 }

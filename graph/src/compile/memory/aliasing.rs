@@ -17,96 +17,107 @@ pub(in crate::compile) struct AliasEdge {
 #[derive(Debug, Default)]
 pub(in crate::compile) struct Aliasing {
     pub(in crate::compile) edges: Vec<AliasEdge>,
-    /// Both ends of all placements: by heap, then by offset.
-    ends: Vec<End>,
-}
-
-/// An end of a placement.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    resource: PhysicalIndex,
-    upper: bool,
-    above: Above,
-}
-
-/// How an end lies relative to the one before it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Above {
-    /// At the same offset.
-    Same,
-    /// Higher in the same heap.
-    Higher,
-    /// In another heap.
-    Another,
-}
-
-impl Above {
-    fn of(before: Option<(u32, u64)>, now: (u32, u64)) -> Option<Above> {
-        match before {
-            Some((heap, offset)) if heap == now.0 && offset == now.1 => Some(Above::Same),
-            Some((heap, offset)) if heap == now.0 => (offset < now.1).then_some(Above::Higher),
-            _ => Some(Above::Another),
-        }
-    }
+    /// For each physical resource the numbers of its first offset and of the one that it ends at; [`NEVER`] if it isn't
+    /// placed. Offsets at which placements begin or end are numbered by heap, then upwards.
+    ends: Vec<[u32; 2]>,
+    /// For each heap the number of its first offset, and that behind its last one.
+    heaps: Vec<[u32; 2]>,
 }
 
 impl Aliasing {
-    /// `lifetimes`: for each physical resource the first and the last step that use it.
-    pub(in crate::compile) fn of(placed: &Placed, lifetimes: &[[u32; 2]]) -> Aliasing {
-        let mut aliasing = Aliasing::default();
-        let mut pieces = vec![[0; 2]; placed.placements.len()];
-        let by_first_step = placed.by_first_step(lifetimes);
+    /// `by_first_step`: the placed resources, in the order of first steps.
+    pub(in crate::compile) fn of(placed: &Placed, by_first_step: &[PhysicalIndex]) -> Aliasing {
+        let mut aliasing = Aliasing {
+            edges: Vec::with_capacity(2 * by_first_step.len()),
+            ends: vec![[NEVER; 2]; placed.placements.len()],
+            heaps: Vec::with_capacity(placed.heaps.len()),
+        };
         for heap in 0..placed.heaps.len() as u32 {
-            aliasing.heap(placed, &by_first_step, heap, &mut pieces);
+            aliasing.number(placed, heap);
+            aliasing.follow(placed, by_first_step, heap);
         }
         aliasing
     }
 
     /// Whether the ends of all placements are in the same order: then the same memory is taken over.
     pub(in crate::compile) fn still_holds(&self, placed: &Placed) -> bool {
+        let mut offsets: Vec<Option<u64>> = vec![None; self.heaps.last().map_or(0, |[_, end]| *end as usize)];
+        let mut is_at = |end: u32, offset| *offsets[end as usize].get_or_insert(offset) == offset;
+        let same = self.ends.iter().zip(&placed.placements).all(|([lower, upper], placement)| match placement {
+            Some(it) => {
+                let heap = self.heaps.get(it.heap as usize);
+                heap.is_some_and(|[first, end]| first <= lower && lower < end)
+                    && is_at(*lower, it.offset)
+                    && is_at(*upper, it.offset + it.bytes)
+            }
+            None => *lower == NEVER,
+        });
+        same && self
+            .heaps
+            .iter()
+            .all(|[first, end]| offsets[*first as usize..*end as usize].is_sorted_by(|below, above| below < above))
+    }
+
+    /// Numbers the offsets of a heap at which placements begin or end.
+    fn number(&mut self, placed: &Placed, heap: u32) {
+        let count = 2 * placed.placements.len();
+        let mut ends: Vec<(u64, u32)> = Vec::with_capacity(count);
+        let mut bits = 0;
+        for (placement, at) in placed.placements.iter().zip(0_u32..) {
+            if let Some(it) = placement
+                && it.heap == heap
+            {
+                ends.push((it.offset, 2 * at));
+                ends.push((it.offset + it.bytes, 2 * at + 1));
+                bits |= it.offset | it.bytes;
+            }
+        }
+        let first = self.heaps.last().map_or(0, |[_, end]| *end);
+        // Sorting single words is fast. An offset and which end of which placement it is mostly fit into one, since all
+        // offsets are multiples of an alignment.
+        let unit = bits.trailing_zeros() % u64::BITS;
+        let end_bits = u64::BITS - (count as u64).leading_zeros();
+        let highest = placed.heaps[heap as usize].bytes;
+        let behind = if (highest >> unit).leading_zeros() >= end_bits {
+            let word = |(offset, end): &(u64, u32)| (offset >> unit) << end_bits | u64::from(*end);
+            let mut words: Vec<u64> = ends.iter().map(word).collect();
+            words.sort_unstable();
+            let mask = (1 << end_bits) - 1;
+            self.number_sorted(first, words.iter().map(|word| (word >> end_bits, (word & mask) as u32)))
+        } else {
+            ends.sort_unstable();
+            self.number_sorted(first, ends.iter().copied())
+        };
+        self.heaps.push([first, behind]);
+    }
+
+    /// Numbers offsets, which rise, from `first` on. Returns the number behind the last one.
+    #[inline(always)]
+    fn number_sorted(&mut self, first: u32, ends: impl Iterator<Item = (u64, u32)>) -> u32 {
+        let mut behind = first;
         let mut before = None;
-        self.ends.iter().all(|end| {
-            let Some(placement) = &placed.placements[end.resource as usize] else { return false };
-            let now = (placement.heap, placement.offset + if end.upper { placement.bytes } else { 0 });
-            Above::of(before.replace(now), now) == Some(end.above)
-        })
+        for (offset, end) in ends {
+            behind += u32::from(before.replace(offset) != Some(offset));
+            self.ends[(end / 2) as usize][(end % 2) as usize] = behind - 1;
+        }
+        behind
     }
 
     /// Follows the owners of each piece of a heap. The ends of placements cut the heap into pieces.
-    ///
-    /// `by_first_step`: the placed resources, in the order of first steps. `pieces`: for each physical resource its first
-    /// piece, and the first piece behind it.
-    fn heap(&mut self, placed: &Placed, by_first_step: &[PhysicalIndex], heap: u32, pieces: &mut [[u32; 2]]) {
-        let mut ends: Vec<(u64, PhysicalIndex, bool)> = Vec::with_capacity(2 * placed.placements.len());
-        for (placement, resource) in placed.placements.iter().zip(0_u32..) {
-            if let Some(placement) = placement.as_ref().filter(|placement| placement.heap == heap) {
-                ends.push((placement.offset, resource, false));
-                ends.push((placement.offset + placement.bytes, resource, true));
-            }
-        }
-        ends.sort_by_key(|(offset, ..)| *offset);
-        self.ends.reserve(ends.len());
-        self.edges.reserve(ends.len());
-        let mut piece = 0;
-        let mut before = None;
-        for (offset, resource, upper) in ends {
-            let now = (heap, offset);
-            let above = Above::of(before.replace(now), now).unwrap_or(Above::Another);
-            piece += u32::from(above == Above::Higher);
-            pieces[resource as usize][usize::from(upper)] = piece;
-            self.ends.push(End { resource, upper, above });
-        }
-        let mut owners = vec![NEVER; piece as usize];
-        let mut from_frame_before: Vec<(PhysicalIndex, u32)> = Vec::new();
+    fn follow(&mut self, placed: &Placed, by_first_step: &[PhysicalIndex], heap: u32) {
+        let Some([first_piece, end_piece]) = self.heaps.last().copied() else { return };
+        let mut owners = vec![NEVER; (end_piece - first_piece) as usize];
+        let mut from_frame_before: Vec<(PhysicalIndex, u32)> = Vec::with_capacity(owners.len());
         let mut known: Vec<PhysicalIndex> = Vec::new();
         let is_here = |resource: &&PhysicalIndex| {
             placed.placements[**resource as usize].as_ref().is_some_and(|it| it.heap == heap)
         };
         for resource in by_first_step.iter().filter(is_here) {
-            let [first, end] = pieces[*resource as usize];
+            let [first, end] = self.ends[*resource as usize];
+            let (first, end) = (first - first_piece, end - first_piece);
             known.clear();
-            for piece in first..end {
-                let owner = std::mem::replace(&mut owners[piece as usize], *resource);
+            for (owner, piece) in owners[first as usize..end as usize].iter_mut().zip(first..) {
+                let owner = std::mem::replace(owner, *resource);
                 if owner == NEVER {
                     from_frame_before.push((*resource, piece));
                 } else if !known.contains(&owner) {
@@ -126,5 +137,62 @@ impl Aliasing {
                 self.edges.push(AliasEdge { resource, from, this_frame: false });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Heap, Placement, StepId};
+
+    /// Placements in one heap, each by its offset and bytes.
+    fn placed(places: [(u64, u64); 3]) -> Placed {
+        let placement = |(offset, bytes)| {
+            Some(Placement { heap: 0, offset, bytes, alignment: 1, type_bits: 1, lifetime: [StepId(0); 2] })
+        };
+        let bytes = places.iter().map(|(offset, bytes)| offset + bytes).max().unwrap_or(0);
+        Placed {
+            heaps: vec![Heap { bytes, alignment: 1, type_bits: 1, lazily_allocated: false }],
+            placements: places.map(placement).to_vec(),
+            transient_bytes: 0,
+            live_peak_bytes: bytes,
+            kept_bytes: 0,
+            chosen: Vec::new(),
+        }
+    }
+
+    const PLACES: [(u64, u64); 3] = [(0, 4), (4, 4), (0, 8)];
+
+    #[test]
+    fn offsets_of_all_sizes_give_the_same_edges() {
+        let edge = |resource, from, this_frame| AliasEdge { resource, from, this_frame };
+        let expected = [edge(2, 0, true), edge(2, 1, true), edge(0, 2, false), edge(1, 2, false)];
+        // Even ones, odd ones, and such that no word holds an offset and an end.
+        for factor in [1 << 16, 3, (1 << 60) + 1] {
+            let scaled = PLACES.map(|(offset, bytes)| (offset * factor, bytes * factor));
+            assert_eq!(Aliasing::of(&placed(scaled), &[0, 1, 2]).edges, expected, "{factor}");
+        }
+    }
+
+    #[test]
+    fn aliasing_holds_where_offsets_keep_their_order() {
+        let aliasing = Aliasing::of(&placed(PLACES), &[0, 1, 2]);
+        for same in [PLACES, [(0, 6), (6, 2), (0, 8)], [(8, 8), (16, 8), (8, 16)]] {
+            assert!(aliasing.still_holds(&placed(same)), "{same:?}");
+        }
+        let others = [
+            // One ends lower, one begins higher, one takes another's place, one takes no bytes, all are upside down.
+            [(0, 4), (4, 4), (0, 6)],
+            [(0, 4), (5, 3), (0, 8)],
+            [(0, 8), (0, 8), (0, 8)],
+            [(0, 4), (4, 0), (0, 4)],
+            [(4, 4), (0, 4), (0, 8)],
+        ];
+        for other in others {
+            assert!(!aliasing.still_holds(&placed(other)), "{other:?}");
+        }
+        let mut elsewhere = placed(PLACES);
+        elsewhere.placements[1] = None;
+        assert!(!aliasing.still_holds(&elsewhere));
     }
 }

@@ -5,4 +5,4 @@ mod pack;
 mod place;
 
 pub(super) use aliasing::{AliasEdge, Aliasing};
-pub(super) use place::{Placed, place};
+pub(super) use place::{Placed, by_first_step, place};

@@ -25,36 +25,35 @@ pub(in crate::compile) struct Placed {
     pub(in crate::compile) chosen: Vec<(PhysicalIndex, i64)>,
 }
 
-impl Placed {
-    /// All placed resources, in the order of first steps, then by index.
-    pub(super) fn by_first_step(&self, lifetimes: &[[u32; 2]]) -> Vec<PhysicalIndex> {
-        let placed = self
-            .placements
-            .iter()
-            .zip(0_u32..)
-            .filter_map(|(placement, resource)| placement.as_ref().map(|_| resource));
-        let first = |resource: &PhysicalIndex| lifetimes[*resource as usize][0];
-        let mut order: Vec<PhysicalIndex> = Vec::with_capacity(self.placements.len());
-        order.extend(placed);
-        if order.is_sorted_by_key(first) {
-            return order;
+/// All transient resources that are used, in the order of the first steps of `spans`, then by index.
+pub(in crate::compile) fn by_first_step(adapted: &Adapted, spans: &[[u32; 2]]) -> Vec<PhysicalIndex> {
+    let mut order: Vec<PhysicalIndex> = Vec::with_capacity(spans.len());
+    let (mut last, mut is_sorted) = (0, true);
+    for (([first, _], resource), at) in spans.iter().zip(&adapted.resources).zip(0_u32..) {
+        if *first != NEVER && resource.is_transient() {
+            is_sorted &= std::mem::replace(&mut last, *first) <= *first;
+            order.push(at);
         }
-        // For each step the resources that begin there, as linked lists.
-        let mut heads = vec![NEVER; order.iter().map(first).max().map_or(0, |last| last as usize + 1)];
-        let mut next = vec![NEVER; self.placements.len()];
-        for resource in order.iter().rev() {
-            next[*resource as usize] = std::mem::replace(&mut heads[first(resource) as usize], *resource);
-        }
-        order.clear();
-        for head in heads {
-            let mut resource = head;
-            while resource != NEVER {
-                order.push(resource);
-                resource = next[resource as usize];
-            }
-        }
-        order
     }
+    if is_sorted {
+        return order;
+    }
+    let first = |resource: &PhysicalIndex| spans[*resource as usize][0];
+    // For each step the resources that begin there, as linked lists.
+    let mut heads = vec![NEVER; order.iter().map(first).max().map_or(0, |last| last as usize + 1)];
+    let mut next = vec![NEVER; spans.len()];
+    for resource in order.iter().rev() {
+        next[*resource as usize] = std::mem::replace(&mut heads[first(resource) as usize], *resource);
+    }
+    order.clear();
+    for head in heads {
+        let mut resource = head;
+        while resource != NEVER {
+            order.push(resource);
+            resource = next[resource as usize];
+        }
+    }
+    order
 }
 
 /// The resources of a heap.
@@ -63,16 +62,16 @@ struct Members {
     images: bool,
     count: usize,
     /// In the order of their first steps.
-    resources: Vec<PhysicalIndex>,
     blocks: Vec<Block>,
 }
 
 /// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by
-/// side.
+/// side. `order`: these resources, in the order of the first steps of spans.
 pub(in crate::compile) fn place(
     adapted: &Adapted,
     lifetimes: &[[u32; 2]],
     spans: Option<&[[u32; 2]]>,
+    order: &[PhysicalIndex],
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
@@ -135,35 +134,35 @@ pub(in crate::compile) fn place(
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
         return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
     }
-    for Members { count, resources, blocks, .. } in &mut members {
-        (*resources, *blocks) = (Vec::with_capacity(*count), Vec::with_capacity(*count));
-    }
-    for resource in placed.by_first_step(spans) {
-        if let Some(Placement { heap, bytes, alignment, .. }) = placed.placements[resource as usize] {
-            let [first, last] = spans[resource as usize];
-            let Members { resources, blocks, .. } = &mut members[heap as usize];
-            resources.push(resource);
-            blocks.push(Block { first, last, bytes, alignment });
+    members.iter_mut().for_each(|members| members.blocks.reserve_exact(members.count));
+    let block = |placement: &Placement, [first, last]: [u32; 2]| {
+        let Placement { bytes, alignment, .. } = *placement;
+        Block { first, last, bytes, alignment }
+    };
+    for resource in order {
+        if let Some(placement) = &placed.placements[*resource as usize] {
+            members[placement.heap as usize].blocks.push(block(placement, spans[*resource as usize]));
         }
     }
-    for (heap, Members { resources, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
+    let mut offsets = Vec::with_capacity(members.len());
+    for (heap, Members { blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
         let measured = Measured::of(blocks);
         let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
         heap.bytes = packing.height;
-        for (resource, offset) in resources.iter().zip(packing.offsets) {
-            if let Some(placement) = &mut placed.placements[*resource as usize] {
-                placement.offset = offset;
-            }
-        }
+        offsets.push(packing.offsets.into_iter());
         placed.live_peak_bytes = measured.live_peak();
     }
+    for resource in order {
+        if let Some(placement) = &mut placed.placements[*resource as usize] {
+            placement.offset = offsets[placement.heap as usize].next().unwrap_or_default();
+        }
+    }
     if members.len() > 1 || overlaps {
-        let alive = |(resource, block): (&PhysicalIndex, &Block)| {
-            let [first, last] = lifetimes[*resource as usize];
-            Block { first, last, ..*block }
+        let alive = |resource: &PhysicalIndex| {
+            let placement = placed.placements[*resource as usize].as_ref()?;
+            Some(block(placement, lifetimes[*resource as usize]))
         };
-        let all = members.iter().flat_map(|Members { resources, blocks, .. }| resources.iter().zip(blocks).map(alive));
-        placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
+        placed.live_peak_bytes = Measured::of(&order.iter().filter_map(alive).collect::<Vec<Block>>()).live_peak();
     }
     Ok(placed)
 }
@@ -195,7 +194,7 @@ fn choose_heap(
     };
     let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
         heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
-        members.push(Members { images, count: 0, resources: Vec::new(), blocks: Vec::new() });
+        members.push(Members { images, count: 0, blocks: Vec::new() });
         heaps.len() - 1
     });
     members[at].count += 1;

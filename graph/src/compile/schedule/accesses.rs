@@ -1,14 +1,27 @@
 //! The accesses of all operations to subresources, listed once because scheduling walks them often.
 
-use crate::compile::model::{Adapted, SubresourceIndex};
+use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
 use crate::vulkan::Layout;
 
 /// An access of an operation to a subresource.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Access {
     pub(super) subresource: SubresourceIndex,
+    /// The image or buffer of a use, named by the first of its accesses; [`Access::NO_USE`] for the others.
+    pub(super) resource: PhysicalIndex,
     pub(super) writes: bool,
     pub(super) layout: Layout,
+}
+
+impl Access {
+    /// No use begins with this access.
+    const NO_USE: PhysicalIndex = PhysicalIndex::MAX;
+
+    /// The image or buffer of the use that begins with this access, if one does.
+    #[inline]
+    pub(super) fn used(&self) -> Option<PhysicalIndex> {
+        (self.resource != Access::NO_USE).then_some(self.resource)
+    }
 }
 
 /// The accesses of all operations.
@@ -25,23 +38,46 @@ impl Accesses {
     pub(super) fn of(adapted: &Adapted) -> Accesses {
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
-        for (op, number) in adapted.ops.iter().zip(0_u32..) {
+        for op in &adapted.ops {
             starts.push(list.len() as u32);
-            for used in adapted.uses(number) {
-                let access = |subresource| Access { subresource, writes: used.writes, layout: used.layout };
-                adapted.for_each_subresource(used, |subresource| list.push(access(subresource)));
+            for used in &adapted.uses[op.uses.start as usize..op.uses.end as usize] {
+                let mut resource = used.resource;
+                adapted.for_each_subresource(used, |subresource| {
+                    let resource = std::mem::replace(&mut resource, Access::NO_USE);
+                    list.push(Access { subresource, resource, writes: used.writes, layout: used.layout });
+                });
             }
             if op.side_effect {
                 // Effects that nothing shows are writes of a subresource behind all others.
-                list.push(Access { subresource: adapted.subresources, writes: true, layout: Layout::Undefined });
+                let (subresource, resource) = (adapted.subresources, Access::NO_USE);
+                list.push(Access { subresource, resource, writes: true, layout: Layout::Undefined });
             }
         }
         starts.push(list.len() as u32);
         Accesses { list, starts, subresources: adapted.subresources as usize + 1 }
     }
 
+    /// Those of the operations `ops`, in this order.
+    pub(super) fn in_order(&self, ops: &[u32]) -> Accesses {
+        let mut list = Vec::with_capacity(self.list.len());
+        let mut starts = Vec::with_capacity(self.starts.len());
+        for op in ops {
+            starts.push(list.len() as u32);
+            list.extend_from_slice(self.op(*op));
+        }
+        starts.push(list.len() as u32);
+        Accesses { list, starts, subresources: self.subresources }
+    }
+
     /// Those of one operation.
+    #[inline]
     pub(super) fn op(&self, op: u32) -> &[Access] {
-        &self.list[self.starts[op as usize] as usize..self.starts[op as usize + 1] as usize]
+        self.between(op, op + 1)
+    }
+
+    /// Those from one operation on, up to another one.
+    #[inline]
+    pub(super) fn between(&self, first: u32, end: u32) -> &[Access] {
+        &self.list[self.starts[first as usize] as usize..self.starts[end as usize] as usize]
     }
 }

@@ -1,6 +1,6 @@
 //! The dependencies between runs, as lists.
 
-use super::accesses::{Access, Accesses};
+use super::accesses::Access;
 use super::runs::Runs;
 
 /// No entry.
@@ -25,12 +25,12 @@ struct WriterAndReaders {
 
 impl Dependencies {
     /// The dependencies between `runs`.
-    pub(super) fn between(accesses: &Accesses, runs: &Runs) -> Dependencies {
-        let mut subresources = vec![WriterAndReaders { writer: NONE, readers: NONE }; accesses.subresources];
+    pub(super) fn between(runs: &Runs) -> Dependencies {
+        let mut subresources = vec![WriterAndReaders { writer: NONE, readers: NONE }; runs.subresources()];
         let mut readers: Vec<(u32, u32)> = Vec::new();
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
-            for Access { subresource, writes, .. } in runs.run(run).iter().flat_map(|op| accesses.op(*op)) {
+            for Access { subresource, writes, .. } in runs.accesses(run) {
                 let state = &mut subresources[*subresource as usize];
                 if state.writer != NONE {
                     pairs.push((state.writer, run));

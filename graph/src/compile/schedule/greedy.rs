@@ -5,6 +5,7 @@
 //! among equal runs matters much. A good one is the order that was found in the other direction, so the directions take
 //! turns, and each ranks equal runs by their places in the order before.
 
+use super::accesses::Access;
 use super::dependencies::Dependencies;
 use super::memory::{Lifetimes, Memory, lists};
 use super::runs::Runs;
@@ -17,7 +18,6 @@ const TURNS: u32 = 8;
 
 /// The runs, their dependencies, and the memory that they use.
 pub(super) struct Greedy<'a> {
-    adapted: &'a Adapted,
     runs: &'a Runs,
     memory: &'a Memory,
     /// The dependencies of the runs, from the first to the last and from the last to the first.
@@ -29,14 +29,11 @@ pub(super) struct Greedy<'a> {
 }
 
 impl<'a> Greedy<'a> {
-    pub(super) fn new(adapted: &'a Adapted, runs: &'a Runs, memory: &'a Memory, forwards: Dependencies) -> Greedy<'a> {
+    pub(super) fn new(adapted: &Adapted, runs: &'a Runs, memory: &'a Memory, forwards: Dependencies) -> Greedy<'a> {
         let mut uses: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
         for run in 0..runs.len() {
-            runs.for_each_use(adapted, run, |used| {
-                if memory.bytes(used.resource) > 0 {
-                    uses.push((used.resource, run));
-                }
-            });
+            let used = runs.accesses(run).iter().filter_map(Access::used);
+            uses.extend(used.filter(|resource| memory.bytes(*resource) > 0).map(|resource| (resource, run)));
         }
         uses.sort_unstable();
         uses.dedup();
@@ -44,7 +41,7 @@ impl<'a> Greedy<'a> {
         uses.iter_mut().for_each(|(resource, run)| std::mem::swap(resource, run));
         let resources = lists(&uses, runs.len());
         let backwards = forwards.reversed();
-        Greedy { adapted, runs, memory, forwards, backwards, users, resources }
+        Greedy { runs, memory, forwards, backwards, users, resources }
     }
 
     /// Of several orders, `others` among them, that in which the least memory is alive at one time.
@@ -60,7 +57,7 @@ impl<'a> Greedy<'a> {
             };
             orders.push(order.clone());
         }
-        let peak = |order: &Vec<u32>| self.memory.peak(&Lifetimes::of(self.adapted, self.runs, order));
+        let peak = |order: &Vec<u32>| self.memory.peak(&Lifetimes::of(self.runs, order, self.memory.resources()));
         orders.into_iter().min_by_key(peak).unwrap_or_default()
     }
 
@@ -76,8 +73,8 @@ impl<'a> Greedy<'a> {
             heap: BinaryHeap::new(),
         };
         // For each resource how many runs are still to use it, and the sum of their numbers: of one, it is its number.
-        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.adapted.resources.len());
-        for resource in 0..self.adapted.resources.len() as u32 {
+        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.memory.resources());
+        for resource in 0..self.memory.resources() as u32 {
             let (users, bytes) = (of(&self.users, resource), i128::from(self.memory.bytes(resource)));
             users.iter().for_each(|user| queue.costs[*user as usize] += bytes);
             if let [user] = users {

@@ -1,77 +1,97 @@
 //! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
 
-use super::accesses::{Access, Accesses};
-use super::memory::Memory;
+use super::accesses::Access;
+use super::memory::{Lifetimes, Memory};
 use super::runs::Runs;
 use super::weighed::{Sums, Weighed, Weight};
-use crate::compile::model::Adapted;
 use crate::vulkan::Layout;
 
 /// The least level of each run.
 pub(super) struct Levels {
     least: Vec<u32>,
     top: u32,
+    /// The lifetimes in the order of runs.
+    pub(super) lifetimes: Lifetimes,
 }
 
 /// The least level of each run; `None` if there is no level with more than one.
-pub(super) fn levels(accesses: &Accesses, runs: &Runs) -> Option<Levels> {
-    let mut upwards = Walk::new(accesses, runs);
+pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
+    let mut upwards = Walk::new(runs);
+    let mut lifetimes = Lifetimes::unused(resources, runs.len());
     let mut least: Vec<u32> = Vec::with_capacity(runs.len() as usize);
+    let mut top = 0;
     for run in 0..runs.len() {
-        let level = upwards.least(run);
-        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
+        let accesses = runs.accesses(run);
+        let level = upwards.least(accesses);
+        for access in accesses {
+            upwards.put(access, level);
+            if let Some(resource) = access.used() {
+                lifetimes.use_at(resource, run);
+            }
+        }
+        top = level.max(top);
         least.push(level);
     }
-    let top = least.iter().copied().max()?;
-    (top + 1 != runs.len()).then_some(Levels { least, top })
+    (top + 1 < runs.len()).then_some(Levels { least, top, lifetimes })
 }
 
 /// The runs level by level. Decisions that sizes made go into `weighed`, if they are to be kept.
-pub(super) fn by_level(
-    adapted: &Adapted,
-    accesses: &Accesses,
-    runs: &Runs,
-    Levels { least: mut keys, top }: Levels,
-    memory: &Memory,
-    mut weighed: Option<&mut Weighed>,
-) -> Vec<u32> {
-    // For each resource the first run that uses it.
-    let mut begins = vec![u32::MAX; adapted.resources.len()];
-    for run in 0..runs.len() {
-        runs.for_each_use(adapted, run, |used| {
-            let first = &mut begins[used.resource as usize];
-            *first = run.min(*first);
-        });
-    }
-    let mut downwards = Walk::new(accesses, runs);
-    // For each resource one more than the level of its last use, as far as that is known.
-    let mut ends = vec![0_u32; adapted.resources.len()];
-    for run in (0..runs.len()).rev() {
-        let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
+pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighed: Option<&mut Weighed>) -> Vec<u32> {
+    let Levels { least, top, lifetimes } = levels;
+    let mut keys = vec![0_u32; least.len()];
+    let mut downwards = Walk::new(runs);
+    let known = |resource| Known { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
+    let mut known: Vec<Known> = (0..memory.resources() as u32).map(known).collect();
+    for (run, lowest) in (0..runs.len()).zip(least).rev() {
+        let accesses = runs.accesses(run);
         let mut sums = Sums::default();
-        runs.for_each_use(adapted, run, |used| {
-            let (resource, begun) = (used.resource as usize, begins[used.resource as usize] == run);
-            let (ended, held) = (ends[resource] <= lowest + 1, ends[resource] <= highest && !begun);
-            let weight = Weight { resource: used.resource, begun, ended, held };
-            sums.add(weight, memory);
-            if let Some(weighed) = &mut weighed {
-                weighed.weigh(weight);
+        let mut least = 0;
+        for access in accesses {
+            least = least.max(downwards.behind(access));
+            if let Some(resource) = access.used() {
+                let Known { bytes, first, end } = known[resource as usize];
+                sums.add(bytes, first == run, end <= lowest + 1);
             }
-        });
-        let decision = sums.decide(highest > lowest);
-        if let Some(weighed) = &mut weighed {
-            weighed.decided(highest > lowest, decision);
         }
-        let level = if decision.rises { highest } else { lowest };
-        runs.run(run).iter().rev().for_each(|op| downwards.put(*op, top - level));
-        runs.for_each_use(adapted, run, |used| {
-            let end = &mut ends[used.resource as usize];
-            *end = (level + 1).max(*end);
+        let highest = top - least;
+        let may_rise = highest > *lowest;
+        let used = || accesses.iter().filter_map(Access::used);
+        let held = |it: &Known| it.first != run && it.end <= highest;
+        if sums.may_rise(may_rise) {
+            let used = used().map(|resource| &known[resource as usize]);
+            used.filter(|it| held(it)).for_each(|it| sums.hold(it.bytes));
+        }
+        let decision = sums.decide(may_rise);
+        if let Some(weighed) = &mut weighed {
+            for resource in used() {
+                let it = &known[resource as usize];
+                let (begun, ended, held) = (it.first == run, it.end <= lowest + 1, held(it));
+                weighed.weigh(Weight { resource, begun, ended, held });
+            }
+            weighed.decided(may_rise, decision);
+        }
+        let level = if decision.rises { highest } else { *lowest };
+        runs.for_each_backwards(run, |access| {
+            downwards.put(access, top - level);
+            if let Some(resource) = access.used() {
+                let end = &mut known[resource as usize].end;
+                *end = (level + 1).max(*end);
+            }
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
     counting_sort(&keys, 3 * top + 3)
+}
+
+/// A resource while the runs are walked from the last to the first.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    bytes: u64,
+    /// The first run that uses it.
+    first: u32,
+    /// One more than the level of its last use, as far as that is known.
+    end: u32,
 }
 
 /// The numbers of `keys`, all below `bound`, in the order of the keys; equal ones as they are.
@@ -91,9 +111,7 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 }
 
 /// A walk through all runs, from the first to the last or from the last to the first, that finds their least levels.
-struct Walk<'a> {
-    accesses: &'a Accesses,
-    runs: &'a Runs,
+struct Walk {
     subresources: Vec<LastLevels>,
 }
 
@@ -106,37 +124,37 @@ struct LastLevels {
     layout: Layout,
 }
 
-impl<'a> Walk<'a> {
-    fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
+impl Walk {
+    fn new(runs: &Runs) -> Walk {
         let state = LastLevels { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { accesses, runs, subresources: vec![state; accesses.subresources] }
+        Walk { subresources: vec![state; runs.subresources()] }
     }
 
-    /// The least level of a run behind all that it depends on.
-    fn least(&self, run: u32) -> u32 {
-        let mut least = 0;
-        for op in self.runs.run(run) {
-            for access in self.accesses.op(*op) {
-                let state = &self.subresources[access.subresource as usize];
-                let joins = !access.writes && state.layout == access.layout;
-                least = least.max(if joins { state.before } else { state.before.max(state.readers) });
-            }
-        }
-        least
+    /// The least level of a run with these accesses, behind all that it depends on.
+    #[inline]
+    fn least(&self, accesses: &[Access]) -> u32 {
+        accesses.iter().fold(0, |least, access| least.max(self.behind(access)))
     }
 
-    /// Notes the level of an operation.
-    fn put(&mut self, op: u32, level: u32) {
+    /// The least level that an access may have.
+    #[inline]
+    fn behind(&self, access: &Access) -> u32 {
+        let LastLevels { before, readers, layout } = self.subresources[access.subresource as usize];
+        if !access.writes && layout == access.layout { before } else { before.max(readers) }
+    }
+
+    /// Notes the level of an access.
+    #[inline]
+    fn put(&mut self, access: &Access, level: u32) {
         let behind = level + 1;
-        for Access { subresource, writes, layout } in self.accesses.op(op).iter().copied() {
-            let state = &mut self.subresources[subresource as usize];
-            if writes {
-                *state = LastLevels { before: behind, readers: 0, layout };
-            } else if state.readers != 0 && state.layout == layout {
-                state.readers = state.readers.max(behind);
-            } else {
-                *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
-            }
+        let Access { subresource, writes, layout, .. } = *access;
+        let state = &mut self.subresources[subresource as usize];
+        if writes {
+            *state = LastLevels { before: behind, readers: 0, layout };
+        } else if state.readers != 0 && state.layout == layout {
+            state.readers = state.readers.max(behind);
+        } else {
+            *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
         }
     }
 }

@@ -1,5 +1,6 @@
 //! How much memory an order keeps alive, and an order that keeps little.
 
+use super::accesses::Access;
 use super::runs::Runs;
 use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 
@@ -7,6 +8,8 @@ use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Vec<u64>,
+    /// The bytes of all of them together; `None` if these are more than can be addressed.
+    total: Option<u64>,
 }
 
 /// The lifetime of each resource in an order.
@@ -19,56 +22,90 @@ pub(super) struct Lifetimes {
 }
 
 impl Lifetimes {
+    /// Of so many resources, in an order that has `places` and is walked by [`Lifetimes::use_at`].
+    pub(super) fn unused(resources: usize, places: u32) -> Lifetimes {
+        Lifetimes { places, of: vec![[u32::MAX, 0]; resources] }
+    }
+
     /// In an order of runs.
-    pub(super) fn of(adapted: &Adapted, runs: &Runs, order: &[u32]) -> Lifetimes {
-        let mut of = vec![[u32::MAX, 0]; adapted.resources.len()];
+    pub(super) fn of(runs: &Runs, order: &[u32], resources: usize) -> Lifetimes {
+        let mut lifetimes = Lifetimes::unused(resources, order.len() as u32);
         for (run, place) in order.iter().zip(0_u32..) {
-            runs.for_each_use(adapted, *run, |used| {
-                let [first, last] = &mut of[used.resource as usize];
-                (*first, *last) = (place.min(*first), place);
-            });
+            let used = runs.accesses(*run).iter().filter_map(Access::used);
+            used.for_each(|resource| lifetimes.use_at(resource, place));
         }
-        Lifetimes { places: order.len() as u32, of }
+        lifetimes
+    }
+
+    /// Notes a use at a place, behind those that were noted.
+    #[inline]
+    pub(super) fn use_at(&mut self, resource: PhysicalIndex, place: u32) {
+        let [first, last] = &mut self.of[resource as usize];
+        (*first, *last) = (place.min(*first), place);
+    }
+
+    /// The first place that uses a resource.
+    #[inline]
+    pub(super) fn first(&self, resource: PhysicalIndex) -> u32 {
+        self.of[resource as usize][0]
     }
 }
 
 impl Memory {
     pub(super) fn of(adapted: &Adapted) -> Memory {
-        let bytes = adapted.resources.iter().zip(0..).map(|(resource, index)| match &resource.kind {
-            _ if !resource.is_transient() => 0,
-            Kind::Buffer(buffer) => buffer.bytes,
-            Kind::Image(image) => {
-                let made = adapted.made(index, image);
-                let sides = made.extent.iter().map(|side| u64::from(*side));
-                let texels = sides.fold(u64::from(made.layers), u64::saturating_mul);
-                // Each mip level takes a quarter of the one before it: a third together.
-                let texels = if image.mips > 1 { texels.saturating_add(texels / 3) } else { texels };
-                texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
-            }
-        });
-        Memory { bytes: bytes.collect() }
+        let mut total = Some(0_u64);
+        let mut bytes: Vec<u64> = Vec::with_capacity(adapted.resources.len());
+        for (resource, index) in adapted.resources.iter().zip(0..) {
+            let here = match &resource.kind {
+                _ if !resource.is_transient() => 0,
+                Kind::Buffer(buffer) => buffer.bytes,
+                Kind::Image(image) => {
+                    let made = adapted.made(index, image);
+                    let sides = made.extent.iter().map(|side| u64::from(*side));
+                    let texels = sides.fold(u64::from(made.layers), u64::saturating_mul);
+                    // Each mip level takes a quarter of the one before it: a third together.
+                    let texels = if image.mips > 1 { texels.saturating_add(texels / 3) } else { texels };
+                    texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
+                }
+            };
+            total = total.and_then(|total| total.checked_add(here));
+            bytes.push(here);
+        }
+        Memory { bytes, total }
+    }
+
+    /// Number of resources.
+    pub(super) fn resources(&self) -> usize {
+        self.bytes.len()
     }
 
     /// Bytes of one resource, 0 if it has memory of its own.
+    #[inline]
     pub(super) fn bytes(&self, resource: PhysicalIndex) -> u64 {
         self.bytes[resource as usize]
     }
 
-    /// The most bytes that are alive at one place of an order.
+    /// The most bytes that are alive at one place of an order; `u64::MAX` if all resources take more than can be addressed.
     pub(super) fn peak(&self, lifetimes: &Lifetimes) -> u64 {
-        let mut changes = vec![0_i128; lifetimes.places as usize + 1];
+        if self.total.is_none() {
+            return u64::MAX;
+        }
+        // Differences wrap around, but no sum does: each is at most the total.
+        let mut changes = vec![0_u64; lifetimes.places as usize + 1];
         for ([first, last], bytes) in lifetimes.of.iter().zip(&self.bytes) {
             if *first != u32::MAX {
-                changes[*first as usize] += i128::from(*bytes);
-                changes[*last as usize + 1] -= i128::from(*bytes);
+                let begins = &mut changes[*first as usize];
+                *begins = begins.wrapping_add(*bytes);
+                let ends = &mut changes[*last as usize + 1];
+                *ends = ends.wrapping_sub(*bytes);
             }
         }
-        let (mut alive, mut peak) = (0, 0);
+        let (mut alive, mut peak) = (0_u64, 0);
         for change in changes {
-            alive += change;
+            alive = alive.wrapping_add(change);
             peak = peak.max(alive);
         }
-        u64::try_from(peak).unwrap_or(u64::MAX)
+        peak
     }
 }
 

@@ -25,9 +25,9 @@ mod weighed;
 
 use super::model::Adapted;
 use super::options::Order;
-use accesses::Accesses;
 use dependencies::Dependencies;
 use greedy::Greedy;
+use levels::Levels;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
 use weighed::Weighed;
@@ -43,23 +43,21 @@ pub(super) struct Scheduled {
 /// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
 pub(super) fn schedule(adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
     let mut weighed = Weighed::default();
-    let accesses = || Accesses::of(adapted);
     let order = match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
-            let accesses = accesses();
-            let runs = Runs::gather(adapted, &accesses);
-            match scored(adapted, &accesses, &runs, keeps.then_some(&mut weighed)) {
-                Some(order) => runs.operations(&order),
+            let runs = Runs::gather(adapted);
+            match scored(adapted, &runs, keeps.then_some(&mut weighed)) {
+                Some(order) => runs.operations(order),
                 None => runs.into_operations(),
             }
         }
         Order::LowMemory => {
-            let accesses = accesses();
-            let runs = Runs::gather(adapted, &accesses);
-            runs.operations(&small(adapted, &accesses, &runs))
+            let runs = Runs::gather(adapted);
+            let order = small(adapted, &runs);
+            runs.operations(order)
         }
-        Order::Random(seed) => Dependencies::between(&accesses(), &Runs::of_one(adapted)).random_order(seed),
+        Order::Random(seed) => Dependencies::between(&Runs::of_one(adapted)).random_order(seed),
     };
     Scheduled { order, weighed }
 }
@@ -69,7 +67,7 @@ impl Scheduled {
     pub(super) fn still_holds(&self, adapted: &Adapted, order: Order) -> bool {
         match order {
             Order::File | Order::Random(_) => true,
-            Order::Default => self.weighed.decide_the_same(&Memory::of(adapted)),
+            Order::Default => self.weighed.decide_the_same(|| Memory::of(adapted)),
             // Of which runs come next, whichever is cheapest: too many comparisons to keep.
             Order::LowMemory => schedule(adapted, order, false).order == self.order,
         }
@@ -77,12 +75,15 @@ impl Scheduled {
 }
 
 /// The runs in the order that scores best; `None`: as they are.
-fn scored(adapted: &Adapted, accesses: &Accesses, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
-    let levels = levels::levels(accesses, runs)?;
+fn scored(adapted: &Adapted, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
+    let levels = levels::levels(runs, adapted.resources.len())?;
     let memory = Memory::of(adapted);
-    let order = levels::by_level(adapted, accesses, runs, levels, &memory, keep.as_deref_mut());
-    let file: Vec<u32> = (0..runs.len()).collect();
-    let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
+    let order = levels::by_level(runs, &levels, &memory, keep.as_deref_mut());
+    if order.iter().zip(0..).all(|(run, place)| *run == place) {
+        return None;
+    }
+    let Levels { lifetimes: in_file, .. } = levels;
+    let in_levels = Lifetimes::of(runs, &order, memory.resources());
     let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
         weighed.took(in_file, in_levels, takes_levels);
@@ -91,9 +92,9 @@ fn scored(adapted: &Adapted, accesses: &Accesses, runs: &Runs, mut keep: Option<
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
-fn small(adapted: &Adapted, accesses: &Accesses, runs: &Runs) -> Vec<u32> {
+fn small(adapted: &Adapted, runs: &Runs) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
-    let scored = scored(adapted, accesses, runs, None).unwrap_or_else(|| file.clone());
+    let scored = scored(adapted, runs, None).unwrap_or_else(|| file.clone());
     let memory = Memory::of(adapted);
-    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(vec![file, scored])
+    Greedy::new(adapted, runs, &memory, Dependencies::between(runs)).best(vec![file, scored])
 }

@@ -11,22 +11,24 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug)]
 pub(super) struct Runs {
     ops: Vec<u32>,
-    /// For each run its first place in `ops`, and where the last one ends.
+    /// For each run its first place in `ops`, and where the last one ends; empty if each is one operation.
     starts: Vec<u32>,
+    /// The accesses of `ops`, by place.
+    accesses: Accesses,
 }
 
 impl Runs {
     /// Each operation by itself, in the order of the frame.
     pub(super) fn of_one(adapted: &Adapted) -> Runs {
-        let count = adapted.ops.len() as u32;
-        Runs { ops: (0..count).collect(), starts: (0..=count).collect() }
+        Runs { ops: (0..adapted.ops.len() as u32).collect(), starts: Vec::new(), accesses: Accesses::of(adapted) }
     }
 
     /// Draws that may share a scope in one run.
-    pub(super) fn gather(adapted: &Adapted, accesses: &Accesses) -> Runs {
+    pub(super) fn gather(adapted: &Adapted) -> Runs {
         if !adapted.ops.iter().any(|op| op.kind.draws()) {
             return Runs::of_one(adapted);
         }
+        let accesses = &Accesses::of(adapted);
         let mut gatherer = Gatherer {
             adapted,
             accesses,
@@ -48,24 +50,40 @@ impl Runs {
         let mut starts: Vec<u32> = vec![0];
         starts.extend((1..ops.len()).filter(|at| place(&ops[at - 1]) != place(&ops[*at])).map(|at| at as u32));
         starts.push(ops.len() as u32);
-        Runs { ops, starts }
+        let accesses = accesses.in_order(&ops);
+        Runs { ops, starts, accesses }
     }
 
     pub(super) fn len(&self) -> u32 {
-        self.starts.len() as u32 - 1
+        if self.starts.is_empty() { self.ops.len() as u32 } else { self.starts.len() as u32 - 1 }
     }
 
-    /// The operations of one run.
-    pub(super) fn run(&self, run: u32) -> &[u32] {
-        &self.ops[self.starts[run as usize] as usize..self.starts[run as usize + 1] as usize]
+    /// Number of subresources.
+    pub(super) fn subresources(&self) -> usize {
+        self.accesses.subresources
     }
 
-    /// Calls `visit` with each use of one run.
+    /// The first place of one run, and the place behind its last one.
     #[inline]
-    pub(super) fn for_each_use(&self, adapted: &Adapted, run: u32, mut visit: impl FnMut(&Use)) {
-        for op in self.run(run) {
-            adapted.uses(*op).iter().for_each(&mut visit);
+    fn places(&self, run: u32) -> [u32; 2] {
+        if self.starts.is_empty() {
+            return [run, run + 1];
         }
+        [self.starts[run as usize], self.starts[run as usize + 1]]
+    }
+
+    /// The accesses of one run.
+    #[inline]
+    pub(super) fn accesses(&self, run: u32) -> &[Access] {
+        let [first, end] = self.places(run);
+        self.accesses.between(first, end)
+    }
+
+    /// Calls `visit` with the accesses of one run, from its last operation to the first.
+    #[inline]
+    pub(super) fn for_each_backwards(&self, run: u32, mut visit: impl FnMut(&Access)) {
+        let [first, end] = self.places(run);
+        (first..end).rev().for_each(|place| self.accesses.op(place).iter().for_each(&mut visit));
     }
 
     /// The operations of all runs.
@@ -74,9 +92,15 @@ impl Runs {
     }
 
     /// The operations of all runs, in the given order of runs.
-    pub(super) fn operations(&self, order: &[u32]) -> Vec<u32> {
+    pub(super) fn operations(&self, order: Vec<u32>) -> Vec<u32> {
+        if self.starts.is_empty() {
+            return order;
+        }
         let mut ops = Vec::with_capacity(self.ops.len());
-        order.iter().for_each(|run| ops.extend_from_slice(self.run(*run)));
+        for run in order {
+            let [first, end] = self.places(run);
+            ops.extend_from_slice(&self.ops[first as usize..end as usize]);
+        }
         ops
     }
 }
@@ -117,7 +141,7 @@ impl Gatherer<'_> {
         let candidate = candidate(adapted, subresources, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
-        for Access { subresource, writes, layout } in accesses.op(op) {
+        for Access { subresource, writes, layout, .. } in accesses.op(op) {
             let LastRuns { before, readers, layout: current } = subresources[*subresource as usize];
             let readers = if *writes || current != *layout { readers } else { NONE };
             for run in [before, readers] {

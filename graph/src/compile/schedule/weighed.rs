@@ -61,14 +61,27 @@ struct Peaks {
 }
 
 impl Sums {
-    pub(super) fn add(&mut self, weight: Weight, memory: &Memory) {
-        let bytes = memory.bytes(weight.resource);
+    /// Adds a resource, unless it is neither begun nor ended.
+    #[inline]
+    pub(super) fn add(&mut self, bytes: u64, begun: bool, ended: bool) {
         let of = |counts: bool| if counts { bytes } else { 0 };
-        self.begun = self.begun.saturating_add(of(weight.begun));
-        self.ended = self.ended.saturating_add(of(weight.ended));
-        self.held = self.held.saturating_add(of(weight.held));
+        self.begun = self.begun.saturating_add(of(begun));
+        self.ended = self.ended.saturating_add(of(ended));
     }
 
+    /// Adds a resource that it would hold alive where it could rise to.
+    #[inline]
+    pub(super) fn hold(&mut self, bytes: u64) {
+        self.held = self.held.saturating_add(bytes);
+    }
+
+    /// Whether what it would hold decides anything: whether it may rise, and begins any bytes.
+    #[inline]
+    pub(super) fn may_rise(&self, may_rise: bool) -> bool {
+        may_rise && self.begun > 0
+    }
+
+    #[inline]
     pub(super) fn decide(self, may_rise: bool) -> Decision {
         let rises = may_rise && self.begun > self.held;
         Decision { rises, begins: self.begun.cmp(if rises { &self.held } else { &self.ended }) }
@@ -97,12 +110,22 @@ impl Weighed {
         self.peaks = Some(Peaks { file, levels, takes_levels });
     }
 
-    /// Whether these sizes lead to the same decisions.
-    pub(super) fn decide_the_same(&self, memory: &Memory) -> bool {
+    /// Whether the sizes of `memory` lead to the same decisions.
+    pub(super) fn decide_the_same(&self, memory: impl FnOnce() -> Memory) -> bool {
+        if self.runs.is_empty() {
+            return true;
+        }
+        let memory = &memory();
         let mut start = 0;
         let same_runs = self.runs.iter().all(|run| {
             let mut sums = Sums::default();
-            self.resources[start..run.end as usize].iter().for_each(|weight| sums.add(*weight, memory));
+            for Weight { resource, begun, ended, held } in &self.resources[start..run.end as usize] {
+                let bytes = memory.bytes(*resource);
+                sums.add(bytes, *begun, *ended);
+                if *held {
+                    sums.hold(bytes);
+                }
+            }
             start = run.end as usize;
             sums.decide(run.may_rise) == run.decision
         });

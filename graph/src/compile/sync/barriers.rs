@@ -32,8 +32,11 @@ pub(in crate::compile) fn barriers(
     steps: u32,
 ) -> Barriers {
     let mut initial = initial_barriers::complete(adapted, timeline, barriers, edges);
-    let mut batched = batches::batch(&initial.queues, &adapted.resources, &initial.barriers);
-    redundant::take_out(adapted, timeline, &mut initial, &mut batched);
+    let mut batched = batches::batch(&initial.queues, &initial.barriers);
+    if adapted.resources.iter().any(|resource| resource.image().is_none()) {
+        batches::gather_buffers(&initial.queues, &adapted.resources, &initial.barriers, &mut batched);
+        redundant::take_out(adapted, timeline, &mut initial, &mut batched);
+    }
     let initial_barriers::Initial { barriers, queues, aliased } = initial;
     let has_final_states =
         batched.last().is_some_and(|last| last.at == steps) || steps == 0 || !queues.waits(steps).is_empty();

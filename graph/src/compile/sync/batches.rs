@@ -21,7 +21,7 @@ pub(in crate::compile) struct Batched {
 }
 
 /// Puts barriers, in the order of the steps that need them, into calls, in the order of steps.
-pub(super) fn batch(queues: &Queues, resources: &[PhysicalResource], barriers: &[SubresourceBarrier]) -> Vec<Batched> {
+pub(super) fn batch(queues: &Queues, barriers: &[SubresourceBarrier]) -> Vec<Batched> {
     let mut batched = Vec::with_capacity(barriers.len());
     let mut calls = [None; QUEUES];
     for (barrier, number) in barriers.iter().zip(0_u32..).filter(|(barrier, _)| barrier.step != NEVER) {
@@ -34,7 +34,6 @@ pub(super) fn batch(queues: &Queues, resources: &[PhysicalResource], barriers: &
     if !queues.is_one() {
         batched.sort_by_key(|it| it.at);
     }
-    gather_buffers(queues, resources, barriers, &mut batched);
     batched
 }
 
@@ -44,7 +43,7 @@ fn earliest(queues: &Queues, number: u32, barrier: &SubresourceBarrier) -> u32 {
 }
 
 /// Moves the barriers of buffers into as few of the calls as their places allow.
-fn gather_buffers(
+pub(super) fn gather_buffers(
     queues: &Queues,
     resources: &[PhysicalResource],
     barriers: &[SubresourceBarrier],

@@ -10,7 +10,7 @@ use super::subresource::SubresourceBarrier;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::{Adapted, Kind, PhysicalIndex, SubresourceIndex};
+use crate::compile::model::{Adapted, Kind, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::queues::{QUEUES, QueueUse, Queues};
 use crate::compile::steps::NEVER;
 use std::ops::Range;
@@ -31,7 +31,9 @@ pub(super) fn complete(
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let mut completing = Completing { adapted, timeline, initial, accesses: Vec::new() };
+    let is_plain = |resource: &PhysicalResource| resource.image().is_some() && resource.grid.is_none();
+    let plain = adapted.resources.iter().all(is_plain);
+    let mut completing = Completing { adapted, timeline, plain, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -51,6 +53,8 @@ pub(super) fn complete(
 struct Completing<'c> {
     adapted: &'c Adapted,
     timeline: &'c AccessTimeline,
+    /// Whether each resource is an image of one subresource. Most are: then few of them are looked at.
+    plain: bool,
     initial: Initial,
     /// The last accesses of the previous owner of memory.
     accesses: Vec<LastAccess>,
@@ -58,7 +62,8 @@ struct Completing<'c> {
 
 impl Completing<'_> {
     fn subresources(&self, resource: PhysicalIndex) -> Range<SubresourceIndex> {
-        self.adapted.resources[resource as usize].subresources()
+        // Each then has the number of its subresource.
+        if self.plain { resource..resource + 1 } else { self.adapted.resources[resource as usize].subresources() }
     }
 
     /// Completes the initial barriers of a resource that outlives the frame, from its state before the frame.
@@ -131,10 +136,20 @@ impl Completing<'_> {
     /// previous owner.
     fn follow(&mut self, edge: &AliasEdge, before: Range<SubresourceIndex>, subresources: Range<SubresourceIndex>) {
         let AliasEdge { resource, from, this_frame } = *edge;
-        let Completing { adapted, timeline, initial: Initial { barriers, queues, aliased }, accesses, .. } = self;
-        find_last_accesses(timeline, from, before, accesses);
+        let Completing { adapted, timeline, plain, initial: Initial { barriers, queues, aliased }, accesses } = self;
+        let one = match before.len() {
+            1 if queues.is_one() => LastAccess::of_state(&timeline.subresources[before.start as usize], 0),
+            _ => None,
+        };
+        let accesses = match &one {
+            Some(one) => std::slice::from_ref(one),
+            None => {
+                find_last_accesses(timeline, from, before, accesses);
+                &accesses[..]
+            }
+        };
         // A buffer's barrier covers all memory, an image's only the image.
-        let covers = resource == from || adapted.resources[resource as usize].image().is_none();
+        let covers = resource == from || !*plain && adapted.resources[resource as usize].image().is_none();
         for subresource in &timeline.subresources[subresources.start as usize..subresources.end as usize] {
             let number = subresource.first_barrier;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
@@ -179,9 +194,8 @@ fn find_last_accesses(
                 LastAccess { queue, stages: used.stages, writes: used.accesses.writes(), last: used.until - 1 }
                     .add_to(accesses);
             }
-        } else if known.is_used() {
-            let (queue, writes) = (queues.queue_number(known.last), known.accesses.writes());
-            LastAccess { queue, stages: known.stages, writes, last: known.last }.add_to(accesses);
+        } else if let Some(access) = LastAccess::of_state(known, queues.queue_number(known.last)) {
+            access.add_to(accesses);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Last accesses, without duplicates over subresources: so an image of many subresources can take over the memory of another
 //! one without looking at each pair of them.
 
+use super::subresource::SubresourceState;
 use crate::vulkan::{Accesses, Stages};
 
 /// Last accesses on one queue that have stages and writes in common.
@@ -15,6 +16,13 @@ pub(super) struct LastAccess {
 }
 
 impl LastAccess {
+    /// That of a subresource, if it is accessed at all, on this queue.
+    #[inline]
+    pub(super) fn of_state(state: &SubresourceState, queue: usize) -> Option<LastAccess> {
+        let SubresourceState { stages, accesses, last, .. } = *state;
+        state.is_used().then(|| LastAccess { queue, stages, writes: accesses.writes(), last })
+    }
+
     /// Adds it to a list, in which accesses that are alike are one with the latest step.
     #[inline]
     pub(super) fn add_to(self, list: &mut Vec<LastAccess>) {

@@ -19,6 +19,8 @@ pub(super) struct SubresourceState {
     pub(super) second_barrier: u32,
     /// The barrier before the last access.
     pub(super) barrier: u32,
+    /// The first step that accesses it.
+    pub(super) first: u32,
     /// The last step that accesses it.
     pub(super) last: u32,
     /// Which access of that step it is.
@@ -34,6 +36,7 @@ impl SubresourceState {
         first_barrier: NEVER,
         second_barrier: NEVER,
         barrier: NEVER,
+        first: NEVER,
         last: NEVER,
         access: NEVER,
         layout: Layout::Undefined,

@@ -4,8 +4,9 @@
 
 use super::crossed::{self, Crossed};
 use super::subresource::{SubresourceAccess, SubresourceBarrier, SubresourceState};
-use crate::compile::model::{PhysicalIndex, SubresourceIndex};
+use crate::compile::model::{PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::queues::Queues;
+use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Layout, Stages, State};
 use std::ops::Range;
@@ -41,6 +42,16 @@ impl AccessTimeline {
             .fold(0, |usage, state| usage | state.usage)
     }
 
+    /// Finds lifetimes, before the step behind all others is added.
+    pub(super) fn find_lifetimes(&mut self, resources: &[PhysicalResource]) {
+        let lifetime = |resource: &PhysicalResource| {
+            let Range { start, end } = resource.subresources();
+            let used = self.subresources[start as usize..end as usize].iter().filter(|state| state.is_used());
+            used.fold([NEVER, 0], |[first, last], state| [first.min(state.first), last.max(state.last)])
+        };
+        self.lifetimes = resources.iter().map(lifetime).collect();
+    }
+
     /// Drops the parts that serve only to make other timelines and barriers.
     pub(in crate::compile) fn forget_subresources(&mut self) {
         (self.subresources, self.lifetimes) = (Vec::new(), Vec::new());
@@ -57,6 +68,12 @@ impl AccessTimeline {
             let crossed = Crossed::of(&self.queues, access, step);
             self.access(access, crossed, step, is_own_step);
         }
+    }
+
+    /// Adds an access of one of the frame's own steps, on the only queue.
+    #[inline]
+    pub(super) fn add_one(&mut self, access: &SubresourceAccess, step: u32) {
+        self.access(access, None, step, true);
     }
 
     /// Leaves a subresource in a state, in the step behind all others.
@@ -82,13 +99,10 @@ impl AccessTimeline {
     /// the stages that it names, and for no others.
     #[inline(always)]
     fn access(&mut self, access: &SubresourceAccess, crossed: Option<Crossed>, step: u32, is_own_step: bool) {
-        let AccessTimeline { subresources, barriers, lifetimes, queues, .. } = self;
+        let AccessTimeline { subresources, barriers, queues, .. } = self;
         let state = &mut subresources[access.subresource as usize];
         state.usage |= access.usage;
-        if is_own_step {
-            let lifetime = &mut lifetimes[access.resource as usize];
-            *lifetime = [lifetime[0].min(step), step];
-        }
+        state.first = state.first.min(step);
         let joins = match crossed {
             None => {
                 state.has_layout_for_read(access)
@@ -98,10 +112,13 @@ impl AccessTimeline {
             Some(crossed) => crossed.joins(queues.uses(access.subresource), state, access),
         };
         if joins {
+            let is_wide = state.stages.contains(access.stages) && state.accesses.contains(access.accesses);
             state.stages |= access.stages;
             state.accesses |= access.accesses;
             (state.layout, state.last) = (access.layout, step);
             return match crossed {
+                // Its second scope is the accesses since.
+                None if is_wide => {}
                 None => barriers[state.barrier as usize].widen(access.stages, access.accesses),
                 Some(crossed) => crossed.join(queues, barriers, access, step, is_own_step),
             };

@@ -3,11 +3,10 @@
 use super::final_states;
 use super::subresource::{SubresourceAccess, SubresourceState};
 use super::timeline::AccessTimeline;
-use crate::compile::model::{Adapted, Role, Use};
+use crate::compile::model::{Adapted, Role, SubresourceIndex, Use};
 use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
 use crate::compile::scope::{Scoped, Step, Target};
-use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
 
 /// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
@@ -23,7 +22,7 @@ pub(in crate::compile) fn timeline(
         timeline: AccessTimeline {
             subresources: vec![SubresourceState::UNUSED; adapted.subresources as usize],
             barriers: Vec::with_capacity(adapted.uses.len() + adapted.uses.len() / 4),
-            lifetimes: vec![[NEVER, 0]; adapted.resources.len()],
+            lifetimes: Vec::new(),
             queues,
             states: Vec::new(),
             layouts: Vec::new(),
@@ -35,6 +34,7 @@ pub(in crate::compile) fn timeline(
         walk.step(step, number, load_store);
     }
     let Walk { mut timeline, .. } = walk;
+    timeline.find_lifetimes(&adapted.resources);
     timeline.states = final_states::states(adapted, &mut timeline, scoped.steps.len() as u32);
     timeline
 }
@@ -50,6 +50,11 @@ struct Walk<'w> {
 
 impl Walk<'_> {
     fn step(&mut self, step: &Step, number: u32, load_store: &LoadStoreOps) {
+        if let Step::Single(op) = step
+            && self.single(*op, number)
+        {
+            return;
+        }
         let adapted = self.adapted;
         self.accesses.clear();
         self.mixed = false;
@@ -88,19 +93,30 @@ impl Walk<'_> {
         }
     }
 
+    /// Adds a step that isn't drawn, on the only queue, if each of its uses is all that it does to one subresource. Returns
+    /// whether it did. Most steps are such: then there is nothing to join.
+    fn single(&mut self, op: u32, number: u32) -> bool {
+        let Walk { adapted, timeline, .. } = self;
+        let uses = adapted.uses(op);
+        let mut is_joined = !timeline.queues.is_one();
+        for used in uses {
+            is_joined |= match timeline.subresources.get_mut(used.subresource as usize) {
+                // A number from another step may be the same. Then this step only takes longer.
+                Some(subresource) => std::mem::replace(&mut subresource.access, number) == number,
+                None => true,
+            };
+        }
+        if is_joined {
+            return false;
+        }
+        uses.iter().for_each(|used| timeline.add_one(&access(used, used.subresource), number));
+        true
+    }
+
     fn used(&mut self, used: &Use) {
-        let usage = usage_bits(used);
-        let access = |subresource| SubresourceAccess {
-            subresource,
-            resource: used.resource,
-            stages: used.stages,
-            accesses: used.accesses,
-            layout: used.layout,
-            keeps: used.reads,
-            usage,
-        };
         let Walk { adapted, .. } = *self;
-        adapted.for_each_subresource(used, |subresource| self.accessed(access(subresource)));
+        let all = access(used, 0);
+        adapted.for_each_subresource(used, |subresource| self.accessed(SubresourceAccess { subresource, ..all }));
     }
 
     /// A local read waits only for contents that its scope loads. The scope's own draws are made visible within the scope.
@@ -166,6 +182,20 @@ impl Walk<'_> {
                 }
             }
         }
+    }
+}
+
+/// The access of a use to a subresource.
+#[inline]
+fn access(used: &Use, subresource: SubresourceIndex) -> SubresourceAccess {
+    SubresourceAccess {
+        subresource,
+        resource: used.resource,
+        stages: used.stages,
+        accesses: used.accesses,
+        layout: used.layout,
+        keeps: used.reads,
+        usage: usage_bits(used),
     }
 }
 

@@ -61,5 +61,9 @@ pub(super) fn dense(blocks: &[Block]) -> Cow<'_, [Block]> {
 
 /// The first aligned offset from `offset` on.
 pub(super) fn align(offset: u64, alignment: u64) -> u64 {
+    if alignment.is_power_of_two() {
+        // Without a division.
+        return offset.checked_add(alignment - 1).map_or(u64::MAX, |above| above & !(alignment - 1));
+    }
     offset.checked_next_multiple_of(alignment.max(1)).unwrap_or(u64::MAX)
 }

@@ -86,6 +86,11 @@ impl FreeList {
         memory
     }
 
+    /// Makes room for the ranges of that many allocations.
+    pub(super) fn reserve(&mut self, allocations: usize) {
+        self.ranges.reserve_exact(allocations + 1);
+    }
+
     /// Where a range begins.
     pub(super) fn offset(&self, range: u32) -> u64 {
         self.ranges[range as usize].offset

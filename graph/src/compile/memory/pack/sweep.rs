@@ -11,12 +11,18 @@ const NONE: u32 = u32::MAX;
 ///
 /// Blocks that end before the step of the live peak go to the high ends of free ranges. So those that are alive at the peak
 /// lie close together at the low ends, with no free range between them at the step where memory is scarcest.
-pub(super) fn sweep(blocks: &[Block], peak: Peak, mut memory: FreeList) -> Packing {
+pub(super) fn sweep(blocks: &[Block], peak: Peak, memory: &mut FreeList) -> Packing {
+    memory.reserve(blocks.len());
     let mut packing = Packing { offsets: vec![0; blocks.len()], height: 0 };
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
-    let key = |at: &u32| (blocks[*at as usize].first, Reverse(blocks[*at as usize].bytes));
-    if !order.is_sorted_by_key(key) {
-        order.sort_by_key(key);
+    let first = |at: u32| blocks[at as usize].first;
+    if !blocks.is_sorted_by_key(|block| block.first) {
+        order.sort_by_key(|at| first(*at));
+    }
+    for group in order.chunk_by_mut(|one, other| first(*one) == first(*other)) {
+        if group.len() > 1 {
+            group.sort_by_key(|at| Reverse(blocks[*at as usize].bytes));
+        }
     }
     let mut ranges = vec![NONE; blocks.len()];
     // For each step the blocks that end there, as linked lists.
