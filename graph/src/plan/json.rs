@@ -242,6 +242,17 @@ fn is_finite_fill(value: &FillValue) -> bool {
     }
 }
 
+#[inline]
 fn in_range(list: &'static str, index: u32, length: usize, place: impl FnOnce() -> String) -> Result<(), PlanError> {
-    if (index as usize) < length { Ok(()) } else { Err(PlanError::OutOfRange { place: place(), list, index, length }) }
+    if (index as usize) < length { Ok(()) } else { out_of_range(list, index, length, place) }
+}
+
+#[cold]
+fn out_of_range(
+    list: &'static str,
+    index: u32,
+    length: usize,
+    place: impl FnOnce() -> String,
+) -> Result<(), PlanError> {
+    Err(PlanError::OutOfRange { place: place(), list, index, length })
 }
