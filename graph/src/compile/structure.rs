@@ -128,7 +128,7 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
-        let placed = self.place(device, memory, options)?;
+        let placed = self.place(&barriers, device, memory, options)?;
         let aliasing = Aliasing::of(&placed, &self.timeline.lifetimes);
         let barriers = self.barriers(barriers, &aliasing);
         Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
@@ -159,7 +159,7 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settling, Vec<Diagnostic>> {
-        settled.placed = self.place(device, memory, options)?;
+        settled.placed = self.place(&self.timeline.barriers, device, memory, options)?;
         if settled.aliasing.still_holds(&settled.placed) {
             return Ok(Settling::Same);
         }
@@ -178,13 +178,19 @@ impl Structure {
         Ok(Settling::OtherBarriers)
     }
 
+    /// `barriers`: those of the timeline.
     fn place(
         &self,
+        barriers: &[SubresourceBarrier],
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Placed, Vec<Diagnostic>> {
-        memory::place(&self.adapted, &self.timeline.lifetimes, self.spans.as_deref(), device, memory, options)
+        let saves_calls = options.order != Order::LowMemory && self.timeline.queues.is_one();
+        let waits = saves_calls.then(|| sync::waits(barriers, self.scoped.steps.len()));
+        let (lifetimes, spans) = (&self.timeline.lifetimes[..], self.spans.as_deref());
+        let times = memory::Times { lifetimes, spans, waits: waits.as_deref() };
+        memory::place(&self.adapted, times, device, memory, options)
     }
 
     fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {

@@ -1,5 +1,6 @@
 //! `place`: each transient image and buffer gets an offset in memory, which others that live at other times share.
 
+use super::intervals::Intervals;
 use super::pack::{Block, Measured, Packing};
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{Adapted, Kind, PhysicalIndex};
@@ -67,12 +68,21 @@ struct Members {
     blocks: Vec<Block>,
 }
 
-/// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by
-/// side.
+/// When resources are used.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::compile) struct Times<'t> {
+    /// For each physical resource the first and the last step that use it.
+    pub(in crate::compile) lifetimes: &'t [[u32; 2]],
+    /// How long each takes its memory, if steps of several queues run side by side.
+    pub(in crate::compile) spans: Option<&'t [[u32; 2]]>,
+    /// For each step one more than the last step that its accesses wait for, if memory may be spent on fewer barrier calls.
+    pub(in crate::compile) waits: Option<&'t [u32]>,
+}
+
+/// Finds a place for each transient resource.
 pub(in crate::compile) fn place(
     adapted: &Adapted,
-    lifetimes: &[[u32; 2]],
-    spans: Option<&[[u32; 2]]>,
+    Times { lifetimes, spans, waits }: Times<'_>,
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
@@ -146,17 +156,8 @@ pub(in crate::compile) fn place(
             blocks.push(Block { first, last, bytes, alignment });
         }
     }
-    for (heap, Members { resources, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
-        let measured = Measured::of(blocks);
-        let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
-        heap.bytes = packing.height;
-        for (resource, offset) in resources.iter().zip(packing.offsets) {
-            if let Some(placement) = &mut placed.placements[*resource as usize] {
-                placement.offset = offset;
-            }
-        }
-        placed.live_peak_bytes = measured.live_peak();
-    }
+    let measured: Vec<Measured<'_>> = members.iter().map(|members| Measured::of(&members.blocks)).collect();
+    placed.live_peak_bytes = measured.last().map_or(0, Measured::live_peak);
     if members.len() > 1 || overlaps {
         let alive = |(resource, block): (&PhysicalIndex, &Block)| {
             let [first, last] = lifetimes[*resource as usize];
@@ -165,7 +166,32 @@ pub(in crate::compile) fn place(
         let all = members.iter().flat_map(|Members { resources, blocks, .. }| resources.iter().zip(blocks).map(alive));
         placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
     }
+    let packings = if options.alias {
+        let waits = waits.filter(|_| !overlaps);
+        waits
+            .and_then(|waits| pack_by_intervals(waits, &members, placed.live_peak_bytes))
+            .unwrap_or_else(|| measured.iter().map(Measured::pack).collect())
+    } else {
+        members.iter().map(|members| side_by_side(&members.blocks)).collect()
+    };
+    for ((heap, Members { resources, .. }), packing) in placed.heaps.iter_mut().zip(&members).zip(packings) {
+        heap.bytes = packing.height;
+        for (resource, offset) in resources.iter().zip(packing.offsets) {
+            if let Some(placement) = &mut placed.placements[*resource as usize] {
+                placement.offset = offset;
+            }
+        }
+    }
     Ok(placed)
+}
+
+/// Packings in which memory changes hands only where intervals between barrier calls begin; `None` if this saves no call, or
+/// takes too much memory.
+fn pack_by_intervals(waits: &[u32], members: &[Members], live_peak: u64) -> Option<Vec<Packing>> {
+    let intervals = Intervals::of(waits, members.iter().flat_map(|members| &members.blocks), live_peak)?;
+    let pack = |members: &Members| Measured::of(&intervals.widen(&members.blocks)).pack();
+    let packings: Vec<Packing> = members.iter().map(pack).collect();
+    (packings.iter().map(|packing| packing.height).sum::<u64>() <= intervals.most_bytes).then_some(packings)
 }
 
 /// The memory needs of an image in the format `usual`: estimated if the device can't create it.

@@ -19,12 +19,15 @@ pub(super) struct Accesses {
     starts: Vec<u32>,
     /// Number of subresources.
     pub(super) subresources: usize,
+    /// Whether an operation has an effect that nothing shows.
+    pub(super) has_effects: bool,
 }
 
 impl Accesses {
     pub(super) fn of(adapted: &Adapted) -> Accesses {
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
+        let mut has_effects = false;
         for (op, number) in adapted.ops.iter().zip(0_u32..) {
             starts.push(list.len() as u32);
             for used in adapted.uses(number) {
@@ -34,10 +37,17 @@ impl Accesses {
             if op.side_effect {
                 // Effects that nothing shows are writes of a subresource behind all others.
                 list.push(Access { subresource: adapted.subresources, writes: true, layout: Layout::Undefined });
+                has_effects = true;
             }
         }
         starts.push(list.len() as u32);
-        Accesses { list, starts, subresources: adapted.subresources as usize + 1 }
+        Accesses { list, starts, subresources: adapted.subresources as usize + 1, has_effects }
+    }
+
+    /// The subresource that an operation's effect writes, if it has one that nothing shows.
+    pub(super) fn effect(&self, op: u32) -> Option<SubresourceIndex> {
+        let behind_all = self.subresources as u32 - 1;
+        self.op(op).last().map(|access| access.subresource).filter(|subresource| *subresource == behind_all)
     }
 
     /// Those of one operation.

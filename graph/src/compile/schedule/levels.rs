@@ -1,4 +1,6 @@
 //! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
+//!
+//! Effects that nothing shows take no barriers, so runs with effects may share a level: they keep their order in it.
 
 use super::accesses::{Access, Accesses};
 use super::memory::Memory;
@@ -69,7 +71,9 @@ pub(super) fn by_level(
             *end = (level + 1).max(*end);
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
-        keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
+        let keeps_order = accesses.has_effects && runs.run(run).iter().any(|op| accesses.effect(*op).is_some());
+        let place = if keeps_order { 1 } else { decision.begins as i8 + 1 };
+        keys[run as usize] = 3 * level + place as u32;
     }
     counting_sort(&keys, 3 * top + 3)
 }
@@ -137,6 +141,11 @@ impl<'a> Walk<'a> {
             } else {
                 *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
             }
+        }
+        if self.accesses.has_effects
+            && let Some(effect) = self.accesses.effect(op)
+        {
+            self.subresources[effect as usize].before = level;
         }
     }
 }
