@@ -147,7 +147,7 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
-        let placed = self.place(device, memory, options)?;
+        let placed = self.place(&barriers, device, memory, options)?;
         let aliasing = Aliasing::of(&placed, &self.by_first_step);
         let barriers = self.barriers(barriers, &aliasing);
         Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
@@ -178,7 +178,7 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settling, Vec<Diagnostic>> {
-        settled.placed = self.place(device, memory, options)?;
+        settled.placed = self.place(&self.timeline.barriers, device, memory, options)?;
         if settled.aliasing.still_holds(&settled.placed) {
             return Ok(Settling::Same);
         }
@@ -197,17 +197,23 @@ impl Structure {
         Ok(Settling::OtherBarriers)
     }
 
+    /// `barriers`: those of the timeline.
     fn place(
         &self,
+        barriers: &[SubresourceBarrier],
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Placed, Vec<Diagnostic>> {
         let (spans, order) = match &self.spans {
-            Some((spans, order)) => (Some(&spans[..]), order),
-            None => (None, &self.by_first_step),
+            Some((spans, order)) => (Some(&spans[..]), &order[..]),
+            None => (None, &self.by_first_step[..]),
         };
-        memory::place(&self.adapted, &self.timeline.lifetimes, spans, order, device, memory, options)
+        let saves_calls = options.order != Order::LowMemory && self.timeline.queues.is_one();
+        let waits = saves_calls.then(|| sync::waits(barriers, self.scoped.steps.len()));
+        let lifetimes = &self.timeline.lifetimes[..];
+        let times = memory::Times { lifetimes, spans, order, waits: waits.as_deref() };
+        memory::place(&self.adapted, times, device, memory, options)
     }
 
     fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {

@@ -1,8 +1,9 @@
 //! The measured graphs compile to Plans that keep their promises.
 
 use crate::testing::graphs;
-use crate::testing::plans::compiled;
-use framewright_graph::frame::ImageIndex;
+use crate::testing::plans::{compiled, planned};
+use framewright_graph::compile::{Options, Order};
+use framewright_graph::frame::{Frame, ImageIndex};
 use std::collections::HashSet;
 
 #[test]
@@ -16,10 +17,27 @@ fn deferred_is_placed_near_its_live_peak_and_has_the_fewest_image_barriers() {
 }
 
 #[test]
-fn equal_sized_graphs_are_placed_at_their_live_peak() {
-    for frame in [graphs::chain(100), graphs::wide(100), graphs::local(100), graphs::wide(1000)] {
-        let totals = compiled(&frame).totals;
+fn equal_sized_graphs_are_placed_at_their_live_peak_if_more_memory_saves_no_call() {
+    let low_memory = Options { order: Order::LowMemory, ..Options::default() };
+    let [default, low_memory] = [Options::default(), low_memory].map(|options| {
+        move |frame: &Frame| planned(frame, &graphs::device(), &options).expect("the graph is valid").totals
+    });
+    for totals in [
+        default(&graphs::chain(100)),
+        default(&graphs::local(100)),
+        low_memory(&graphs::wide(100)),
+        low_memory(&graphs::wide(1000)),
+    ] {
         assert_eq!(totals.placed_bytes, totals.live_peak_bytes, "{totals:?}");
+    }
+}
+
+#[test]
+fn a_fiftieth_more_memory_is_taken_where_it_saves_barrier_calls() {
+    for (passes, calls) in [(100, 21), (1000, 43)] {
+        let totals = compiled(&graphs::wide(passes)).totals;
+        assert_eq!(totals.barrier_calls, calls, "{totals:?}");
+        assert!(totals.placed_bytes * 50 <= totals.live_peak_bytes * 51, "{totals:?}");
     }
 }
 
@@ -41,6 +59,6 @@ fn a_wide_graph_has_one_image_barrier_for_each_image_and_one_for_each_that_is_re
     }
     let totals = compiled(&frame).totals;
     assert_eq!(totals.image_barriers as usize, 100 + read.len(), "{totals:?}");
-    assert_eq!(totals.image_barriers, 173);
+    assert_eq!((totals.image_barriers, totals.memory_barriers, totals.barrier_calls), (173, 9, 32));
     assert_eq!(totals.placed_bytes, totals.live_peak_bytes);
 }

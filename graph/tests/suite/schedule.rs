@@ -75,9 +75,8 @@ fn the_default_order_costs_no_more_barriers_and_no_more_memory_than_that_of_the_
     }
 }
 
-#[test]
-fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
-    // Four chains of four, one after the other in the file.
+/// Four chains of four passes, one after the other in the file, and a pass that reads the end of each.
+fn four_chains() -> Frame {
     let mut builder = Builder::default();
     let mut ends = Vec::new();
     for chain in 0..4 {
@@ -95,8 +94,23 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
     // Images of their own memory: no call serves a hand-over.
     let outputs = (0..frame.images.len() as u32 - 1).map(|image| Resource::Image(ImageIndex(image)).into());
     frame.outputs.extend(outputs);
+    frame
+}
+
+#[test]
+fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
+    let frame = four_chains();
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);
     assert!(compiled(&frame, Order::File).totals.barrier_calls > 5);
+}
+
+#[test]
+fn effects_that_nothing_shows_share_a_barrier_call_in_their_order() {
+    let mut frame = four_chains();
+    frame.passes.iter_mut().step_by(4).take(4).for_each(|pass| pass.side_effect = true);
+    let plan = compiled(&frame, Order::Default);
+    assert_eq!(plan.totals.barrier_calls, 5);
+    assert_eq!(steps(&plan).concat()[..4], ["pass00", "pass10", "pass20", "pass30"]);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Memory of transient resources: the heap and offset of each, and the alias edges between them.
 
 mod aliasing;
+mod intervals;
 mod pack;
 mod place;
 
 pub(super) use aliasing::{AliasEdge, Aliasing};
-pub(super) use place::{Placed, by_first_step, place};
+pub(super) use place::{Placed, Times, by_first_step, place};

@@ -1,5 +1,6 @@
 //! `place`: each transient image and buffer gets an offset in memory, which others that live at other times share.
 
+use super::intervals::Intervals;
 use super::pack::{Block, Measured, Packing};
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{Adapted, Kind, PhysicalIndex};
@@ -65,13 +66,23 @@ struct Members {
     blocks: Vec<Block>,
 }
 
-/// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by
-/// side. `order`: these resources, in the order of the first steps of spans.
+/// When resources are used.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::compile) struct Times<'t> {
+    /// For each physical resource the first and the last step that use it.
+    pub(in crate::compile) lifetimes: &'t [[u32; 2]],
+    /// How long each takes its memory, if steps of several queues run side by side.
+    pub(in crate::compile) spans: Option<&'t [[u32; 2]]>,
+    /// Transient resources, in the order of the first steps of spans.
+    pub(in crate::compile) order: &'t [PhysicalIndex],
+    /// For each step one more than the last step that its accesses wait for, if memory may be spent on fewer barrier calls.
+    pub(in crate::compile) waits: Option<&'t [u32]>,
+}
+
+/// Finds a place for each transient resource.
 pub(in crate::compile) fn place(
     adapted: &Adapted,
-    lifetimes: &[[u32; 2]],
-    spans: Option<&[[u32; 2]]>,
-    order: &[PhysicalIndex],
+    Times { lifetimes, spans, order, waits }: Times<'_>,
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
@@ -144,19 +155,8 @@ pub(in crate::compile) fn place(
             members[placement.heap as usize].blocks.push(block(placement, spans[*resource as usize]));
         }
     }
-    let mut offsets = Vec::with_capacity(members.len());
-    for (heap, Members { blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
-        let measured = Measured::of(blocks);
-        let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
-        heap.bytes = packing.height;
-        offsets.push(packing.offsets.into_iter());
-        placed.live_peak_bytes = measured.live_peak();
-    }
-    for resource in order {
-        if let Some(placement) = &mut placed.placements[*resource as usize] {
-            placement.offset = offsets[placement.heap as usize].next().unwrap_or_default();
-        }
-    }
+    let measured: Vec<Measured<'_>> = members.iter().map(|members| Measured::of(&members.blocks)).collect();
+    placed.live_peak_bytes = measured.last().map_or(0, Measured::live_peak);
     if members.len() > 1 || overlaps {
         let alive = |resource: &PhysicalIndex| {
             let placement = placed.placements[*resource as usize].as_ref()?;
@@ -164,7 +164,34 @@ pub(in crate::compile) fn place(
         };
         placed.live_peak_bytes = Measured::of(&order.iter().filter_map(alive).collect::<Vec<Block>>()).live_peak();
     }
+    let packings = if options.alias {
+        let waits = waits.filter(|_| !overlaps);
+        waits
+            .and_then(|waits| pack_by_intervals(waits, &members, placed.live_peak_bytes))
+            .unwrap_or_else(|| measured.iter().map(Measured::pack).collect())
+    } else {
+        members.iter().map(|members| side_by_side(&members.blocks)).collect()
+    };
+    let mut offsets = Vec::with_capacity(packings.len());
+    for (heap, packing) in placed.heaps.iter_mut().zip(packings) {
+        heap.bytes = packing.height;
+        offsets.push(packing.offsets.into_iter());
+    }
+    for resource in order {
+        if let Some(placement) = &mut placed.placements[*resource as usize] {
+            placement.offset = offsets[placement.heap as usize].next().unwrap_or_default();
+        }
+    }
     Ok(placed)
+}
+
+/// Packings in which memory changes hands only where intervals between barrier calls begin; `None` if this saves no call, or
+/// takes too much memory.
+fn pack_by_intervals(waits: &[u32], members: &[Members], live_peak: u64) -> Option<Vec<Packing>> {
+    let intervals = Intervals::of(waits, members.iter().flat_map(|members| &members.blocks), live_peak)?;
+    let pack = |members: &Members| Measured::of(&intervals.widen(&members.blocks)).pack();
+    let packings: Vec<Packing> = members.iter().map(pack).collect();
+    (packings.iter().map(|packing| packing.height).sum::<u64>() <= intervals.most_bytes).then_some(packings)
 }
 
 /// The memory needs of an image in the format `usual`: estimated if the device can't create it.

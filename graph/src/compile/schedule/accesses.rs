@@ -16,11 +16,19 @@ pub(super) struct Access {
 impl Access {
     /// No use begins with this access.
     const NO_USE: PhysicalIndex = PhysicalIndex::MAX;
+    /// The access is an effect that nothing shows.
+    const EFFECT: PhysicalIndex = PhysicalIndex::MAX - 1;
 
     /// The image or buffer of the use that begins with this access, if one does.
     #[inline]
     pub(super) fn used(&self) -> Option<PhysicalIndex> {
-        (self.resource != Access::NO_USE).then_some(self.resource)
+        (self.resource < Access::EFFECT).then_some(self.resource)
+    }
+
+    /// Whether it is an effect that nothing shows.
+    #[inline]
+    pub(super) fn is_effect(&self) -> bool {
+        self.resource == Access::EFFECT
     }
 }
 
@@ -49,7 +57,7 @@ impl Accesses {
             }
             if op.side_effect {
                 // Effects that nothing shows are writes of a subresource behind all others.
-                let (subresource, resource) = (adapted.subresources, Access::NO_USE);
+                let (subresource, resource) = (adapted.subresources, Access::EFFECT);
                 list.push(Access { subresource, resource, writes: true, layout: Layout::Undefined });
             }
         }

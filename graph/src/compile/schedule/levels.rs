@@ -1,4 +1,6 @@
 //! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
+//!
+//! Effects that nothing shows take no barriers, so runs with effects may share a level: they keep their order in it.
 
 use super::accesses::Access;
 use super::memory::{Lifetimes, Memory};
@@ -79,7 +81,9 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
             }
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
-        keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
+        // Effects keep their order.
+        let place = if accesses.iter().any(Access::is_effect) { 1 } else { decision.begins as i8 + 1 };
+        keys[run as usize] = 3 * level + place as u32;
     }
     counting_sort(&keys, 3 * top + 3)
 }
@@ -146,7 +150,8 @@ impl Walk {
     /// Notes the level of an access.
     #[inline]
     fn put(&mut self, access: &Access, level: u32) {
-        let behind = level + 1;
+        // Another effect may share the level of an effect.
+        let behind = level + u32::from(!access.is_effect());
         let Access { subresource, writes, layout, .. } = *access;
         let state = &mut self.subresources[subresource as usize];
         if writes {

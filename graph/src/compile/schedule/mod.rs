@@ -8,7 +8,8 @@
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
 //! 2. *Batching and overlap* (`levels`): an operation is one level above the highest that it depends on, and levels follow
 //!    each other. All barriers between two levels fit into one call, no valid order has fewer such calls, and operations
-//!    behind a barrier depend on nothing in their own level, so the device overlaps them.
+//!    behind a barrier depend on nothing in their own level, so the device overlaps them. Only effects that nothing shows
+//!    keep their order within a level: they take no barriers.
 //! 3. *Memory*: an operation that begins more bytes than it ends moves up to the last level that leaves the number of levels
 //!    as it is, and stands in its level behind operations that end bytes. If the largest number of bytes alive at one time is
 //!    still more than a fiftieth above that of the file's order, the file's order stays.

@@ -37,6 +37,19 @@ pub(super) fn batch(queues: &Queues, barriers: &[SubresourceBarrier]) -> Vec<Bat
     batched
 }
 
+/// For each step one more than the last step that its barriers wait for, as far as accesses alone make them wait.
+///
+/// `barriers`: those of the timeline, on one queue.
+pub(in crate::compile) fn waits(barriers: &[SubresourceBarrier], steps: usize) -> Vec<u32> {
+    let mut waits = vec![0; steps];
+    for barrier in barriers {
+        if let Some(waits) = waits.get_mut(barrier.step as usize) {
+            *waits = barrier.after.wrapping_add(1).max(*waits);
+        }
+    }
+    waits
+}
+
 /// The first step that a barrier may stand before.
 fn earliest(queues: &Queues, number: u32, barrier: &SubresourceBarrier) -> u32 {
     if queues.is_held(number) { barrier.step } else { barrier.after.wrapping_add(1) }

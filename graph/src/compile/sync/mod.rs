@@ -21,7 +21,7 @@ mod timeline;
 mod walk;
 
 pub(super) use barriers::{Barriers, barriers};
-pub(super) use batches::Batched;
+pub(super) use batches::{Batched, waits};
 pub(super) use subresource::SubresourceBarrier;
 pub(super) use timeline::{AccessTimeline, States};
 pub(super) use walk::timeline;

@@ -1,0 +1,81 @@
+//! Intervals: the steps between two barrier calls.
+//!
+//! A resource waits for the previous owner of its memory in a call behind that owner's last step. If the accesses need no call
+//! there, the hand-over adds one. It adds none if the memory was free when the interval began. So each resource takes its
+//! memory for the whole interval in which it begins, where a little more memory saves calls.
+
+use super::pack::Block;
+
+/// The share of the live peak that may be spent on fewer calls.
+const SHARE: u64 = 50;
+
+/// For each step the one with which its interval begins.
+pub(super) struct Intervals {
+    starts: Vec<u32>,
+    /// The most bytes that all packings together may take.
+    pub(super) most_bytes: u64,
+}
+
+impl Intervals {
+    /// The fewest intervals in which, with each resource alive from the start of its interval on, at most a fiftieth more
+    /// than `live_peak` is alive; `None` if no more than `live_peak` allows as few.
+    ///
+    /// `waits`: for each step one more than the last step that the accesses of this one wait for. An interval ends before the
+    /// first step that waits for a step in it, or with which it would take too much memory. Each interval reaches as far as it
+    /// can, which gives the fewest.
+    pub(super) fn of<'b>(waits: &[u32], blocks: impl Iterator<Item = &'b Block>, live_peak: u64) -> Option<Intervals> {
+        let mut changes = vec![Change::default(); waits.len()];
+        for block in blocks {
+            changes[block.first as usize].begun += block.bytes;
+            changes[block.last as usize].ended += block.bytes;
+        }
+        let most_bytes = live_peak + live_peak / SHARE;
+        let (mut tight, mut wide) = (Walk::new(live_peak), Walk::new(most_bytes));
+        let mut starts = Vec::with_capacity(waits.len());
+        for ((waits, change), step) in waits.iter().zip(&changes).zip(0..) {
+            tight.step(step, *waits, change);
+            wide.step(step, *waits, change);
+            starts.push(wide.start);
+        }
+        (wide.count < tight.count).then_some(Intervals { starts, most_bytes })
+    }
+
+    /// Blocks that begin with their intervals.
+    pub(super) fn widen(&self, blocks: &[Block]) -> Vec<Block> {
+        blocks.iter().map(|block| Block { first: self.starts[block.first as usize], ..*block }).collect()
+    }
+}
+
+/// Bytes that begin and end with a step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Change {
+    begun: u64,
+    ended: u64,
+}
+
+/// A walk through the steps that makes the fewest intervals with at most `most` bytes in each.
+struct Walk {
+    most: u64,
+    /// Where the current interval begins.
+    start: u32,
+    /// Bytes that it takes, and those of them that no later one needs.
+    taken: u64,
+    ended: u64,
+    count: u32,
+}
+
+impl Walk {
+    fn new(most: u64) -> Walk {
+        Walk { most, start: 0, taken: 0, ended: 0, count: 1 }
+    }
+
+    fn step(&mut self, step: u32, waits: u32, change: &Change) {
+        if waits > self.start || self.taken + change.begun > self.most {
+            self.taken -= self.ended;
+            (self.start, self.ended) = (step, 0);
+            self.count += 1;
+        }
+        self.taken += change.begun;
+        self.ended += change.ended;
+    }
+}
