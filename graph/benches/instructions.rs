@@ -11,6 +11,8 @@
 
 #[path = "compile/changed.rs"]
 mod changed;
+#[path = "compile/files.rs"]
+mod files;
 #[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
 #[path = "../tests/suite/testing/parts.rs"]
@@ -33,7 +35,7 @@ const TOLERANCE: f64 = 0.03;
 const ONLY: &str = "--only";
 
 /// A row of the table, and what is run for it.
-const ROWS: [(&str, fn()); 11] = [
+const ROWS: [(&str, fn()); 13] = [
     ("deferred", || compile(&graphs::deferred())),
     ("chain 100", || compile(&graphs::chain(100))),
     ("chain 1000", || compile(&graphs::chain(1_000))),
@@ -45,6 +47,8 @@ const ROWS: [(&str, fn()); 11] = [
     ("wide 1000, other values", || compile_again(changed::with_values, Reuse::Placement)),
     ("wide 1000, other sizes", || compile_again(changed::with_sizes, Reuse::Structure)),
     ("wide 1000, verify", verify_plan),
+    ("reading 1000", || read(files::written_out(1_000))),
+    ("expanding 1000", || read(files::of_fragments(1_000))),
 ];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -142,6 +146,12 @@ fn verify_plan() {
     let plan = compiled.expect("the graph is valid");
     black_box(verify(&plan));
     black_box(counted(|| verify(&plan)));
+}
+
+/// Reads a file, and puts its passes together with their shaders' interfaces.
+fn read(text: String) {
+    black_box(files::frame(text.clone()));
+    counted(|| files::frame(text));
 }
 
 /// The instructions that callgrind counts for a row.

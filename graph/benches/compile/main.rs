@@ -8,6 +8,7 @@
 //! measured, the bench starts itself again with `MALLOC_TRIM_THRESHOLD_`, `MALLOC_MMAP_THRESHOLD_` and `MALLOC_TOP_PAD_` set.
 
 mod changed;
+mod files;
 #[path = "../../tests/suite/testing/graphs.rs"]
 mod graphs;
 #[path = "../../tests/suite/testing/parts.rs"]

@@ -2,11 +2,12 @@
 
 use super::{Leaf, MANY_MISTAKES, Shape, Table};
 use crate::base::{Diagnostic, MOST_KEPT, keep, suggestion};
+use std::fmt::Display;
 
 /// A form that a value can have. [`fields!`](crate::fields) makes one of a struct.
 pub trait FromLeaf<'t>: Sized {
     /// Tells the parts of `leaf` apart, or adds mistakes to `errors`. `what` names the value: "pass `sky`".
-    fn from_leaf(leaf: Leaf<'t>, what: &str, errors: &mut Vec<Diagnostic>) -> Option<Self>;
+    fn from_leaf(leaf: Leaf<'t>, what: &dyn Display, errors: &mut Vec<Diagnostic>) -> Option<Self>;
 }
 
 /// A field's value, which may have to be there.
@@ -82,7 +83,7 @@ macro_rules! fields {
         impl<$t> $crate::ron::FromLeaf<$t> for $struct<$t> {
             fn from_leaf(
                 leaf: $crate::ron::Leaf<$t>,
-                what: &str,
+                what: &dyn ::std::fmt::Display,
                 errors: &mut ::std::vec::Vec<$crate::base::Diagnostic>,
             ) -> ::std::option::Option<Self> {
                 use $crate::ron::{Described, Field, Leaf, slots};
@@ -107,7 +108,7 @@ pub const fn plain_name(name: &'static str) -> &'static str {
 /// Sorts the fields of `leaf` into the places of those that are known.
 pub fn slots<'t>(
     leaf: Leaf<'t>,
-    what: &str,
+    what: &dyn Display,
     known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
@@ -158,7 +159,7 @@ pub fn slots<'t>(
     None
 }
 
-fn written(error: Diagnostic, what: &str, known: &Table) -> Diagnostic {
+fn written(error: Diagnostic, what: &dyn Display, known: &Table) -> Diagnostic {
     match known.word {
         Some(_) => error,
         None => error.help(format!("{what} is written `(field: value, …)`")),
@@ -168,7 +169,7 @@ fn written(error: Diagnostic, what: &str, known: &Table) -> Diagnostic {
 /// Reports every field that is not known or stands twice.
 fn sort<'t>(
     fields: impl Iterator<Item = (Leaf<'t>, Leaf<'t>)>,
-    what: &str,
+    what: &dyn Display,
     known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
@@ -202,7 +203,7 @@ fn sort<'t>(
 }
 
 impl<'t, const N: usize> FromLeaf<'t> for [Leaf<'t>; N] {
-    fn from_leaf(leaf: Leaf<'t>, what: &str, errors: &mut Vec<Diagnostic>) -> Option<Self> {
+    fn from_leaf(leaf: Leaf<'t>, what: &dyn Display, errors: &mut Vec<Diagnostic>) -> Option<Self> {
         let tuple = leaf.tuple();
         if tuple.is_none() && !leaf.is_broken() {
             let found = match (leaf.shape(), leaf.values()) {
