@@ -1,6 +1,6 @@
 //! Values that have a fixed form: `(name: …, …)` with known fields, and `(…, …)` of a known length.
 
-use super::{Leaf, MANY_MISTAKES, Shape, Table};
+use super::{Leaf, MANY_MISTAKES, Row, Shape, Table};
 use crate::base::{Diagnostic, MOST_KEPT, keep, suggestion};
 use std::fmt::Display;
 
@@ -175,13 +175,18 @@ fn sort<'t>(
     errors: &mut Vec<Diagnostic>,
 ) -> Option<()> {
     let mut right = true;
+    // Fields usually stand in the order of the table: the row behind the last one is compared first.
+    let mut next = 0;
     for (name, value) in fields {
         // Fields after the last mistake that is kept aren't looked at.
         if errors.len() >= MOST_KEPT {
             return None;
         }
         let text = name.text();
-        let place = known.rows.iter().position(|row| row.name == text);
+        let (before, after) = known.rows.split_at(next);
+        let is_named = |row: &Row| row.name == text;
+        let place = after.iter().position(is_named).map(|at| next + at).or_else(|| before.iter().position(is_named));
+        next = place.map_or(next, |place| place + 1);
         let error = match place.and_then(|place| found.get_mut(place)) {
             _ if name.is_broken() => None,
             None => {
