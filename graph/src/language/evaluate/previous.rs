@@ -4,12 +4,13 @@ use crate::base::Diagnostic;
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Draw, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
 use crate::ron::{Name, Spanned};
+use std::borrow::Cow;
 
 /// Reports every part of an earlier frame that isn't kept, and every one that a pass would write.
 pub(crate) fn check(
-    images: &[Option<Image>],
+    images: &[Option<Cow<'_, Image>>],
     buffers: &[Option<Buffer>],
-    passes: &[Option<Pass>],
+    passes: &[Option<Cow<'_, Pass>>],
     errors: &mut Vec<Diagnostic>,
 ) {
     for pass in passes.iter().flatten() {
@@ -47,7 +48,7 @@ fn read(pass: &Pass) -> Vec<Part> {
 }
 
 fn kept(
-    images: &[Option<Image>],
+    images: &[Option<Cow<'_, Image>>],
     buffers: &[Option<Buffer>],
     of: ResourceRef,
     previous: Spanned<u32>,
@@ -93,7 +94,7 @@ fn kept(
 
 /// The name and lifetime of an image or buffer, if it could be read.
 fn declared<'a>(
-    images: &'a [Option<Image>],
+    images: &'a [Option<Cow<'a, Image>>],
     buffers: &'a [Option<Buffer>],
     of: Resource,
 ) -> Option<(&'a Name, &'a Spanned<Lifetime>)> {
