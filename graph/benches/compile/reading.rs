@@ -5,7 +5,7 @@ use crate::files;
 use crate::timing::{Timing, beside, microseconds};
 
 pub(crate) fn run(timing: &Timing) {
-    for (passes, goal) in [(1_000, 20), (100_000, 2_000)] {
+    for (passes, goal) in [(1_000, 5), (100_000, 600)] {
         if timing.wants(&format!("reading {passes}")) {
             let text = files::written_out(passes);
             let time = timing.least(|| files::frame(text.clone()));

@@ -2,8 +2,8 @@
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
-use std::borrow::Cow;
 use crate::language::model::{Buffer, Bytes, Format, Image, ImageRef, Layers, Lifetime, Mips, Samples, Size};
+use std::borrow::Cow;
 
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;

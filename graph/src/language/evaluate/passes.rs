@@ -27,7 +27,8 @@ impl<'a> Evaluation<'a> {
             let number = entry.repeat.is_list().then_some(number);
             match entry.value.get(reader)? {
                 Item::Pass(pass) => {
-                    if let Some(pass) = pass.constant().filter(|pass| pass.view == view && level.has_own_names(number)) {
+                    if let Some(pass) = pass.constant().filter(|pass| pass.view == view && level.has_own_names(number))
+                    {
                         self.flat.passes.push(Some(Cow::Borrowed(pass)));
                         continue;
                     }
