@@ -73,16 +73,19 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
     fn runs(&mut self, position: usize, pass: &Pass, reader: &dyn Display, named: Option<Span>) {
-        for read in accesses::reads(self.resources, pass).into_iter().filter(|read| read.frames_ago == 0) {
-            let span = named.unwrap_or(read.span);
-            self.needs(position, &Read { span, ..read }, reader);
-        }
-        for write in accesses::writes(self.resources, pass) {
+        let resources = self.resources;
+        accesses::for_each_read(resources, pass, |read| {
+            if read.frames_ago == 0 {
+                let span = named.unwrap_or(read.span);
+                self.needs(position, &Read { span, ..read }, reader);
+            }
+        });
+        accesses::for_each_write(resources, pass, |write| {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
             self.add(write.resource, &write.cells);
-        }
+        });
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {

@@ -214,6 +214,7 @@ impl LevelReader<'_> {
 fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<ItemFields<'t>>> {
     let Some(leaves) = list.and_then(|list| reader.list(list, "`passes`")) else { return Vec::new() };
     let mut names = Names::new("pass");
+    names.reserve(leaves.len());
     let mut anchors = HashMap::new();
     let item = |leaf: Leaf<'t>| {
         if leaf.field("anchor").is_some() {

@@ -17,6 +17,7 @@ pub(crate) fn entries<'t, T: FromLeaf<'t>>(
         names.give(reader, None);
         return Vec::new();
     };
+    names.reserve(leaves.len());
     leaves.into_iter().map(|leaf| entry(reader, leaf, what, what, names)).collect()
 }
 

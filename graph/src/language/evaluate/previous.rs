@@ -30,21 +30,20 @@ pub(crate) fn check(
 }
 
 /// Parts that a pass reads, as far as the file alone says.
-fn read(pass: &Pass) -> Vec<Part> {
-    let mut parts: Vec<Part> = pass.sample.iter().map(|sample| Part::Image(sample.part)).collect();
-    parts.extend(pass.storage.iter().map(|storage| storage.part));
-    let buffers = pass.uniform.iter().map(|uniform| uniform.part).chain(pass.vertex).chain(pass.index);
-    parts.extend(buffers.map(Part::Buffer));
-    match &pass.work {
-        Work::Draw { draw: Draw::Indirect(buffer), .. } => parts.push(Part::Buffer(*buffer)),
+fn read(pass: &Pass) -> impl Iterator<Item = Part> {
+    let (one, several): (Option<Part>, &[Part]) = match &pass.work {
+        Work::Draw { draw: Draw::Indirect(buffer), .. } => (Some(Part::Buffer(*buffer)), &[]),
         Work::Dispatch { groups: Spanned { value: Groups::Indirect { buffer, .. }, .. }, .. } => {
-            parts.push(Part::Buffer(*buffer));
+            (Some(Part::Buffer(*buffer)), &[])
         }
-        Work::Copy { from, .. } | Work::Blit { from, .. } => parts.push(*from),
-        Work::Custom { reads, .. } => parts.extend(reads),
-        Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => {}
-    }
-    parts
+        Work::Copy { from, .. } | Work::Blit { from, .. } => (Some(*from), &[]),
+        Work::Custom { reads, .. } => (None, reads),
+        Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => (None, &[]),
+    };
+    let sampled = pass.sample.iter().map(|sample| Part::Image(sample.part));
+    let stored = pass.storage.iter().map(|storage| storage.part);
+    let buffers = pass.uniform.iter().map(|uniform| uniform.part).chain(pass.vertex).chain(pass.index);
+    sampled.chain(stored).chain(buffers.map(Part::Buffer)).chain(one).chain(several.iter().copied())
 }
 
 fn kept(
