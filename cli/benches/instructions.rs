@@ -20,7 +20,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     command(&all).output()?;
     let guard = Guard { figures: FIGURES, accept: ACCEPT };
     guard.run(["variants of forward"], |_| {
-        let [one, every] = [&[][..], &all].map(|words| counts::instructions(&mut command(words), None));
+        let [one, every] = [&[][..], &all[..]].map(|words| counts::instructions(&mut command(words), None));
         Ok(every?.saturating_sub(one?))
     })
 }
