@@ -6,17 +6,25 @@
 //! this program once for each row and counts what happens within [`counted`] alone: neither building the graph nor a first
 //! run, which fills the allocator's lists, is part of it.
 //!
-//! `instructions.txt` holds the committed figures. Its first line names the tools that they depend on: the compiler, the
-//! C library (its allocator is counted too), valgrind and the processor's architecture. With other tools the figures can't
-//! be compared, which is said. That fails only where `CI` is set. The figures are written only if they are accepted.
+//! `instructions.txt` holds the committed figures.
 
 #[path = "compile/changed.rs"]
 mod changed;
+#[path = "shared/counts.rs"]
+mod counts;
+#[path = "compile/files.rs"]
+mod files;
 #[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
 #[path = "../tests/suite/testing/parts.rs"]
 mod parts;
+#[allow(dead_code, reason = "tests use all of it")]
+#[path = "../tests/suite/testing/pipelines.rs"]
+mod pipelines;
+#[path = "../tests/suite/testing/table.rs"]
+mod table;
 
+use counts::Guard;
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::Frame;
@@ -28,13 +36,11 @@ use std::sync::Arc;
 
 const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench -p framewright-graph --bench instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
-/// The share by which a figure may differ from the committed one.
-const TOLERANCE: f64 = 0.03;
 /// The argument before the name of the only row to run, within valgrind.
 const ONLY: &str = "--only";
 
 /// A row of the table, and what is run for it.
-const ROWS: [(&str, fn()); 13] = [
+const ROWS: [(&str, fn()); 17] = [
     ("deferred", || compile(&graphs::deferred())),
     ("chain 100", || compile(&graphs::chain(100))),
     ("chain 1000", || compile(&graphs::chain(1_000))),
@@ -48,6 +54,10 @@ const ROWS: [(&str, fn()); 13] = [
     ("deferred, verify", || check(&graphs::deferred())),
     ("chain 1000, verify", || check(&graphs::chain(1_000))),
     ("wide 1000, verify", || check(&graphs::wide(1_000))),
+    ("forward.ron", || compile(&shipped("forward.ron"))),
+    ("deferred.ron", || compile(&shipped("deferred.ron"))),
+    ("reading 1000", || read(files::written_out(1_000))),
+    ("expanding 1000", || read(files::of_fragments(1_000))),
 ];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -59,54 +69,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         run();
         return Ok(ExitCode::SUCCESS);
     }
-    let committed = Figures::read()?;
-    let mut now = Figures { tools: tools()?, counts: Vec::new() };
-    println!("{:<24}{:>12}{:>12}", "instructions", "committed", "now");
-    for (name, _) in ROWS {
-        now.counts.push((name.to_owned(), instructions(name)?));
-        let before = committed.of(name).map_or("none".to_owned(), |count| count.to_string());
-        let count = now.of(name).unwrap_or_default();
-        let more = match committed.tools == now.tools {
-            true => format!("{:>+8.1} %", 100.0 * now.growth(name, &committed)),
-            false => String::new(),
-        };
-        println!("{name:<24}{before:>12}{count:>12}{more}");
-    }
-    judge(&committed, &now)
-}
-
-/// Says how the figures differ from the committed ones, and writes them where they are accepted.
-fn judge(committed: &Figures, now: &Figures) -> Result<ExitCode, Box<dyn Error>> {
-    let is_set = |variable: &str| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
-    if is_set("FRAMEWRIGHT_ACCEPT") {
-        now.write()?;
-        println!("accepted: {FIGURES}");
-        return Ok(ExitCode::SUCCESS);
-    }
-    if committed.tools != now.tools {
-        let is_ci = is_set("CI");
-        eprintln!(
-            "{}: the figures can't be compared, since they were counted with other tools; renew them with {ACCEPT}\n  \
-             committed: {}\n  now:       {}",
-            if is_ci { "error" } else { "note" },
-            committed.tools,
-            now.tools
-        );
-        return Ok(if is_ci { ExitCode::FAILURE } else { ExitCode::SUCCESS });
-    }
-    let names = |wanted: fn(f64) -> bool| {
-        let rows = ROWS.iter().map(|(name, _)| *name).filter(|name| wanted(now.growth(name, committed)));
-        rows.collect::<Vec<_>>().join("; ")
-    };
-    let (worse, better) = (names(|growth| growth > TOLERANCE), names(|growth| growth < -TOLERANCE));
-    if !better.is_empty() {
-        println!("better by more than 3 %: {better}; commit the gain: {ACCEPT}");
-    }
-    if worse.is_empty() {
-        return Ok(ExitCode::SUCCESS);
-    }
-    eprintln!("error: worse by more than 3 %, or not committed: {worse}; accept with {ACCEPT}");
-    Ok(ExitCode::FAILURE)
+    let guard = Guard { figures: FIGURES, accept: ACCEPT };
+    guard.run(ROWS.iter().map(|(name, _)| *name), |name| {
+        let program = std::env::current_exe()?;
+        counts::instructions(Command::new(program).args([ONLY, name]), Some("instructions::counted*"))
+    })
 }
 
 /// Callgrind counts what happens within this function, which it knows by name.
@@ -120,6 +87,11 @@ fn compile(frame: &Frame) {
     let compile = || framewright_graph::compile::compile(frame, &device, &mut Estimated(&device), &Options::default());
     black_box(compile()).expect("the graph is valid");
     counted(compile).expect("the graph is valid");
+}
+
+/// The frame of a shipped pipeline, over an unknown scene.
+fn shipped(name: &str) -> Frame {
+    pipelines::right(&pipelines::shipped(name), &pipelines::INPUTS)
 }
 
 /// Compiles a frame after the `changed` one, of which as much serves as `expected`.
@@ -147,66 +119,8 @@ fn check(frame: &Frame) {
     black_box(counted(|| verify(&plan)));
 }
 
-/// The instructions that callgrind counts for a row.
-fn instructions(name: &str) -> Result<u64, Box<dyn Error>> {
-    let run = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])
-        .arg("--toggle-collect=instructions::counted*")
-        .arg(std::env::current_exe()?)
-        .args([ONLY, name])
-        .output()
-        .map_err(|error| format!("valgrind: {error}"))?;
-    let said = String::from_utf8_lossy(&run.stderr);
-    let collected = said.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
-    match collected {
-        Some(count) if run.status.success() && count > 0 => Ok(count),
-        _ => Err(format!("valgrind counted nothing of {name}:\n{said}").into()),
-    }
-}
-
-/// Everything outside this repository that decides how many instructions there are.
-fn tools() -> Result<String, Box<dyn Error>> {
-    let said = |program: &str, argument: &str| -> Result<String, Box<dyn Error>> {
-        let run = Command::new(program).arg(argument).output().map_err(|error| format!("{program}: {error}"))?;
-        Ok(String::from_utf8(run.stdout)?.trim().to_owned())
-    };
-    let compiler = said("rustc", "--version")?;
-    let library = said("getconf", "GNU_LIBC_VERSION")?;
-    Ok(format!("{compiler}, {library}, {}, {}", said("valgrind", "--version")?, std::env::consts::ARCH))
-}
-
-/// The contents of `instructions.txt`.
-struct Figures {
-    tools: String,
-    counts: Vec<(String, u64)>,
-}
-
-impl Figures {
-    /// A line without a count, as a merge leaves it, is a row that isn't committed.
-    fn read() -> Result<Figures, Box<dyn Error>> {
-        let text = std::fs::read_to_string(FIGURES).map_err(|error| format!("{FIGURES}: {error}"))?;
-        let (tools, rows) = text.split_once('\n').unwrap_or((&text, ""));
-        let row = |row: &str| {
-            let (name, count) = row.rsplit_once(' ')?;
-            Some((name.trim().to_owned(), count.parse().ok()?))
-        };
-        Ok(Figures { tools: tools.to_owned(), counts: rows.lines().filter_map(row).collect() })
-    }
-
-    fn write(&self) -> std::io::Result<()> {
-        let rows = self.counts.iter().map(|(name, count)| format!("{name:<24}{count:>12}\n"));
-        std::fs::write(FIGURES, format!("{}\n{}", self.tools, rows.collect::<String>()))
-    }
-
-    fn of(&self, name: &str) -> Option<u64> {
-        self.counts.iter().find(|(row, _)| row == name).map(|(_, count)| *count)
-    }
-
-    /// How much more a row takes than in `committed`, as a share of that; infinitely more, if it isn't there.
-    fn growth(&self, name: &str, committed: &Figures) -> f64 {
-        match (self.of(name), committed.of(name)) {
-            (Some(now), Some(before)) => now as f64 / before as f64 - 1.0,
-            _ => f64::INFINITY,
-        }
-    }
+/// Reads a file, and puts its passes together with their shaders' interfaces.
+fn read(text: String) {
+    black_box(files::frame(text.clone()));
+    counted(|| files::frame(text));
 }

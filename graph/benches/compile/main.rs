@@ -6,6 +6,7 @@
 
 mod allocator;
 mod changed;
+mod files;
 #[path = "../../tests/suite/testing/graphs.rs"]
 mod graphs;
 #[path = "../../tests/suite/testing/parts.rs"]

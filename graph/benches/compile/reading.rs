@@ -1,118 +1,28 @@
 //! Reading pipeline files of a thousand and of a hundred thousand passes, and putting them together with their shaders'
 //! interfaces.
 
+use crate::files;
 use crate::timing::{Timing, beside, microseconds};
-use framewright_graph::base::Sources;
-use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::frame::{Draw, Frame, Stereo};
-use framewright_graph::language::{self, Facts};
-use framewright_graph::shader::{
-    Binding, BindingKind, DrawInterface, FragmentOutput, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
-};
-use framewright_graph::vulkan::{Component, Dimension, ImageShape, Rotation, Stages};
-use std::sync::Arc;
 
 pub(crate) fn run(timing: &Timing) {
-    for (passes, goal) in [(1_000, 20), (100_000, 2_000)] {
+    for (passes, goal) in [(1_000, 5), (100_000, 600)] {
         if timing.wants(&format!("reading {passes}")) {
-            let text = text(passes);
-            let time = timing.least(|| frame(text.clone()));
+            let text = files::written_out(passes);
+            let time = timing.least(|| files::frame(text.clone()));
             let figure = beside(format!("{:.2}", microseconds(time) / 1000.0), Some(goal.to_string()));
             println!("\nreading a file of {passes} passes, {} KiB: {figure} ms", text.len() / 1024);
         }
     }
     for (passes, goal) in [(1_000, 20), (100_000, 2_000)] {
         if timing.wants(&format!("putting in {passes}")) {
-            let text = put_in(passes);
+            let text = files::of_fragments(passes);
             let time = timing.least(|| {
-                let frame = frame(text.clone());
+                let frame = files::frame(text.clone());
                 assert_eq!(frame.passes.len(), passes as usize + 1, "every pass is put in");
                 frame
             });
             let figure = beside(format!("{:.2}", microseconds(time) / 1000.0), Some(goal.to_string()));
             println!("\nputting in {passes} passes of fragments, each with an expression or two: {figure} ms");
         }
-    }
-}
-
-/// Chains of ten images, each as half as large as the one before it, as often as it takes.
-fn put_in(passes: u32) -> String {
-    format!(
-        "Pipeline(version: 1, fragments: [(name: \"chain\", parameters: [(name: \"source\", value: Image), \
-         (name: \"levels\", value: Integer(default: 10, min: 1, max: 16))], \
-         images: [(name: \"down\", repeat: (\"i\", \"levels\"), format: Like(\"source\"), \
-         size: Scaled(\"exp2(-(i + 1))\", \"source\"))], \
-         passes: [(name: \"shrink\", repeat: (\"i\", \"levels\"), draw: FullScreen(\"copy\"), \
-         sample: {{\"source\": \"if(i == 0, source, down[i - 1])\"}}, color: [\"down[i]\"])])], \
-         images: [(name: \"color\", format: Output, size: Output)], \
-         passes: [(name: \"first\", draw: FullScreen(\"plain\"), color: [\"color\"]), \
-         (use: \"chain\", name: \"chain\", repeat: (\"n\", {}), with: {{\"source\": \"color\"}})], outputs: [\"color\"])",
-        passes / 10
-    )
-}
-
-/// Each pass draws what the one before it drew.
-fn text(passes: u32) -> String {
-    let images = (0..=passes).map(|image| format!("(name: \"image{image}\", format: Output, size: Output),\n"));
-    // A file has 16 MiB at most.
-    let source_of = |source: u32| match passes {
-        ..=10_000 => format!("(image: \"image{source}\", filter: Nearest)"),
-        _ => format!("\"image{source}\""),
-    };
-    let first = "(name: \"first\", draw: FullScreen(\"plain\"), color: [\"image0\"]),\n".to_owned();
-    let others = (1..=passes).map(|pass| {
-        let source = source_of(pass - 1);
-        format!(
-            "(name: \"pass{pass}\", draw: FullScreen(\"copy\"), \
-             sample: {{\"source\": {source}}}, color: [\"image{pass}\"]),\n"
-        )
-    });
-    let (images, passes_text): (String, String) = (images.collect(), std::iter::once(first).chain(others).collect());
-    format!("Pipeline(version: 1, images: [\n{images}], passes: [\n{passes_text}], outputs: [\"image{passes}\"])\n")
-}
-
-fn frame(text: String) -> Frame {
-    let mut sources = Sources::default();
-    let pipeline = language::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
-    let facts = Facts::UNKNOWN;
-    let inputs = Inputs {
-        set: &[],
-        facts,
-        facts_known: false,
-        output_extent: [1920, 1080],
-        dump: &[],
-        device: None,
-        stereo: Stereo::Off,
-        rotation: Rotation::Identity,
-    };
-    expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
-}
-
-/// Shaders that draw one colour, most of them from one image.
-struct FullScreen;
-
-impl ShaderInterfaces for FullScreen {
-    fn draw_shader(&mut self, name: &str, _: Draw, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
-        let component = Component::Float;
-        let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component };
-        let source = Binding {
-            set: 0,
-            binding: 0,
-            name: "source".to_owned(),
-            kind: BindingKind::SampledImage(shape),
-            adapts: false,
-            stages: Stages::FRAGMENT_SHADER,
-        };
-        let output = FragmentOutput { location: 0, name: "color".to_owned(), component, components: 4 };
-        let bindings = if name == "plain" { Vec::new() } else { vec![source] };
-        Ok(ShaderInterface { bindings, outputs: vec![output], ..ShaderInterface::default() })
-    }
-
-    fn compute_shader(&mut self, _: &str, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
-        Err(ShaderProblem::Unsupported { what: "no pass of the bench dispatches".to_owned() })
-    }
-
-    fn brought_along(&self, _: Draw) -> DrawInterface {
-        DrawInterface::default()
     }
 }

@@ -56,9 +56,8 @@ impl Sources {
     /// Adds a text and returns its number.
     pub fn add(&mut self, shown: impl Into<String>, path: impl Into<FilePath>, text: impl Into<Arc<str>>) -> u32 {
         let (path, text) = (path.into(), text.into());
-        let line_starts = std::iter::once(0)
-            .chain(text.bytes().zip(1..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at))
-            .collect();
+        let next_lines = text.match_indices('\n').map(|(at, _)| u32::try_from(at + 1).unwrap_or(u32::MAX));
+        let line_starts = std::iter::once(0).chain(next_lines).collect();
         let (shown, relative) = (shown.into(), path.to_string().into());
         self.files.push(SourceFile { shown, path, relative, text, line_starts });
         u32::try_from(self.files.len() - 1).expect("fewer than 2^32 files")

@@ -43,25 +43,29 @@ fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> 
     }
 }
 
-/// The reads of `pass`. A target that the pass only adds to stands among its writes.
-pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
-    let mut reads = Vec::new();
+/// Shows the reads of `pass`. A target that the pass only adds to stands among its writes.
+pub(super) fn for_each_read(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Read)) {
     for access in pass.accesses().filter(|access| !access.attaches()) {
         let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
         access.for_each_effect(pass, image(resources, resource), |effect| {
             if effect.reads
                 && let Some(cells) = part(resources, resource, &effect.range)
             {
-                reads.push(Read { resource, cells, frames_ago, span });
+                see(Read { resource, cells, frames_ago, span });
             }
         });
     }
+}
+
+/// The reads of `pass`, as [`for_each_read`] shows them.
+pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
+    let mut reads = Vec::new();
+    for_each_read(resources, pass, |read| reads.push(read));
     reads
 }
 
-/// The writes of `pass`, and all targets that it draws into.
-pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
-    let mut writes = Vec::new();
+/// Shows the writes of `pass`, and all targets that it draws into.
+pub(super) fn for_each_write(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Write)) {
     for access in pass.accesses() {
         let (resource, span) = (access.resource(), access.span());
         access.for_each_effect(pass, image(resources, resource), |Effect { range, reads, writes: changes }| {
@@ -74,10 +78,16 @@ pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
             if (clear.is_some() || changes)
                 && let Some(cells) = part(resources, resource, &range)
             {
-                writes.push(Write { resource, cells, span, continues: clear.filter(|_| reads) });
+                see(Write { resource, cells, span, continues: clear.filter(|_| reads) });
             }
         });
     }
+}
+
+/// The writes of `pass`, as [`for_each_write`] shows them.
+pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
+    let mut writes = Vec::new();
+    for_each_write(resources, pass, |write| writes.push(write));
     writes
 }
 

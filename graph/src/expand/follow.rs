@@ -13,6 +13,12 @@ pub(super) fn follow<N, T: Clone>(
     next: impl Fn(&N) -> Option<usize>,
     mut value: impl FnMut(&N, Option<T>) -> Option<T>,
 ) -> Option<T> {
+    if known[start].is_none() && next(&all[start]).is_none() {
+        known[start] = Some(value(&all[start], None));
+    }
+    if let Some(known) = &known[start] {
+        return known.clone();
+    }
     let mut path = vec![start];
     while let Some(&at) = path.last() {
         let to = next(&all[at]).map(|to| (to, known[to].clone()));

@@ -4,13 +4,15 @@
 use super::accesses;
 use super::resources::Resources;
 use super::state::State;
-use crate::frame::{Lifetime, Resource};
+use crate::frame::{Lifetime, Pass, Resource};
 
 /// Shortens the history of images and buffers to the frames that are read.
 pub(super) fn shorten(resources: &mut Resources<'_>, states: &[State]) {
     let mut images = vec![0_u32; resources.images.len()];
     let mut buffers = vec![0_u32; resources.buffers.len()];
-    for read in states.iter().flat_map(State::runs).flat_map(|pass| accesses::reads(resources, pass)) {
+    let looks_back = |pass: &&Pass| pass.accesses().any(|access| access.frames_ago() > 0);
+    let looking_back = states.iter().flat_map(State::runs).filter(looks_back);
+    for read in looking_back.flat_map(|pass| accesses::reads(resources, pass)) {
         let back = match read.resource {
             Resource::Image(index) => images.get_mut(index.0 as usize),
             Resource::Buffer(index) => buffers.get_mut(index.0 as usize),

@@ -11,6 +11,7 @@ use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
 use crate::vulkan::Aspects;
+use std::fmt::Display;
 use std::iter::{once, successors};
 
 /// After this many mistakes the writer that was meant is no longer looked for: that would take long in a large file.
@@ -34,14 +35,14 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
         let name = &resources.pipeline.passes[position].name.text;
         let before = check.errors.len();
         match state {
-            State::On(pass) => check.runs(position, pass, &format!("pass `{name}`"), None),
+            State::On(pass) => check.runs(position, pass, &format_args!("pass `{name}`"), None),
             State::Off { stand_ins, .. } => {
                 for (pass, described) in stand_ins.iter().zip(&resources.pipeline.passes[position].otherwise) {
                     let named = match described {
                         StandIn::Forward(forward) => Some(forward.from.span),
                         StandIn::Clear { .. } => None,
                     };
-                    check.runs(position, pass, &format!("the stand-in of pass `{name}`"), named);
+                    check.runs(position, pass, &format_args!("the stand-in of pass `{name}`"), named);
                 }
             }
         }
@@ -52,10 +53,11 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
         );
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().iter().flat_map(|pass| accesses::reads(resources, pass)) {
-            if read.frames_ago > 0 {
-                let reader = format!("pass `{}`", resources.pipeline.passes[position].name.text);
-                check.needs(states.len(), &read, &reader);
+        let looks_back = |pass: &&Pass| pass.accesses().any(|access| access.frames_ago() > 0);
+        for pass in state.runs().iter().filter(looks_back) {
+            let name = &resources.pipeline.passes[position].name.text;
+            for read in accesses::reads(resources, pass).iter().filter(|read| read.frames_ago > 0) {
+                check.needs(states.len(), read, &format_args!("pass `{name}`"));
             }
         }
     }
@@ -63,24 +65,27 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
         if let Some(cells) = accesses::whole(resources, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
-            check.needs(states.len(), &read, reader);
+            check.needs(states.len(), &read, &reader);
         }
     }
 }
 
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
-    fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
-        for read in accesses::reads(self.resources, pass).into_iter().filter(|read| read.frames_ago == 0) {
-            let span = named.unwrap_or(read.span);
-            self.needs(position, &Read { span, ..read }, reader);
-        }
-        for write in accesses::writes(self.resources, pass) {
+    fn runs(&mut self, position: usize, pass: &Pass, reader: &dyn Display, named: Option<Span>) {
+        let resources = self.resources;
+        accesses::for_each_read(resources, pass, |read| {
+            if read.frames_ago == 0 {
+                let span = named.unwrap_or(read.span);
+                self.needs(position, &Read { span, ..read }, reader);
+            }
+        });
+        accesses::for_each_write(resources, pass, |write| {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
             self.add(write.resource, &write.cells);
-        }
+        });
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {
@@ -97,12 +102,13 @@ impl Check<'_> {
     }
 
     /// Demands that the part that `reader` reads was written.
-    fn needs(&mut self, position: usize, read: &Read, reader: &str) {
+    fn needs(&mut self, position: usize, read: &Read, reader: &dyn Display) {
         let of = read.resource;
         let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
         let what = self.words(of, &read.cells, cell);
         self.add(of, &read.cells);
         let declared = self.resources.name(of);
+        let reader = reader.to_string();
         let (name, span) = (&declared.text, read.span);
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;

@@ -64,6 +64,9 @@ pub(super) fn draft(
     lowered.view = pass.view;
     lowered.side_effect = pass.side_effect;
     lowered.alpha_to_coverage = pass.alpha_to_coverage.is_some();
+    // Vectors with room for just these: a frame has many passes with one or two.
+    lowered.sampled.reserve_exact(pass.sample.len());
+    lowered.color.reserve_exact(pass.color.len());
     for sample in &pass.sample {
         let range = parts::range(resources, &sample.part, errors);
         lowered.sampled.extend(sampled::lower(resources, sample, range, interface, raster));

@@ -414,12 +414,11 @@ pub(super) fn dimension(
 
 /// Why this number of layers doesn't fit the declared shape.
 pub(super) fn layers_fit(shape: ImageShape, layers: usize) -> Option<String> {
-    let count = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };
     let fits = match (shape.dimension, shape.arrayed) {
         (Dimension::Cube, false) => layers == 6,
         (Dimension::Cube, true) => layers.is_multiple_of(6),
         (_, true) => true,
         (_, false) => layers == 1,
     };
-    (!fits).then(|| format!("but is given {count}"))
+    (!fits).then(|| format!("but is given {layers} {}", if layers == 1 { "layer" } else { "layers" }))
 }

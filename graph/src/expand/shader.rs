@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// The name of the block that a pass's parameters go to.
 pub(super) const PARAMS: &str = "params";
 
+/// Beyond so many bindings a name among them is looked up.
+const MANY_GIVEN: usize = 16;
+
 /// Shader interfaces, each of whose mistakes is reported once.
 pub(super) struct Checked<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
@@ -139,10 +142,14 @@ pub(super) fn missing(
     errors: &mut Vec<Diagnostic>,
 ) {
     let Some(Name { text: shader, span }) = pass.shader() else { return };
-    let given: HashSet<&str> = (pass.sample.iter().map(|sample| &*sample.binding.text))
-        .chain(pass.storage.iter().map(|storage| &*storage.binding.text))
-        .chain(pass.uniform.iter().map(|uniform| &*uniform.binding.text))
-        .collect();
+    let given = || {
+        (pass.sample.iter().map(|sample| &*sample.binding.text))
+            .chain(pass.storage.iter().map(|storage| &*storage.binding.text))
+            .chain(pass.uniform.iter().map(|uniform| &*uniform.binding.text))
+    };
+    // Few are compared one by one, many are looked up.
+    let many: HashSet<&str> = if given().nth(MANY_GIVEN).is_some() { given().collect() } else { HashSet::new() };
+    let is_given = |name: &str| if many.is_empty() { given().any(|given| given == name) } else { many.contains(name) };
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let name = &binding.name;
         if let BindingKind::Other(Unbindable { what, instead, place }) = &binding.kind {
@@ -151,7 +158,7 @@ pub(super) fn missing(
             errors.push(Diagnostic::new(*span, message).help(instead));
             continue;
         }
-        if given.contains(&**name) || misspelt.contains(&&**name) {
+        if is_given(name) || misspelt.contains(&&**name) {
             continue;
         }
         let Some((kind, _, field)) = given_in(binding) else { continue };

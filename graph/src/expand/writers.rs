@@ -30,9 +30,11 @@ impl Writers {
         for (position, state) in states.iter().enumerate() {
             let otherwise = &resources.pipeline.passes[position].otherwise;
             let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
-            for write in state.runs().iter().flat_map(|pass| accesses::writes(resources, pass)) {
-                let at = writers.index(write.resource);
-                writers.on[at].push(Writer { position, span: write.span });
+            for pass in state.runs() {
+                accesses::for_each_write(resources, pass, |write| {
+                    let at = writers.index(write.resource);
+                    writers.on[at].push(Writer { position, span: write.span });
+                });
             }
             if let State::Off { would, .. } = state {
                 for (resource, span) in accesses::would_write(would).filter(|(of, _)| !stood_for(*of)) {

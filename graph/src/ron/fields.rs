@@ -1,12 +1,13 @@
 //! Values that have a fixed form: `(name: …, …)` with known fields, and `(…, …)` of a known length.
 
-use super::{Leaf, MANY_MISTAKES, Shape, Table};
+use super::{Leaf, MANY_MISTAKES, Row, Shape, Table};
 use crate::base::{Diagnostic, MOST_KEPT, keep, suggestion};
+use std::fmt::Display;
 
 /// A form that a value can have. [`fields!`](crate::fields) makes one of a struct.
 pub trait FromLeaf<'t>: Sized {
     /// Tells the parts of `leaf` apart, or adds mistakes to `errors`. `what` names the value: "pass `sky`".
-    fn from_leaf(leaf: Leaf<'t>, what: &str, errors: &mut Vec<Diagnostic>) -> Option<Self>;
+    fn from_leaf(leaf: Leaf<'t>, what: &dyn Display, errors: &mut Vec<Diagnostic>) -> Option<Self>;
 }
 
 /// A field's value, which may have to be there.
@@ -82,7 +83,7 @@ macro_rules! fields {
         impl<$t> $crate::ron::FromLeaf<$t> for $struct<$t> {
             fn from_leaf(
                 leaf: $crate::ron::Leaf<$t>,
-                what: &str,
+                what: &dyn ::std::fmt::Display,
                 errors: &mut ::std::vec::Vec<$crate::base::Diagnostic>,
             ) -> ::std::option::Option<Self> {
                 use $crate::ron::{Described, Field, Leaf, slots};
@@ -107,7 +108,7 @@ pub const fn plain_name(name: &'static str) -> &'static str {
 /// Sorts the fields of `leaf` into the places of those that are known.
 pub fn slots<'t>(
     leaf: Leaf<'t>,
-    what: &str,
+    what: &dyn Display,
     known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
@@ -158,7 +159,7 @@ pub fn slots<'t>(
     None
 }
 
-fn written(error: Diagnostic, what: &str, known: &Table) -> Diagnostic {
+fn written(error: Diagnostic, what: &dyn Display, known: &Table) -> Diagnostic {
     match known.word {
         Some(_) => error,
         None => error.help(format!("{what} is written `(field: value, …)`")),
@@ -168,19 +169,24 @@ fn written(error: Diagnostic, what: &str, known: &Table) -> Diagnostic {
 /// Reports every field that is not known or stands twice.
 fn sort<'t>(
     fields: impl Iterator<Item = (Leaf<'t>, Leaf<'t>)>,
-    what: &str,
+    what: &dyn Display,
     known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
 ) -> Option<()> {
     let mut right = true;
+    // Fields usually stand in the order of the table: the row behind the last one is compared first.
+    let mut next = 0;
     for (name, value) in fields {
         // Fields after the last mistake that is kept aren't looked at.
         if errors.len() >= MOST_KEPT {
             return None;
         }
         let text = name.text();
-        let place = known.rows.iter().position(|row| row.name == text);
+        let (before, after) = known.rows.split_at(next);
+        let is_named = |row: &Row| row.name == text;
+        let place = after.iter().position(is_named).map(|at| next + at).or_else(|| before.iter().position(is_named));
+        next = place.map_or(next, |place| place + 1);
         let error = match place.and_then(|place| found.get_mut(place)) {
             _ if name.is_broken() => None,
             None => {
@@ -202,7 +208,7 @@ fn sort<'t>(
 }
 
 impl<'t, const N: usize> FromLeaf<'t> for [Leaf<'t>; N] {
-    fn from_leaf(leaf: Leaf<'t>, what: &str, errors: &mut Vec<Diagnostic>) -> Option<Self> {
+    fn from_leaf(leaf: Leaf<'t>, what: &dyn Display, errors: &mut Vec<Diagnostic>) -> Option<Self> {
         let tuple = leaf.tuple();
         if tuple.is_none() && !leaf.is_broken() {
             let found = match (leaf.shape(), leaf.values()) {

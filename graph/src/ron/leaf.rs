@@ -110,6 +110,12 @@ impl<'t> Leaf<'t> {
         &self.home().text[start as usize..end as usize]
     }
 
+    /// The bytes of its text.
+    fn length(self) -> usize {
+        let Node { start, end, .. } = self.node();
+        (end - start) as usize
+    }
+
     /// Where it stands.
     #[must_use]
     pub fn span(self) -> Span {
@@ -207,7 +213,8 @@ impl<'t> Leaf<'t> {
     /// The value of the field called `name`, if there is one.
     #[must_use]
     pub fn field(self, name: &str) -> Option<Leaf<'t>> {
-        self.fields()?.find_map(|(field, value)| (field.text() == name).then_some(value))
+        let is_named = |field: Leaf<'t>| field.length() == name.len() && field.text() == name;
+        self.fields()?.find_map(|(field, value)| is_named(field).then_some(value))
     }
 
     /// Keys and values of `{…}` in file order, doubles included.

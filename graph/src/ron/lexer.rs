@@ -73,9 +73,14 @@ impl<'t> Lexer<'t> {
 
     /// Passes over blanks and comments.
     pub(crate) fn blanks(&mut self) -> Result<(), Stop> {
+        let bytes = self.text.as_bytes();
         loop {
-            match self.byte() {
-                Some(b' ' | b'\n' | b'\r' | b'\t') => self.at += 1,
+            let mut at = self.at;
+            while let Some(b' ' | b'\n' | b'\r' | b'\t') = bytes.get(at) {
+                at += 1;
+            }
+            self.at = at;
+            match bytes.get(at) {
                 Some(b'/') => self.comment()?,
                 Some(0x0B | 0x0C | 0x80..) => match self.rest().chars().next().filter(|c| is_blank(*c)) {
                     Some(blank) => self.at += blank.len_utf8(),

@@ -29,6 +29,12 @@ impl Names {
         Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
+    /// Makes room for so many more things.
+    pub(crate) fn reserve(&mut self, more: usize) {
+        self.given.reserve(more);
+        self.index.reserve(more);
+    }
+
     /// Gives the next thing its name; `None` if it couldn't be read. Reports a name that is given twice.
     pub fn give(&mut self, reader: &mut Reader, name: Option<Name>) {
         if let Some(name) = &name {

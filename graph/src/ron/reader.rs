@@ -3,6 +3,7 @@
 use super::{FromLeaf, Leaf, Name, Number, Shape, Words};
 use crate::base::{Diagnostic, keep, nearest, suggestion};
 use crate::vulkan::vulkans_name;
+use std::fmt::Display;
 
 /// A name has at most this many bytes.
 const LONGEST_NAME: usize = 64;
@@ -44,8 +45,8 @@ impl Reader {
     }
 
     /// Tells the parts of a value apart, or reports why that can't be. `what` names it in messages: "pass `sky`".
-    pub fn read<'t, T: FromLeaf<'t>>(&mut self, leaf: Leaf<'t>, what: &str) -> Option<T> {
-        T::from_leaf(leaf, what, &mut self.errors)
+    pub fn read<'t, T: FromLeaf<'t>>(&mut self, leaf: Leaf<'t>, what: impl Display) -> Option<T> {
+        T::from_leaf(leaf, &what, &mut self.errors)
     }
 
     /// A text in quotes, with or without escapes.
@@ -165,7 +166,7 @@ impl Reader {
             return None;
         };
         let before = self.errors.len();
-        let value = self.read(rest, &format!("`{form}`"));
+        let value = self.read(rest, format_args!("`{form}`"));
         for error in self.errors.iter_mut().skip(before) {
             error.help.get_or_insert_with(|| format!("write `{form}`"));
         }

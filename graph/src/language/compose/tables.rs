@@ -187,7 +187,7 @@ impl<'t> Sections<'t> {
     /// Reads the fields of a file; `what` names it in messages: "the pipeline".
     pub(crate) fn read(reader: &mut Reader, root: Leaf<'t>, what: &str, table: &Table) -> Option<Sections<'t>> {
         let mut found = [None; MOST_ROWS];
-        slots(root, what, table, &mut found[..table.rows.len()], &mut reader.errors)?;
+        slots(root, &what, table, &mut found[..table.rows.len()], &mut reader.errors)?;
         Some(Sections { rows: table.rows, found })
     }
 

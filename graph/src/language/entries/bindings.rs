@@ -1,6 +1,7 @@
 //! `sample`, `storage`, `uniform` and `params`: the bindings and parameters of a shader, by the shader's own names.
 
 use super::condition;
+use super::firsts::Firsts;
 use super::parts::{self, Either, Selected};
 use super::values::{self, optional};
 use crate::base::Diagnostic;
@@ -9,7 +10,7 @@ use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAcces
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
-use std::collections::HashMap;
+use std::sync::Arc;
 
 fields! {
     /// A sampled image: an image that a shader samples, under the shader's own name for it.
@@ -259,13 +260,13 @@ impl Context<'_> {
         what: &str,
         mut read: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
     ) -> Option<Vec<T>> {
-        let mut names = HashMap::new();
+        let mut names = Firsts::default();
         let mut list = Vec::new();
         let mut complete = true;
         for (key, value) in self.reader.map(leaf, map)? {
             let name = self.reader.reference(key, what);
             if let Some(name) = &name
-                && let Some(first) = names.insert(name.text.clone(), name.span)
+                && let Some(first) = names.insert(Arc::clone(&name.text), name.span)
             {
                 let twice = Diagnostic::new(name.span, format!("{map} names `{}` twice", name.text));
                 self.reader.report(twice.remark("again here").label(first, "first here"));

@@ -6,7 +6,7 @@ use super::fragments::Fragments;
 use super::images::ImageFields;
 use super::list::{entries, entry};
 use super::pass_fields::PassFields;
-use super::repeat::Repeat;
+use super::repeat::{MOST_THINGS, Repeat};
 use super::textures::{Pictures, TextureFields};
 use super::uses::{UseEntry, UseFields};
 use super::views::ViewEntries;
@@ -14,7 +14,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::ViewIndex;
 use crate::language::model::{Buffer, Image, Pass};
-use crate::language::scope::{Context, FieldValue, Parameter, Scope, Symbols};
+use crate::language::scope::{Context, FieldValue, Parameter, Scope, Symbols, fixed};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -120,14 +120,19 @@ impl<'t> Tables<'t> {
         let is_list = |repeat: Option<Option<Leaf<'_>>>| repeat.flatten().is_some();
         let image_lists = images.iter().map(|fields| is_list(fields.as_ref().map(|fields| fields.repeat)));
         let buffer_lists = buffers.iter().map(|fields| is_list(fields.as_ref().map(|fields| fields.repeat)));
+        let image_lists: Vec<bool> = textures.iter().map(|_| false).chain(image_lists).collect();
+        let buffer_lists: Vec<bool> = buffer_lists.collect();
+        let [fixed_images, fixed_buffers] = fixed(settings, &image_lists, &buffer_lists, MOST_THINGS as usize);
         let symbols = Symbols {
             names,
             parameters,
             settings,
             images: image_names,
-            image_lists: textures.iter().map(|_| false).chain(image_lists).collect(),
+            image_lists,
             buffers: buffer_names,
-            buffer_lists: buffer_lists.collect(),
+            buffer_lists,
+            fixed_images,
+            fixed_buffers,
         };
         symbols.differ(reader);
         Tables { symbols: Arc::new(symbols), textures, images, buffers, items: items(reader, lists.passes) }
@@ -209,6 +214,7 @@ impl LevelReader<'_> {
 fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<ItemFields<'t>>> {
     let Some(leaves) = list.and_then(|list| reader.list(list, "`passes`")) else { return Vec::new() };
     let mut names = Names::new("pass");
+    names.reserve(leaves.len());
     let mut anchors = HashMap::new();
     let item = |leaf: Leaf<'t>| {
         if leaf.field("anchor").is_some() {

@@ -4,7 +4,7 @@ use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres};
-use crate::language::scope::{Context, FieldValue, combined};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, combined};
 use crate::ron::{Described, Leaf, Spanned, Table, names};
 
 /// Draw lists, by name.

@@ -5,6 +5,7 @@ use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
 use crate::language::scope::{Context, FieldValue, all, combined};
 use crate::ron::{Form, Leaf, Takes, Word, Words};
+use std::fmt::Display;
 
 /// The form of `groups`: a number of workgroups.
 pub(crate) const WORKGROUPS: Form = Form::Words(&GROUPS);
@@ -55,7 +56,7 @@ impl Context<'_> {
         &mut self,
         leaf: Leaf<'_>,
         groups_at: Option<Leaf<'_>>,
-        what: &str,
+        what: impl Display,
     ) -> Option<FieldValue<Work>> {
         let shader = self.reader.outside_name(leaf, "a shader");
         let Some(groups_at) = groups_at else {

@@ -7,6 +7,7 @@ use crate::frame::DrawList;
 use crate::language::model::{Draw, Work};
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
+use std::fmt::Display;
 
 /// The form of `draw`.
 pub(crate) const DRAW: Form = Form::Words(&DRAWS);
@@ -64,7 +65,7 @@ impl Context<'_> {
         &mut self,
         leaf: Leaf<'_>,
         DrawFields { shader, vertex, index }: DrawFields<'_>,
-        what: &str,
+        what: impl Display,
     ) -> Option<FieldValue<Work>> {
         let (word, rest) = self.reader.one_of(leaf, &DRAWS)?;
         if !matches!(word, "Vertices" | "Indirect") {

@@ -1,6 +1,7 @@
 //! Lists of entries: the fields of each, and the names of all.
 
 use crate::ron::{FromLeaf, Leaf, Name, Names, Reader, Shape};
+use std::sync::Arc;
 
 /// Tells the fields of each entry of a list apart, and keeps the entries' names.
 pub(crate) fn entries<'t, T: FromLeaf<'t>>(
@@ -16,6 +17,7 @@ pub(crate) fn entries<'t, T: FromLeaf<'t>>(
         names.give(reader, None);
         return Vec::new();
     };
+    names.reserve(leaves.len());
     leaves.into_iter().map(|leaf| entry(reader, leaf, what, what, names)).collect()
 }
 
@@ -28,13 +30,16 @@ pub(crate) fn entry<'t, T: FromLeaf<'t>>(
     names: &mut Names,
 ) -> Option<T> {
     let name = leaf.field("name").and_then(Name::written);
-    let known = name.as_ref().map_or_else(|| format!("this {shown}"), |name| format!("{shown} `{}`", name.text));
+    let text = name.as_ref().map(|name| Arc::clone(&name.text));
     names.give(reader, name);
     if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {
         reader.expected(leaf, &format!("the {what} as `(name: \"…\", …)`"));
         return None;
     }
-    reader.read(leaf, &known)
+    match text {
+        Some(text) => reader.read(leaf, format_args!("{shown} `{text}`")),
+        None => reader.read(leaf, format_args!("this {shown}")),
+    }
 }
 
 /// The fields in the parentheses after a word; the defaults if there are no parentheses.

@@ -8,6 +8,7 @@ pub(crate) mod condition;
 pub(crate) mod diagnosed;
 pub(crate) mod dispatch;
 pub(crate) mod draw;
+pub(crate) mod firsts;
 pub(crate) mod fragments;
 pub(crate) mod images;
 pub(crate) mod lifetimes;

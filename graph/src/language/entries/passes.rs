@@ -1,13 +1,15 @@
 //! A pass: its work, bindings and targets, and the stand-ins for its targets when it is off.
 
+use super::firsts::Firsts;
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
 use super::values::optional;
 use crate::base::{Diagnostic, Span};
+use crate::frame::ViewIndex;
 use crate::language::model::{Color, Depth, Pass};
-use crate::language::scope::{Context, FieldValue, FieldValueTuple};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, IfRead, reported};
 use crate::ron::{Name, Reader};
-use std::collections::HashMap;
+use std::fmt::{Display, Formatter};
 
 impl Context<'_> {
     /// A pass. An expression that has no value is no mistake if the pass is off.
@@ -15,7 +17,14 @@ impl Context<'_> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
-        let parts = self.pass_parts(fields, name.clone());
+        let is_always_on = matches!((&off, &otherwise), (Some(FieldValue::Constant(None)), Some(None)));
+        let parts = match self.pass_parts(fields, name.clone()) {
+            Some(FieldValue::Constant(pass)) if is_always_on => {
+                bindings_differ(self.reader, &pass);
+                return FieldValue::Constant(pass);
+            }
+            parts => parts,
+        };
         FieldValue::computed(move |evaluator| {
             let off = evaluator.put_in(&off);
             let is_off = matches!(off, Some(Some(_)));
@@ -28,7 +37,7 @@ impl Context<'_> {
             let stand_ins = stand_ins.or_else(|| evaluator.forgave.then(Vec::new));
             evaluator.forgave = false;
             let before = evaluator.reader.errors.len();
-            let pass = evaluator.leniently(is_off, |evaluator| parts.evaluate(evaluator));
+            let pass = evaluator.leniently(is_off, |evaluator| evaluator.put_in(&parts));
             let idle = pass.is_none() && is_off && evaluator.forgave && evaluator.reader.errors.len() == before;
             let (name, off, stand_ins) = (name.clone()?, off?, stand_ins?);
             if idle {
@@ -44,9 +53,8 @@ impl Context<'_> {
     }
 
     /// The work, bindings and targets of a pass. Each field is evaluated, even where another couldn't be read.
-    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> FieldValue<Pass> {
-        let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
-        let work = self.work(fields, &what);
+    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Option<FieldValue<Pass>> {
+        let work = self.work(fields, PassWords(name.as_ref()));
         let sample = optional(fields.sample, |leaf| self.sampled(leaf));
         let storage = optional(fields.storage, |leaf| self.storage(leaf));
         let uniform = optional(fields.uniform, |leaf| self.uniforms(leaf));
@@ -58,24 +66,20 @@ impl Context<'_> {
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
-        FieldValue::computed(move |evaluator| {
-            let work = evaluator.put_in(&work);
-            let sample = evaluator.put_in(&sample);
-            let storage = evaluator.put_in(&storage);
-            let uniform = evaluator.put_in(&uniform);
-            let vertex = evaluator.put_in(&vertex);
-            let index = evaluator.put_in(&index);
-            let color = evaluator.put_in(&color);
-            let depth = evaluator.put_in(&depth);
-            let alpha_to_coverage = evaluator.put_in(&alpha_to_coverage);
-            let params = evaluator.put_in(&params);
-            let side_effect = evaluator.put_in(&side_effect);
+        let bindings = (IfRead(sample), IfRead(storage), IfRead(uniform), IfRead(params));
+        let targets = (IfRead(color), IfRead(depth), IfRead(alpha_to_coverage));
+        let parts = (IfRead(work), bindings, (IfRead(vertex), IfRead(index)), targets, IfRead(side_effect));
+        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
+            let (sample, storage, uniform, params) = bindings;
+            let (color, depth, alpha_to_coverage) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
-                let draws = draws.then_some(span);
-                targets_make_sense(evaluator.reader, draws, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
+                let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
+                targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
             }
             let (sample, left_out) = sample?.unwrap_or_default();
             Some(Pass {
+                name: name.clone()?,
+                off: None,
                 work: work?,
                 sample,
                 left_out,
@@ -88,14 +92,35 @@ impl Context<'_> {
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 params: params?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
-                ..Pass::idle(name.clone()?)
+                otherwise: Vec::new(),
+                view: ViewIndex::default(),
+                instance: None,
             })
         })
     }
 }
 
+/// A pass in messages: "pass `sky`".
+#[derive(Clone, Copy)]
+struct PassWords<'n>(Option<&'n Name>);
+
+impl Display for PassWords<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(name) => write!(f, "pass `{}`", name.text),
+            None => f.write_str("this pass"),
+        }
+    }
+}
+
 /// A draw has targets, and none of them twice.
-fn targets_make_sense(reader: &mut Reader, draws: Option<Span>, what: &str, color: &[Color], depth: Option<&Depth>) {
+fn targets_make_sense(
+    reader: &mut Reader,
+    draws: Option<Span>,
+    what: PassWords<'_>,
+    color: &[Color],
+    depth: Option<&Depth>,
+) {
     if let Some(draws) = draws
         && color.is_empty()
         && depth.is_none()
@@ -103,7 +128,7 @@ fn targets_make_sense(reader: &mut Reader, draws: Option<Span>, what: &str, colo
         let nothing = Diagnostic::new(draws, format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
-    let mut first = HashMap::new();
+    let mut first = Firsts::default();
     for target in color.iter().map(|c| c.part).chain(depth.map(|d| d.part)) {
         let numbers = [target.mips, target.layers].map(|selection| {
             let number = |number: Option<crate::ron::Spanned<u32>>| number.map(|number| number.value);
@@ -121,9 +146,9 @@ fn bindings_differ(reader: &mut Reader, pass: &Pass) {
     let sampled = pass.sample.iter().map(|sample| &sample.binding);
     let storage = pass.storage.iter().map(|storage| &storage.binding);
     let names = sampled.chain(storage).chain(pass.uniform.iter().map(|uniform| &uniform.binding));
-    let mut first = HashMap::new();
+    let mut first = Firsts::default();
     for name in names {
-        if let Some(first) = first.insert(name.text.clone(), name.span) {
+        if let Some(first) = first.insert(&*name.text, name.span) {
             let message = format!("pass `{}` gives `{}` in two ways", pass.name.text, name.text);
             reader.report(Diagnostic::new(name.span, message).remark("again here").label(first, "first here"));
         }

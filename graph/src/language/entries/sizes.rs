@@ -5,7 +5,7 @@ use super::values::optional;
 use crate::base::{Diagnostic, shown_number};
 use crate::fields;
 use crate::language::model::{Decided, LARGEST_SIZE, Size};
-use crate::language::scope::{Context, FieldValue, all, combined, within_view};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, all, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
 
 fields! {

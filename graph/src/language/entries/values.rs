@@ -286,15 +286,19 @@ pub(crate) fn choice<'src, T: Copy>(
     what: &str,
     choices: &[(&'static str, T)],
 ) -> Option<T> {
+    if let Shape::Word(word, rest) = leaf.shape()
+        && let Some((known, value)) = choices.iter().find(|(choice, _)| *choice == word)
+    {
+        return reader.bare(known, rest).map(|()| *value);
+    }
     let words: Vec<&'static str> = choices.iter().map(|(word, _)| *word).collect();
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     let forms = match &quoted[..] {
         [one, other] => format!("write {one} or {other}"),
         several => format!("write one of {}", several.join(", ")),
     };
-    let (word, rest) = reader.word(leaf, what, &words, &forms)?;
-    reader.bare(word, rest)?;
-    choices.iter().find(|(choice, _)| *choice == word).map(|(_, value)| *value)
+    reader.word(leaf, what, &words, &forms);
+    None
 }
 
 /// The form of a fill: a value for every component or word, depth and stencil, or a colour.

@@ -5,6 +5,7 @@ use super::pass_fields::PassFields;
 use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Reader, Shape};
+use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
 pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
@@ -25,7 +26,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
 
 impl Context<'_> {
     /// The work of a pass. `what` names the pass.
-    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<FieldValue<Work>> {
+    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: impl Display + Copy) -> Option<FieldValue<Work>> {
         let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
         let named = [
             ("draw", *draw),
@@ -78,7 +79,7 @@ impl Context<'_> {
 }
 
 /// Reports fields that have no meaning beside the work of the pass.
-fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
+fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: &str) {
     let reads_something = fields.sample.is_some() || fields.uniform.is_some();
     let values = [
         fields.shader,

@@ -3,13 +3,14 @@
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Bytes, Format, Image, ImageRef, Layers, Lifetime, Mips, Samples, Size};
+use std::borrow::Cow;
 
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;
 
 /// Images, then buffers, by one index.
 struct All<'a> {
-    images: &'a [Option<Image>],
+    images: &'a [Option<Cow<'a, Image>>],
     buffers: &'a [Option<Buffer>],
 }
 
@@ -29,10 +30,10 @@ impl All<'_> {
 }
 
 /// Reports every circle once, for each property that can follow.
-pub(crate) fn find(images: &[Option<Image>], buffers: &[Option<Buffer>], errors: &mut Vec<Diagnostic>) {
+pub(crate) fn find(images: &[Option<Cow<'_, Image>>], buffers: &[Option<Buffer>], errors: &mut Vec<Diagnostic>) {
     let all = All { images, buffers };
     let mut of_images = |what: &str, next: &dyn Fn(&Image) -> Option<ImageRef>| {
-        let next = |at: usize| images.get(at)?.as_ref().and_then(next).map(|of| (of.index.0 as usize, of.span));
+        let next = |at: usize| images.get(at)?.as_deref().and_then(next).map(|of| (of.index.0 as usize, of.span));
         along(&all, what, next, errors);
     };
     of_images("sizes", &|image| match image.size.value {

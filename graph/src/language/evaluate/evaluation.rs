@@ -31,7 +31,7 @@ pub(super) struct Evaluation<'a> {
     pub(super) surroundings: &'a Surroundings<'a>,
     pub(super) fragments: &'a Fragments<Body>,
     pub(super) views: Views<'a>,
-    pub(super) flat: Flat,
+    pub(super) flat: Flat<'a>,
     /// Fragments that are being put in, by number, and where.
     pub(super) path: Vec<(usize, Name)>,
     /// Mistakes in fragments that were reported: place and message.
@@ -89,6 +89,11 @@ impl<'b> Level<'b> {
     ) -> Level<'b> {
         let prefix = format!("{}.", whole.text).into();
         Level { body, values: below(body, values), prefix, view, instance, off: outer.off || off }
+    }
+
+    /// Whether its entries, or those with this number, are called as they were declared, and belong to no fragment.
+    pub(super) fn has_own_names(&self, number: Option<u32>) -> bool {
+        number.is_none() && self.prefix.is_empty() && self.instance.is_none()
     }
 
     /// A whole name: `glow.down[0]`.

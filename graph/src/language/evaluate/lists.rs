@@ -2,15 +2,17 @@
 
 use crate::language::model::{Buffer, Image, Instance, Pass};
 use crate::language::scope::Properties;
+use std::borrow::Cow;
 
-/// Images, buffers, passes and instances that were evaluated so far; `None` where a mistake was reported.
+/// Images, buffers, passes and instances that were evaluated so far; `None` where a mistake was reported. Those that the file
+/// says as they are stay where they were read.
 #[derive(Default)]
-pub(super) struct Flat {
-    pub(super) images: Vec<Option<Image>>,
+pub(super) struct Flat<'a> {
+    pub(super) images: Vec<Option<Cow<'a, Image>>>,
     /// Properties of images.
     pub(super) properties: Vec<Option<Properties>>,
     pub(super) buffers: Vec<Option<Buffer>>,
-    pub(super) passes: Vec<Option<Pass>>,
+    pub(super) passes: Vec<Option<Cow<'a, Pass>>>,
     pub(super) instances: Vec<Instance>,
 }
 
@@ -23,9 +25,9 @@ pub(super) struct Lengths {
     instances: usize,
 }
 
-impl Flat {
+impl Flat<'_> {
     /// Lists of images and buffers of which only the number is known.
-    pub(super) fn nothing_known(images: u32, buffers: u32) -> Flat {
+    pub(super) fn nothing_known(images: u32, buffers: u32) -> Self {
         let mut flat = Flat::default();
         flat.images.resize_with(images as usize, || None);
         flat.properties.resize_with(images as usize, || None);

@@ -5,10 +5,11 @@ use crate::language::entries::body::{Entry, Item};
 use crate::language::model::Pass;
 use crate::language::scope::FieldValueTuple;
 use crate::ron::Reader;
+use std::borrow::Cow;
 
-impl Evaluation<'_> {
+impl<'a> Evaluation<'a> {
     /// Everything at one level: images and buffers, then passes.
-    pub(super) fn level(&mut self, reader: &mut Reader, level: &mut Level<'_>) {
+    pub(super) fn level(&mut self, reader: &mut Reader, level: &mut Level<'a>) {
         self.resources(reader, level);
         for entry in &level.body.items {
             if entry.as_ref().is_none_or(|entry| self.item(reader, level, entry).is_none()) {
@@ -18,7 +19,7 @@ impl Evaluation<'_> {
     }
 
     /// Passes, or a fragment that is put in. `None` if that was reported.
-    fn item(&mut self, reader: &mut Reader, level: &Level<'_>, entry: &Entry<Item>) -> Option<()> {
+    fn item(&mut self, reader: &mut Reader, level: &Level<'a>, entry: &'a Entry<Item>) -> Option<()> {
         let view = entry.view(reader, level.view)?;
         let Count::Known(count) = self.count(reader, level, view, Some(&entry.repeat), false) else { return None };
         for number in 0..count {
@@ -26,10 +27,15 @@ impl Evaluation<'_> {
             let number = entry.repeat.is_list().then_some(number);
             match entry.value.get(reader)? {
                 Item::Pass(pass) => {
+                    if let Some(pass) = pass.constant().filter(|pass| pass.view == view && level.has_own_names(number))
+                    {
+                        self.flat.passes.push(Some(Cow::Borrowed(pass)));
+                        continue;
+                    }
                     let pass = pass.evaluate(&mut self.evaluator(reader, level, view, number));
                     self.flat.passes.push(pass.map(|pass| {
                         let name = level.full(&pass.name, number);
-                        Pass { name, view, instance: level.instance, ..pass }
+                        Cow::Owned(Pass { name, view, instance: level.instance, ..pass })
                     }));
                 }
                 Item::Use(fields) if reader.errors.len() == before => self.put_in(reader, level, view, number, fields),

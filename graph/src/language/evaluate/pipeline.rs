@@ -9,14 +9,15 @@ use crate::language::inputs::Surroundings;
 use crate::language::model::Pipeline;
 use crate::language::scope::DecidedValue;
 use crate::ron::Reader;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
-/// Evaluates a pipeline for values of its settings. `None` if errors were reported. The pipeline of a check is not used.
-pub(crate) fn evaluate(
+/// Evaluates a pipeline for values of its settings. `None` if errors were reported, and for a check.
+pub(crate) fn evaluate<'a>(
     reader: &mut Reader,
-    entries: &Entries,
+    entries: &'a Entries,
     values: Vec<Option<DecidedValue>>,
-    surroundings: &Surroundings<'_>,
+    surroundings: &'a Surroundings<'a>,
     purpose: Purpose,
 ) -> Option<Pipeline> {
     let mut all = Evaluation::new(purpose, surroundings, &entries.fragments);
@@ -38,11 +39,14 @@ pub(crate) fn evaluate(
     }
     let mut seen = HashSet::new();
     reader.errors.retain(|error| error.labels.first().is_none_or(|at| seen.insert((at.span, error.message.clone()))));
+    if purpose != Purpose::Pipeline {
+        return None;
+    }
     Some(Pipeline {
         views: all.views.into_list()?,
-        images: flat.images.into_iter().collect::<Option<_>>()?,
+        images: flat.images.into_iter().map(|image| image.map(Cow::into_owned)).collect::<Option<_>>()?,
         buffers: flat.buffers.into_iter().collect::<Option<_>>()?,
-        passes: flat.passes.into_iter().collect::<Option<_>>()?,
+        passes: flat.passes.into_iter().map(|pass| pass.map(Cow::into_owned)).collect::<Option<_>>()?,
         depth: depth?.flatten(),
         color: color?,
         depth_format: depth_format?,

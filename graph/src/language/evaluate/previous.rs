@@ -4,12 +4,13 @@ use crate::base::Diagnostic;
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Draw, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
 use crate::ron::{Name, Spanned};
+use std::borrow::Cow;
 
 /// Reports every part of an earlier frame that isn't kept, and every one that a pass would write.
 pub(crate) fn check(
-    images: &[Option<Image>],
+    images: &[Option<Cow<'_, Image>>],
     buffers: &[Option<Buffer>],
-    passes: &[Option<Pass>],
+    passes: &[Option<Cow<'_, Pass>>],
     errors: &mut Vec<Diagnostic>,
 ) {
     for pass in passes.iter().flatten() {
@@ -29,25 +30,24 @@ pub(crate) fn check(
 }
 
 /// Parts that a pass reads, as far as the file alone says.
-fn read(pass: &Pass) -> Vec<Part> {
-    let mut parts: Vec<Part> = pass.sample.iter().map(|sample| Part::Image(sample.part)).collect();
-    parts.extend(pass.storage.iter().map(|storage| storage.part));
-    let buffers = pass.uniform.iter().map(|uniform| uniform.part).chain(pass.vertex).chain(pass.index);
-    parts.extend(buffers.map(Part::Buffer));
-    match &pass.work {
-        Work::Draw { draw: Draw::Indirect(buffer), .. } => parts.push(Part::Buffer(*buffer)),
+fn read(pass: &Pass) -> impl Iterator<Item = Part> {
+    let (one, several): (Option<Part>, &[Part]) = match &pass.work {
+        Work::Draw { draw: Draw::Indirect(buffer), .. } => (Some(Part::Buffer(*buffer)), &[]),
         Work::Dispatch { groups: Spanned { value: Groups::Indirect { buffer, .. }, .. }, .. } => {
-            parts.push(Part::Buffer(*buffer));
+            (Some(Part::Buffer(*buffer)), &[])
         }
-        Work::Copy { from, .. } | Work::Blit { from, .. } => parts.push(*from),
-        Work::Custom { reads, .. } => parts.extend(reads),
-        Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => {}
-    }
-    parts
+        Work::Copy { from, .. } | Work::Blit { from, .. } => (Some(*from), &[]),
+        Work::Custom { reads, .. } => (None, reads),
+        Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => (None, &[]),
+    };
+    let sampled = pass.sample.iter().map(|sample| Part::Image(sample.part));
+    let stored = pass.storage.iter().map(|storage| storage.part);
+    let buffers = pass.uniform.iter().map(|uniform| uniform.part).chain(pass.vertex).chain(pass.index);
+    sampled.chain(stored).chain(buffers.map(Part::Buffer)).chain(one).chain(several.iter().copied())
 }
 
 fn kept(
-    images: &[Option<Image>],
+    images: &[Option<Cow<'_, Image>>],
     buffers: &[Option<Buffer>],
     of: ResourceRef,
     previous: Spanned<u32>,
@@ -93,7 +93,7 @@ fn kept(
 
 /// The name and lifetime of an image or buffer, if it could be read.
 fn declared<'a>(
-    images: &'a [Option<Image>],
+    images: &'a [Option<Cow<'a, Image>>],
     buffers: &'a [Option<Buffer>],
     of: Resource,
 ) -> Option<(&'a Name, &'a Spanned<Lifetime>)> {

@@ -10,6 +10,7 @@ use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
 use crate::language::scope::{DecidedValue, FieldValueTuple};
 use crate::ron::{Name, Reader};
+use std::borrow::Cow;
 
 /// Uses of fragments stand at most this deep in each other.
 const MOST_NESTED: usize = 32;
@@ -17,12 +18,12 @@ const MOST_NESTED: usize = 32;
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;
 
-impl Evaluation<'_> {
+impl<'a> Evaluation<'a> {
     /// Puts in the fragment of a use. If the use is off, a pass that does nothing stands for it, with the use's stand-ins.
     pub(super) fn put_in(
         &mut self,
         reader: &mut Reader,
-        level: &Level<'_>,
+        level: &Level<'a>,
         view: ViewIndex,
         number: Option<u32>,
         entry: &UseEntry,
@@ -91,7 +92,7 @@ impl Evaluation<'_> {
         }
         if is_off {
             self.flat.truncate(start);
-            self.flat.passes.push(Some(pass));
+            self.flat.passes.push(Some(Cow::Owned(pass)));
         }
     }
 

@@ -5,12 +5,13 @@ use super::properties;
 use crate::language::model::{Buffer, Image};
 use crate::language::scope::{Elements, FieldValueTuple};
 use crate::ron::Reader;
+use std::borrow::Cow;
 use std::ops::Range;
 
-impl Evaluation<'_> {
+impl<'a> Evaluation<'a> {
     /// Gives images and buffers their indices, then evaluates them. A number of repetitions that depends on images waits until
     /// the images above are evaluated; those can't refer to images below then.
-    pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'_>) {
+    pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'a>) {
         let body = level.body;
         let images = body.images.len();
         let mut evaluated = 0;
@@ -45,7 +46,7 @@ impl Evaluation<'_> {
     }
 
     /// Evaluates images and buffers by number: images are counted first, then buffers.
-    fn each(&mut self, reader: &mut Reader, level: &Level<'_>, range: Range<usize>) {
+    fn each(&mut self, reader: &mut Reader, level: &Level<'a>, range: Range<usize>) {
         let images = level.body.images.len();
         for at in range {
             let elements = match at.checked_sub(images) {
@@ -60,7 +61,7 @@ impl Evaluation<'_> {
         }
     }
 
-    fn image(&mut self, reader: &mut Reader, level: &Level<'_>, at: usize, count: u32) {
+    fn image(&mut self, reader: &mut Reader, level: &Level<'a>, at: usize, count: u32) {
         let entry = level.body.images[at].as_ref();
         let view = entry.map_or(Some(level.view), |entry| entry.view(reader, level.view));
         let mut right = view.is_some();
@@ -71,16 +72,23 @@ impl Evaluation<'_> {
             let image = entry.filter(|_| right).and_then(|entry| {
                 let image = entry.value.get(reader)?;
                 let mut evaluator = self.evaluator(reader, level, view, number);
-                let image = image.evaluate(&mut evaluator)?;
+                let as_said = image.constant().filter(|image| image.view == view && level.has_own_names(number));
+                let image = match as_said {
+                    Some(image) => Cow::Borrowed(image),
+                    None => Cow::Owned(image.evaluate(&mut evaluator)?),
+                };
                 let known = properties::of(&image, &self.flat.properties, evaluator.scope.surroundings.extent);
                 let known = known.map_err(|wrong| evaluator.fault(wrong)).ok();
                 Some((image, known))
             });
             let (image, known) = image.unzip();
             self.flat.properties.push(known.flatten());
-            self.flat.images.push(image.map(|image| {
-                let name = level.full(&image.name, number);
-                Image { name, view, instance: level.instance, ..image }
+            self.flat.images.push(image.map(|image| match image {
+                Cow::Borrowed(_) => image,
+                Cow::Owned(image) => {
+                    let name = level.full(&image.name, number);
+                    Cow::Owned(Image { name, view, instance: level.instance, ..image })
+                }
             }));
             // The other elements have the same mistake.
             right = reader.errors.len() == before;

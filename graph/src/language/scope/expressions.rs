@@ -35,8 +35,9 @@ const fn split(id: u32) -> (u32, usize) {
 
 impl Declarations for Scope<'_> {
     fn find(&self, name: &str) -> Found {
-        let Symbols { names: parameter_names, parameters, images, image_lists, buffers, buffer_lists, settings } =
-            self.symbols;
+        let Symbols {
+            names: parameter_names, parameters, images, image_lists, buffers, buffer_lists, settings, ..
+        } = self.symbols;
         let found = |symbol: Option<Symbol>| symbol.map_or(Found::Reported, Found::Symbol);
         if let Some(index) = self.index.filter(|index| *index.text == *name) {
             let declared = index.span;

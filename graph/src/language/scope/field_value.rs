@@ -31,6 +31,11 @@ impl<T: Kept> FieldValue<T> {
         FieldValue::Computed(Arc::new(compute))
     }
 
+    /// The value, if the file says it.
+    pub(crate) const fn constant(&self) -> Option<&T> {
+        if let FieldValue::Constant(value) = self { Some(value) } else { None }
+    }
+
     /// A value that is computed from this one, if there is one.
     pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<FieldValue<U>> {
         match self {
@@ -77,11 +82,6 @@ impl<T: Kept> FieldValue<T> {
             })),
         }
     }
-
-    /// Whether the file says the value.
-    pub(crate) const fn is_constant(&self) -> bool {
-        matches!(self, FieldValue::Constant(_))
-    }
 }
 
 impl<T: Kept> FieldValue<Decided<T>> {
@@ -127,33 +127,62 @@ pub(crate) trait FieldValueTuple: Send + Sync + 'static {
     /// The values.
     type Values: Kept;
 
-    /// All values; without an evaluator only if all are constant. Each is evaluated, so that all mistakes are told.
-    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values>;
+    /// Whether the file says all values.
+    fn is_constant(&self) -> bool;
 
-    /// All values.
-    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
-        self.find(Some(evaluator))
-    }
+    /// All values, if the file says them.
+    fn into_constants(self) -> Option<Self::Values>;
+
+    /// All values. Each is evaluated, so that all mistakes are told.
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values>;
 }
+
+/// A value that may be missing because it couldn't be read: the others are evaluated all the same.
+pub(crate) struct IfRead<P>(pub(crate) Option<P>);
 
 /// A value that is computed from several values.
 pub(crate) fn combined<P: FieldValueTuple, T: Kept>(
     parts: P,
     make: impl Fn(P::Values) -> T + Send + Sync + 'static,
 ) -> FieldValue<T> {
-    match parts.find(None) {
-        Some(values) => FieldValue::Constant(make(values)),
-        None => FieldValue::computed(move |evaluator| parts.evaluate(evaluator).map(&make)),
+    if parts.is_constant() {
+        let values = parts.into_constants().expect("the file says all values");
+        return FieldValue::Constant(make(values));
     }
+    FieldValue::computed(move |evaluator| parts.evaluate(evaluator).map(&make))
+}
+
+/// A value that is computed from several values, with mistakes that `make` reports: now if all are constant, else at each
+/// lowering.
+pub(crate) fn reported<P: FieldValueTuple, T: Kept>(
+    reader: &mut Reader,
+    parts: P,
+    make: impl Fn(&mut Reader, P::Values) -> Option<T> + Send + Sync + 'static,
+) -> Option<FieldValue<T>> {
+    if parts.is_constant() {
+        return make(reader, parts.into_constants()?).map(FieldValue::Constant);
+    }
+    Some(FieldValue::computed(move |evaluator| {
+        let values = parts.evaluate(evaluator)?;
+        make(evaluator.reader, values)
+    }))
 }
 
 impl<T: Kept> FieldValueTuple for FieldValue<T> {
     type Values = T;
 
-    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<T> {
+    fn is_constant(&self) -> bool {
+        matches!(self, FieldValue::Constant(_))
+    }
+
+    fn into_constants(self) -> Option<T> {
+        if let FieldValue::Constant(value) = self { Some(value) } else { None }
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<T> {
         match self {
             FieldValue::Constant(value) => Some(value.clone()),
-            FieldValue::Computed(compute) => compute(evaluator?),
+            FieldValue::Computed(compute) => compute(evaluator),
         }
     }
 }
@@ -161,18 +190,50 @@ impl<T: Kept> FieldValueTuple for FieldValue<T> {
 impl<P: FieldValueTuple> FieldValueTuple for Option<P> {
     type Values = Option<P::Values>;
 
-    fn find(&self, evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
-        self.as_ref().map_or(Some(None), |part| part.find(evaluator).map(Some))
+    fn is_constant(&self) -> bool {
+        self.as_ref().is_none_or(P::is_constant)
+    }
+
+    fn into_constants(self) -> Option<Self::Values> {
+        self.map_or(Some(None), |part| part.into_constants().map(Some))
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        self.as_ref().map_or(Some(None), |part| part.evaluate(evaluator).map(Some))
+    }
+}
+
+impl<P: FieldValueTuple> FieldValueTuple for IfRead<P> {
+    type Values = Option<P::Values>;
+
+    fn is_constant(&self) -> bool {
+        self.0.as_ref().is_some_and(P::is_constant)
+    }
+
+    fn into_constants(self) -> Option<Self::Values> {
+        self.0?.into_constants().map(Some)
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        Some(self.0.as_ref().and_then(|part| part.evaluate(evaluator)))
     }
 }
 
 impl<P: FieldValueTuple> FieldValueTuple for Vec<P> {
     type Values = Vec<P::Values>;
 
-    fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
+    fn is_constant(&self) -> bool {
+        self.iter().all(P::is_constant)
+    }
+
+    fn into_constants(self) -> Option<Self::Values> {
+        self.into_iter().map(P::into_constants).collect()
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
         let mut values = Vec::with_capacity(self.len());
         for part in self {
-            values.extend(part.find(evaluator.as_deref_mut()));
+            values.extend(part.evaluate(evaluator));
         }
         (values.len() == self.len()).then_some(values)
     }
@@ -181,8 +242,16 @@ impl<P: FieldValueTuple> FieldValueTuple for Vec<P> {
 impl<P: FieldValueTuple, const N: usize> FieldValueTuple for [P; N] {
     type Values = [P::Values; N];
 
-    fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
-        all(self.each_ref().map(|part| part.find(evaluator.as_deref_mut())))
+    fn is_constant(&self) -> bool {
+        self.iter().all(P::is_constant)
+    }
+
+    fn into_constants(self) -> Option<Self::Values> {
+        all(self.map(P::into_constants))
+    }
+
+    fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+        all(self.each_ref().map(|part| part.evaluate(evaluator)))
     }
 }
 
@@ -198,9 +267,21 @@ macro_rules! tuples {
             type Values = ($($part::Values,)*);
 
             #[allow(non_snake_case, reason = "parts have the names of their types")]
-            fn find(&self, mut evaluator: Option<&mut Evaluator<'_, '_>>) -> Option<Self::Values> {
+            fn is_constant(&self) -> bool {
                 let ($($part,)*) = self;
-                let ($($part,)*) = ($($part.find(evaluator.as_deref_mut()),)*);
+                $($part.is_constant())&&*
+            }
+
+            #[allow(non_snake_case, reason = "parts have the names of their types")]
+            fn into_constants(self) -> Option<Self::Values> {
+                let ($($part,)*) = self;
+                Some(($($part.into_constants()?,)*))
+            }
+
+            #[allow(non_snake_case, reason = "parts have the names of their types")]
+            fn evaluate(&self, evaluator: &mut Evaluator<'_, '_>) -> Option<Self::Values> {
+                let ($($part,)*) = self;
+                let ($($part,)*) = ($($part.evaluate(evaluator),)*);
                 Some(($($part?,)*))
             }
         }

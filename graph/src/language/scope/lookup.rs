@@ -2,6 +2,7 @@
 
 use super::symbols::Symbols;
 use crate::expression::{Type, Wanted};
+use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::ron::{Leaf, Name, Names};
 
 /// Everything that a name in quotes may refer to. A handle, copied freely.
@@ -53,6 +54,15 @@ impl Scope<'_> {
             return one(at, buffer_lists).map(Declared::Buffer);
         }
         None
+    }
+
+    /// The image or buffer that a declaration stands for, if its index is the same at every evaluation.
+    pub(super) fn fixed(&self, declared: Declared) -> Option<Resource> {
+        let one = |at: usize, fixed: usize| if at < fixed { u32::try_from(at).ok() } else { None };
+        match declared {
+            Declared::Image(at) => one(at, self.symbols.fixed_images).map(|at| Resource::Image(ImageIndex(at))),
+            Declared::Buffer(at) => one(at, self.symbols.fixed_buffers).map(|at| Resource::Buffer(BufferIndex(at))),
+        }
     }
 
     /// Whether a reference is an expression, or the name of something that isn't plainly an image or buffer.

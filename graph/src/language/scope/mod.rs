@@ -15,8 +15,8 @@ mod symbols;
 
 pub(crate) use context::{Context, Quoted, decided};
 pub(crate) use evaluator::{Evaluator, ScopeValues, joined, within_view};
-pub(crate) use field_value::{FieldValue, FieldValueTuple, Kept, all, combined};
+pub(crate) use field_value::{FieldValue, FieldValueTuple, IfRead, Kept, all, combined, reported};
 pub(crate) use level::{DecidedValue, Elements, LevelValues, Properties};
 pub(crate) use lookup::Scope;
 pub(crate) use parameter::{Parameter, ParameterKind};
-pub(crate) use symbols::Symbols;
+pub(crate) use symbols::{Symbols, fixed};

@@ -36,6 +36,9 @@ impl Context<'_> {
         if let Some(plain) = leaf.plain()
             && let Some(declared) = self.scope.plain_reference(plain, wanted)
         {
+            if let Some(fixed) = self.scope.fixed(declared) {
+                return Some(FieldValue::Constant(found(fixed)));
+            }
             // The expression reports an image or buffer that isn't evaluated yet.
             let expression = Expression::new(plain, leaf.span_of(plain), &self.scope, wanted).ok();
             return Some(FieldValue::computed(move |evaluator| {

@@ -22,6 +22,20 @@ pub(crate) struct Symbols {
     pub(crate) buffers: Names,
     /// Whether each is a list.
     pub(crate) buffer_lists: Vec<bool>,
+    /// How many images, from the first on, have their declaration's number as index in every pipeline that is evaluated.
+    pub(crate) fixed_images: usize,
+    /// How many buffers have.
+    pub(crate) fixed_buffers: usize,
+}
+
+/// How many images and buffers, from the first on, have their declaration's number as index at every evaluation: those of the
+/// pipeline itself that no list stands before, whose length may change. Images come before buffers. Where there is room for
+/// less than all of them, none is sure to have an index.
+pub(crate) fn fixed(settings: bool, image_lists: &[bool], buffer_lists: &[bool], room: usize) -> [usize; 2] {
+    let plain = |lists: &[bool]| lists.iter().position(|is_list| *is_list).unwrap_or(lists.len());
+    let images = plain(image_lists);
+    let buffers = if images == image_lists.len() { plain(buffer_lists) } else { 0 };
+    if settings && images + buffers <= room { [images, buffers] } else { [0, 0] }
 }
 
 impl Symbols {

@@ -1,6 +1,6 @@
 //! The way of a pipeline from its text to a frame, as tests of the language go it.
 
-use crate::testing::table::Table;
+use super::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
