@@ -40,7 +40,7 @@ const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions
 const ONLY: &str = "--only";
 
 /// A row of the table, and what is run for it.
-const ROWS: [(&str, fn()); 17] = [
+const ROWS: [(&str, fn()); 16] = [
     ("deferred", || compile(&graphs::deferred())),
     ("chain 100", || compile(&graphs::chain(100))),
     ("chain 1000", || compile(&graphs::chain(1_000))),
@@ -55,7 +55,6 @@ const ROWS: [(&str, fn()); 17] = [
     ("chain 1000, verify", || check(&graphs::chain(1_000))),
     ("wide 1000, verify", || check(&graphs::wide(1_000))),
     ("forward.ron", || compile(&shipped("forward.ron"))),
-    ("deferred.ron", || compile(&shipped("deferred.ron"))),
     ("reading 1000", || read(files::written_out(1_000))),
     ("expanding 1000", || read(files::of_fragments(1_000))),
 ];

@@ -174,7 +174,7 @@ impl Last {
 
     /// Whether order, scopes and places served again.
     fn put_in_values(&mut self, frame: &Frame) -> bool {
-        if !validate::still_holds(frame) {
+        if !validate::values_still_hold(frame) {
             return false;
         }
         let Last { structure, settled, device, plan, .. } = self;

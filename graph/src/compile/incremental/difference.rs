@@ -36,7 +36,7 @@ fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
 #[inline]
 fn same_range(old: Subresources, new: Subresources) -> bool {
     let counts = |range: Subresources| [range.base_mip, range.mips, range.base_layer, range.layers];
-    counts(old) == counts(new) && old.aspects == new.aspects
+    (counts(old) == counts(new)) & (old.aspects == new.aspects)
 }
 
 /// Whether all members of two lists are the same.
@@ -167,19 +167,20 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
-    (old.image, old.frames_ago, old.span) == (*image, *frames_ago, *span)
-        && same_range(old.range, *range)
-        && (old.eye, old.face, old.own_pixel, old.sampler, old.stages) == (*eye, *face, *own_pixel, *sampler, *stages)
+    // Most are the same, so comparing all at once takes fewer branches.
+    let same_image = (old.image == *image) & (old.frames_ago == *frames_ago) & (old.span == *span);
+    let same_way = (old.eye == *eye) & (old.face == *face) & (old.own_pixel == *own_pixel) & (old.stages == *stages);
+    (same_image & same_way & same_range(old.range, *range))
+        && old.sampler == *sampler
         && old.texture == *texture
         && same_name(&old.binding, binding)
 }
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
     let Storage { binding, image, range, span, read, write, stages } = new;
-    (old.image, old.span) == (*image, *span)
-        && same_range(old.range, *range)
-        && (old.read, old.write, old.stages) == (*read, *write, *stages)
-        && same_name(&old.binding, binding)
+    let same_image = (old.image == *image) & (old.span == *span) & same_range(old.range, *range);
+    let same_way = (old.read == *read) & (old.write == *write) & (old.stages == *stages);
+    (same_image & same_way) && same_name(&old.binding, binding)
 }
 
 fn works(old: &Work, new: &Work) -> Difference {

@@ -57,9 +57,12 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
 /// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let sizes = frame.images.iter().all(|image| image_problem(image).is_none());
-    if !sizes || frame.views.iter().any(has_no_texels) || frame.buffers.iter().any(|buffer| buffer.bytes == 0) {
-        return false;
-    }
+    let views = || !frame.views.iter().any(has_no_texels);
+    sizes && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
+}
+
+/// Whether a frame is valid that differs from a valid one in nothing but values.
+pub(super) fn values_still_hold(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
         match pass.work {
