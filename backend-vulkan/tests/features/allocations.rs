@@ -139,12 +139,15 @@ fn allocations(device: &Device, plan: &plan::Plan, options: &ExecutorOptions) ->
 #[test]
 fn from_the_third_frame_on_recording_and_submitting_allocate_nothing() {
     on_each_driver(|device| {
-        for (poison, frames_in_flight, readback) in [(false, 1, false), (true, 1, false), (false, 2, true)] {
+        for (poison, frames_in_flight, readback, timestamps) in
+            [(false, 1, false, false), (true, 1, false, true), (false, 2, true, false)]
+        {
             let plan = planned(device, &every_kind_of_step(), &Options { poison, ..Options::default() });
             for is_of_kind in KINDS {
                 assert!(plan.steps.iter().any(|step| is_of_kind(&step.work)), "{}", plan.tree());
             }
-            let options = ExecutorOptions { poison, frames_in_flight, readback, ..ExecutorOptions::default() };
+            let options =
+                ExecutorOptions { poison, frames_in_flight, readback, timestamps, ..ExecutorOptions::default() };
             let counted = allocations(device, &plan, &options);
             assert_eq!(counted[2..], [0; FRAMES as usize - 2], "{options:?}: {counted:?}");
             assert!(counted[0] > 0, "the first frame sets initial contents: nothing is counted");
