@@ -18,8 +18,13 @@ use ours::Ours;
 use std::time::{Duration, Instant};
 use workload::{Workload, chain, deferred, objects};
 
-/// The frames: name, how often each is drawn, what is drawn, and the goal for encoding and submitting.
-const ROWS: [(&str, u32, fn() -> Workload, f64); 4] = [
+/// A frame: its name, how often it is drawn, what is drawn, and the goal for encoding and submitting.
+type Row = (&'static str, u32, fn() -> Workload, f64);
+
+/// A part of a frame's time: its name, what it is, and its goal.
+type Part = (&'static str, fn(&Times) -> Duration, Option<f64>);
+
+const ROWS: [Row; 4] = [
     ("25 full-screen passes, 256×256", 400, || chain(25, 256), 1.15),
     ("deferred, 25 passes", 400, deferred, 1.15),
     ("500 passes, 16×16", 200, || chain(500, 16), 1.15),
@@ -82,7 +87,7 @@ fn measure(device: &Device, name: &str, frames: u32, workload: &Workload, goal: 
             times[1].push(frame_by_hand(&mut by_hand));
         }
     }
-    let parts: [(&str, fn(&Times) -> Duration, Option<f64>); 4] = [
+    let parts: [Part; 4] = [
         ("encode", |it| it.encode, None),
         ("submit", |it| it.submit, None),
         ("encode + submit", |it| it.encode + it.submit, Some(goal)),
