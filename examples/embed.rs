@@ -56,9 +56,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", plan.tree());
 
     // The Plan becomes pixels.
-    let mut executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(&device, &plan, &mut shaders, &options)?;
     let mut objects = SceneDrawSource::new(&device, &scene, EXTENT)?;
-    let report = executor.frame(&mut objects)?;
+    let frame = executor.frame(&mut objects)?;
+    let report = executor.report(frame)?;
     let texels = executor.read(0)?;
     std::fs::create_dir_all("out")?;
     image::save_buffer("out/embedded.png", &texels.bytes, EXTENT[0], EXTENT[1], image::ExtendedColorType::Rgba8)?;

@@ -1,18 +1,20 @@
-//! `cargo bench -p framewright --bench instructions`: the instructions that checking all variants of `forward` takes, beside
-//! the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It needs valgrind.
+//! `cargo bench --profile dev -p framewright --bench instructions`: the instructions that checking all variants of `forward`
+//! takes, beside the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It
+//! needs valgrind. The profile `dev` counts what tests build anyway.
 //!
-//! The counted program is the command as a user runs it, on one thread, without the command for one variant: so neither its
+//! The counted program is the command on one thread, without the command for one variant: so neither its
 //! beginning nor its shaders are part of it. The helper process that compiles shaders isn't counted; a first run fills the
 //! cache of shaders. `instructions.txt` holds the committed figures.
 
+#[allow(dead_code, reason = "each bench uses a part of it")]
 #[path = "../../graph/benches/shared/counts.rs"]
 mod counts;
 
-use counts::Guard;
+use counts::{Code, Guard};
 use std::error::Error;
 use std::process::{Command, ExitCode};
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench -p framewright --bench instructions";
+const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --profile dev -p framewright --bench instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -20,7 +22,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     command(&all).output()?;
     let guard = Guard { figures: FIGURES, accept: ACCEPT };
     guard.run(["variants of forward"], |_| {
-        let [one, every] = [&[][..], &all[..]].map(|words| counts::instructions(&mut command(words), None));
+        let [one, every] = [&[][..], &all[..]].map(|words| counts::instructions(&command(words), Code::Program));
         Ok(every?.saturating_sub(one?))
     })
 }

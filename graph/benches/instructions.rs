@@ -2,14 +2,14 @@
 //! committed ones. It fails if a graph takes 3 % more, and names the command that accepts the new figures. It needs
 //! valgrind.
 //!
-//! Instructions are counted because time on a busy machine says nothing about a few per cent. Valgrind's callgrind runs
-//! this program once for each row and counts what happens within [`counted`] alone: neither building the graph nor a first
-//! run, which fills the allocator's lists, is part of it.
+//! Valgrind's callgrind counts what happens within [`counted`] alone: neither building the graph nor a first run, which fills
+//! the allocator's lists, is part of it. The C library is counted too: its allocator takes much of a short compilation.
 //!
 //! `instructions.txt` holds the committed figures.
 
 #[path = "compile/changed.rs"]
 mod changed;
+#[allow(dead_code, reason = "each bench uses a part of it")]
 #[path = "shared/counts.rs"]
 mod counts;
 #[path = "compile/files.rs"]
@@ -24,20 +24,21 @@ mod pipelines;
 #[path = "../tests/suite/testing/table.rs"]
 mod table;
 
-use counts::Guard;
+use counts::{Code, Guard, counted};
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::Frame;
 use framewright_graph::verify::verify;
 use std::error::Error;
 use std::hint::black_box;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 use std::sync::Arc;
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench -p framewright-graph --bench instructions";
-const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
-/// The argument before the name of the only row to run, within valgrind.
-const ONLY: &str = "--only";
+/// The figures, and how new ones are accepted.
+const GUARD: Guard = Guard {
+    figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
+    accept: "FRAMEWRIGHT_ACCEPT=1 cargo bench -p framewright-graph --bench instructions",
+};
 
 /// A row of the table, and what is run for it.
 const ROWS: [(&str, fn()); 16] = [
@@ -60,25 +61,7 @@ const ROWS: [(&str, fn()); 16] = [
 ];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [mark, name] = &arguments[..]
-        && mark == ONLY
-    {
-        let (_, run) = ROWS.iter().find(|(row, _)| row == name).ok_or("no row has this name")?;
-        run();
-        return Ok(ExitCode::SUCCESS);
-    }
-    let guard = Guard { figures: FIGURES, accept: ACCEPT };
-    guard.run(ROWS.iter().map(|(name, _)| *name), |name| {
-        let program = std::env::current_exe()?;
-        counts::instructions(Command::new(program).args([ONLY, name]), Some("instructions::counted*"))
-    })
-}
-
-/// Callgrind counts what happens within this function, which it knows by name.
-#[inline(never)]
-fn counted<T>(run: impl FnOnce() -> T) -> T {
-    black_box(run())
+    GUARD.run_rows(&ROWS, Code::Counted)
 }
 
 fn compile(frame: &Frame) {

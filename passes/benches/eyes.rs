@@ -53,8 +53,9 @@ fn main() {
             // The first frame is prepared before it is recorded.
             for number in 0..=frames {
                 for ((_, drawn), least) in ways.iter_mut().zip(&mut least) {
-                    let report = drawn.executor.frame(&mut drawn.source).expect("a frame");
+                    let frame = drawn.executor.frame(&mut drawn.source).expect("a frame");
                     if number > 0 {
+                        let report = drawn.executor.report(frame).expect("its report");
                         *least = least.min(report.recording_milliseconds);
                     }
                 }

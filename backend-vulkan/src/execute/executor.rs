@@ -28,11 +28,15 @@ pub struct ExecutorOptions {
     /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
     /// [`Executor::read_back_image`] and [`Executor::read_back_buffer`].
     pub readback: bool,
+    /// Whether the device notes when each step and pass begins and ends, for [`Executor::report`]. That takes commands of its own,
+    /// and some devices finish one pass before they begin the next to tell the time.
+    pub timestamps: bool,
 }
 
 impl Default for ExecutorOptions {
     fn default() -> Self {
-        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, readback: false }
+        let timeout = Duration::from_secs(120);
+        ExecutorOptions { poison: false, timeout, frames_in_flight: 1, readback: false, timestamps: false }
     }
 }
 
@@ -117,7 +121,7 @@ impl Executor {
         Ok(Executor {
             gpu: gpu.clone(),
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
-            frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
+            frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
             plan: plan.clone(),
             options: options.clone(),
@@ -128,13 +132,14 @@ impl Executor {
         })
     }
 
-    /// Draws a frame and waits until the device is done.
+    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0.
     ///
     /// # Errors
     /// Those of [`Executor::submit`] and [`Executor::wait`].
-    pub fn frame(&mut self, source: &mut dyn DrawSource) -> Result<FrameReport, Error> {
+    pub fn frame(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         let frame = self.submit(source)?;
-        self.wait(frame)
+        self.wait(frame)?;
+        Ok(frame)
     }
 
     /// Records and submits a frame, and returns its number, from 0. If as many frames as may be are on their way, it waits
@@ -157,12 +162,23 @@ impl Executor {
     /// Waits until the device is done with a frame.
     ///
     /// # Errors
-    /// [`Error::BadResource`] if it was never submitted, or its report was dropped for later ones;
-    /// [`Error::DeviceLost`], [`Error::Timeout`].
-    pub fn wait(&mut self, frame: u64) -> Result<FrameReport, Error> {
+    /// [`Error::BadResource`] if it was never submitted, or a later one has taken its place; [`Error::DeviceLost`],
+    /// [`Error::Timeout`].
+    pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
         self.frames.wait(frame)?;
-        let gone = || Error::BadResource { what: format!("frame {frame} was not submitted, or its report is gone") };
-        self.frames.report(&self.plan, frame).ok_or_else(gone)?
+        if self.frames.holds(frame) {
+            return Ok(());
+        }
+        Err(Error::BadResource { what: format!("frame {frame} was not submitted, or its report is gone") })
+    }
+
+    /// What a frame did, and if [`ExecutorOptions::timestamps`] is set how long the device took for it. It is waited for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::wait`].
+    pub fn report(&mut self, frame: u64) -> Result<FrameReport, Error> {
+        self.wait(frame)?;
+        self.frames.report(&self.plan, frame)
     }
 
     /// Whether transient images and buffers are filled with conspicuous values.

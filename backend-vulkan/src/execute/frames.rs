@@ -1,12 +1,13 @@
 //! Frames on their way: recorded, submitted to their queues, and waited for.
 
+use super::executor::ExecutorOptions;
 use super::import::Import;
 use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
 use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, Frame, PreparedStep, batches};
-use crate::record::{DrawSource, FrameReport, Recorded, Recording, Timing};
+use crate::record::{CommandState, DrawSource, FrameReport, Recorded, Recording, Timing, report};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
@@ -36,7 +37,8 @@ pub(crate) struct Frames {
 struct FrameSlot {
     /// By batch.
     commands: Vec<(CommandPool, vk::CommandBuffer)>,
-    timing: Timing,
+    /// If frames are timed.
+    timing: Option<Timing>,
     recorded: Recorded,
     /// By output, if they are kept.
     outputs: Vec<Readback>,
@@ -52,13 +54,12 @@ pub(crate) struct FrameExtras<'b> {
 }
 
 impl Frames {
-    /// Room for `in_flight` frames of `plan`, at least one.
+    /// Room for as many frames of `plan` in flight as `options` say, at least one.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
         imports: &[Import],
-        in_flight: u32,
-        timeout: Duration,
+        options: &ExecutorOptions,
     ) -> Result<Frames, Error> {
         let extras: Vec<_> = imports.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
         let batches = batches(plan, &extras);
@@ -68,10 +69,11 @@ impl Frames {
         }
         let semaphores: Vec<_> = timelines.iter().map(|(_, timeline)| timeline.raw).collect();
         let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
-        let slots = (0..in_flight.max(1)).map(|_| FrameSlot::new(gpu, plan, &batches));
+        let slots = 0..options.frames_in_flight.max(1);
+        let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options.timestamps));
         Ok(Frames {
             gpu: gpu.clone(),
-            timeout,
+            timeout: options.timeout,
             timelines,
             values_per_frame: plan.steps.len() as u64 + 1,
             slots: slots.collect::<Result<_, _>>()?,
@@ -193,8 +195,7 @@ impl Frames {
     /// Waits until a frame that was submitted is done.
     pub(crate) fn wait(&mut self, frame: u64) -> Result<(), Error> {
         let slot = self.slot_of(frame);
-        let in_place = self.slots[slot].frame == Some(frame);
-        if !in_place || self.slots[slot].finished {
+        if !self.holds(frame) || self.slots[slot].finished {
             return Ok(());
         }
         if self.gpu.is_abandoned() {
@@ -212,11 +213,15 @@ impl Frames {
         frames.into_iter().try_for_each(|frame| self.wait(frame))
     }
 
-    /// The report of a frame that was waited for; `None` if its place was taken by a later frame.
-    pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Option<Result<FrameReport, Error>> {
-        let slot = &self.slots[self.slot_of(frame)];
-        (slot.frame == Some(frame))
-            .then(|| slot.timing.report(plan, &self.batches, &slot.recorded.counts, slot.recorded.took))
+    /// Whether a frame was submitted, and no later one has taken its place.
+    pub(crate) fn holds(&self, frame: u64) -> bool {
+        self.slots[self.slot_of(frame)].frame == Some(frame)
+    }
+
+    /// The report of a frame that was waited for, and whose place no later one has taken.
+    pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Result<FrameReport, Error> {
+        let FrameSlot { timing, recorded, .. } = &self.slots[self.slot_of(frame)];
+        report(&self.gpu, plan, &self.batches, timing.as_ref(), recorded)
     }
 
     /// The kept contents of an output of a frame that was waited for.
@@ -238,7 +243,7 @@ impl Drop for Frames {
 }
 
 impl FrameSlot {
-    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch]) -> Result<FrameSlot, Error> {
+    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch], timestamps: bool) -> Result<FrameSlot, Error> {
         let commands = batches.iter().map(|batch| {
             let pool = CommandPool::new(gpu, batch.queue)?;
             let buffer = pool.buffer()?;
@@ -246,7 +251,7 @@ impl FrameSlot {
         });
         Ok(FrameSlot {
             commands: commands.collect::<Result<_, _>>()?,
-            timing: Timing::new(gpu, plan, batches.len())?,
+            timing: timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
             recorded: Recorded::default(),
             outputs: Vec::new(),
             frame: None,
@@ -267,12 +272,14 @@ impl FrameSlot {
         for (pool, _) in &self.commands {
             pool.reset()?;
         }
-        self.timing.begin_frame();
-        let (timing, recorded) = (&mut self.timing, &mut self.recorded);
-        let mut recording = Recording { frame, source, timing, recorded };
+        if let Some(timing) = &mut self.timing {
+            timing.begin_frame();
+        }
+        let (timing, recorded) = (self.timing.as_mut(), &mut self.recorded);
+        let mut recording = Recording { frame, source, timing, recorded, state: CommandState::default() };
         for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
             record(frame.gpu, *buffer, |commands| {
-                recording.timing.begin_batch(commands, batch.queue);
+                recording.begin_batch(commands, batch.queue);
                 for step in batch.steps.clone() {
                     for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
                         import.record(frame, commands);

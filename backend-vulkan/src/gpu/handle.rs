@@ -3,6 +3,7 @@
 use super::cached::Caches;
 use super::features::Features;
 use super::instance::Instance;
+use super::labels::are_shown;
 use super::minimum;
 use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
@@ -21,6 +22,7 @@ pub(crate) struct Gpu {
     pub(crate) raw: ash::Device,
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) limits: vk::PhysicalDeviceLimits,
+    /// The commands of `VK_EXT_debug_utils`, where a tool is there to show names and labels.
     pub(crate) labels: Option<ext::debug_utils::Device>,
     /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
@@ -94,7 +96,7 @@ impl Gpu {
             }
         };
         let local_read = has_local_read.then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
-        let labels = instance.labels.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        let labels = are_shown(&instance, physical).then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         Ok(Gpu {
             physical,
             limits: properties.limits,

@@ -1,6 +1,7 @@
-//! Names and labels for debuggers and validation messages (`VK_EXT_debug_utils`); without the extension nothing happens.
+//! Names and labels for debuggers and validation messages (`VK_EXT_debug_utils`). Where nobody shows them nothing happens.
 
 use super::handle::Gpu;
+use super::instance::Instance;
 use ash::vk;
 use std::ffi::{CStr, CString};
 
@@ -26,6 +27,13 @@ impl Gpu {
         unsafe { labels.cmd_end_debug_utils_label(commands) };
         result
     }
+}
+
+/// Whether something shows names and labels: the validation layer, or a tool such as a debugger or profiler.
+pub(super) fn are_shown(instance: &Instance, physical: vk::PhysicalDevice) -> bool {
+    // SAFETY: the physical device is the instance's, and has Vulkan 1.3.
+    let tools = || unsafe { instance.raw.get_physical_device_tool_properties_len(physical) };
+    instance.labels && (instance.validation.is_some() || tools().is_ok_and(|tools| tools > 0))
 }
 
 /// A name as Vulkan takes it. Names come from files: a zero byte would end them early.

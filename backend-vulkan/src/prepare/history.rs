@@ -114,6 +114,11 @@ impl<T> RingCache<T> {
         })
     }
 
+    /// After how many frames, one after the other, everything is made.
+    pub(crate) fn period(&self) -> u64 {
+        self.period
+    }
+
     /// Forgets everything: other images or buffers stand for the Plan's now. Nothing of it may be in use.
     pub(crate) fn forget(&mut self) {
         self.made.clear();

@@ -38,7 +38,8 @@ pub(crate) struct PreparedDraw {
 
 /// The commands of a pass of a rendering scope in a frame.
 pub(crate) struct DrawCommands {
-    pub(crate) set: vk::DescriptorSet,
+    /// `None`: the shader reads nothing of the pass's own.
+    pub(crate) set: Option<vk::DescriptorSet>,
     /// Push constants: which parts of images are in use.
     pub(crate) parts: Vec<u8>,
     /// The pass's own vertex buffers, and where each begins.
@@ -79,7 +80,8 @@ pub(crate) struct PreparedDispatch {
 
 /// The commands of a dispatch in a frame.
 pub(crate) struct DispatchCommands {
-    pub(crate) set: vk::DescriptorSet,
+    /// As in [`DrawCommands`].
+    pub(crate) set: Option<vk::DescriptorSet>,
     /// As in [`DrawCommands`].
     pub(crate) parts: Vec<u8>,
     pub(crate) groups: WorkgroupCount<vk::Buffer>,

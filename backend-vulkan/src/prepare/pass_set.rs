@@ -100,10 +100,13 @@ impl PassSets {
         self.made.forget();
     }
 
-    /// The set for a frame.
-    pub(super) fn prepare(&mut self, frame: &Frame<'_>) -> Result<vk::DescriptorSet, Error> {
+    /// The set for a frame; `None` if it would be empty.
+    pub(super) fn prepare(&mut self, frame: &Frame<'_>) -> Result<Option<vk::DescriptorSet>, Error> {
+        if self.bindings.is_empty() {
+            return Ok(None);
+        }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
-        self.made.prepare(frame.number, || PassSet::new(frame, bindings, params)).map(|made| made.set.raw)
+        self.made.prepare(frame.number, || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
     }
 }
 

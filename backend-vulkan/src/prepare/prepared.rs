@@ -15,6 +15,10 @@ pub(crate) struct PreparedPlan {
     /// By step.
     pub(crate) steps: Vec<PreparedStep>,
     poison: bool,
+    /// After how many frames every step has found all its images and buffers.
+    period: u64,
+    /// The frame from which on all is prepared anew; `None`: the next one.
+    first: Option<u64>,
 }
 
 impl PreparedPlan {
@@ -29,14 +33,19 @@ impl PreparedPlan {
         let physical = PhysicalResources::new(gpu, plan)?;
         let frame = Frame { gpu, plan, physical: &physical, number: 0 };
         let steps = plan.steps.iter().enumerate().map(|step| PreparedStep::new(&frame, step, shaders));
-        let steps = steps.collect::<Result<_, _>>()?;
-        let mut prepared = PreparedPlan { physical, steps, poison };
+        let steps = steps.collect::<Result<Vec<PreparedStep>, _>>()?;
+        let period = steps.iter().map(|step| step.commands.period()).max().unwrap_or(1);
+        let mut prepared = PreparedPlan { physical, steps, poison, period, first: None };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
 
-    /// Makes what frame `number` needs and no frame before it needed.
+    /// Makes what frame `number` needs and no frame before it needed. Frames follow each other without gaps.
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
+        let first = *self.first.get_or_insert(number);
+        if number - first >= self.period {
+            return Ok(());
+        }
         let frame = Frame { gpu, plan, physical: &self.physical, number };
         let mut steps = plan.steps.iter().enumerate().zip(&mut self.steps);
         steps.try_for_each(|(step, made)| made.prepare(&frame, step, self.poison))
@@ -44,11 +53,13 @@ impl PreparedPlan {
 
     /// Forgets all sets and what is recorded, since another image or buffer was imported. Nothing may be in flight.
     pub(crate) fn forget(&mut self) {
+        self.first = None;
         self.steps.iter_mut().for_each(PreparedStep::forget);
     }
 
     /// Forgets what the steps record, since the Plan has other values.
     pub(crate) fn forget_commands(&mut self) {
+        self.first = None;
         self.steps.iter_mut().for_each(|step| step.commands.forget());
     }
 }

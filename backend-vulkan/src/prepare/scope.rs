@@ -1,6 +1,7 @@
 //! The commands of a rendering scope.
 
 use super::descriptions::part;
+use super::draw_target::DrawTarget;
 use super::frame::Frame;
 use super::pass::{DrawCommands, PreparedDraw, prepare_draw};
 use super::variant::view_mask;
@@ -10,9 +11,9 @@ use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
 use ash::vk;
-use framewright_graph::frame::{EyeForm, Stereo};
+use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{Attachment, ImageId, RenderScope};
-use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
+use framewright_graph::vulkan::{Aspects, LoadOp, Subresources};
 
 /// The commands of a rendering scope in a frame.
 pub(crate) struct ScopeCommands {
@@ -24,16 +25,6 @@ pub(crate) struct ScopeCommands {
     pub(crate) view_mask: u32,
     pub(crate) target: DrawTarget,
     pub(crate) passes: Vec<DrawCommands>,
-}
-
-/// The picture that a pass draws into.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DrawTarget {
-    /// Width and height, those of the turned picture; of two eyes one's.
-    pub(crate) extent: [u32; 2],
-    pub(crate) rotation: Rotation,
-    /// How both eyes are drawn for at once, and into what, if they are.
-    pub(crate) eyes: Option<(Stereo, EyeForm)>,
 }
 
 /// The objects of a rendering scope's passes.
@@ -75,7 +66,7 @@ impl ScopeCommands {
             area: vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } },
             layers: EyeForm::layers(form, scope.layers),
             view_mask: view_mask(plan, scope),
-            target: DrawTarget { extent: scope.extent, rotation, eyes: form.map(|form| (plan.stereo, form)) },
+            target: DrawTarget::new(scope.extent, rotation, form.map(|form| (plan.stereo, form))),
             passes: passes.collect::<Result<_, _>>()?,
         })
     }

@@ -45,7 +45,7 @@ pub(crate) struct StepCommands {
 /// The commands of a step's work.
 pub(crate) enum WorkCommands {
     /// A rendering scope.
-    Render(ScopeCommands),
+    Render(Box<ScopeCommands>),
     /// A dispatch.
     Dispatch(DispatchCommands),
     /// Other work, which records nothing here.
@@ -115,7 +115,7 @@ impl StepCommands {
         before.extend(transfer(frame, &step.work));
         let work = match (&step.work, made) {
             (Work::Render(scope), PreparedWork::Render(made)) => {
-                WorkCommands::Render(ScopeCommands::new(frame, scope, made)?)
+                WorkCommands::Render(Box::new(ScopeCommands::new(frame, scope, made)?))
             }
             (Work::Dispatch(pass), PreparedWork::Dispatch(made)) => WorkCommands::Dispatch(made.commands(frame, pass)?),
             _ => WorkCommands::Plain,

@@ -4,6 +4,7 @@ mod custom;
 mod draw_source;
 mod recorder;
 mod scope;
+mod state;
 mod step;
 mod timing;
 
@@ -12,5 +13,6 @@ pub use draw_source::DrawSource;
 pub use recorder::{CullMode, FrontFace, IndexType, Recorder};
 pub use timing::{FrameReport, PassReport, StepReport};
 
+pub(crate) use state::CommandState;
 pub(crate) use step::{Recorded, Recording};
-pub(crate) use timing::Timing;
+pub(crate) use timing::{Timing, report};

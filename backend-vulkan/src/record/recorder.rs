@@ -2,6 +2,7 @@
 
 mod area;
 
+use super::state::CommandState;
 use crate::gpu::Gpu;
 use crate::prepare::{DrawTarget, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
@@ -46,6 +47,7 @@ pub enum IndexType {
 pub struct Recorder<'f> {
     gpu: &'f Gpu,
     commands: vk::CommandBuffer,
+    state: &'f mut CommandState,
     kept: &'f mut HeldResources,
     pass: &'f PassState,
     has_pipeline: bool,
@@ -58,6 +60,8 @@ pub struct Recorder<'f> {
     /// The rectangles of viewport and scissor, where they aren't all of the picture and each eye's half has its own.
     viewport: Option<[f64; 4]>,
     scissor: Option<[f64; 4]>,
+    /// Whether everything that draws need was found bound.
+    ready: bool,
     misuse: Option<String>,
 }
 
@@ -80,9 +84,8 @@ impl HeldResources {
 
 impl<'f> Recorder<'f> {
     pub(crate) fn new(
-        gpu: &'f Gpu,
-        commands: vk::CommandBuffer,
-        kept: &'f mut HeldResources,
+        (gpu, commands): (&'f Gpu, vk::CommandBuffer),
+        (state, kept): (&'f mut CommandState, &'f mut HeldResources),
         drawn: &'f PreparedDraw,
         plan: &'f plan::Pass,
         target: DrawTarget,
@@ -95,6 +98,7 @@ impl<'f> Recorder<'f> {
         Recorder {
             gpu,
             commands,
+            state,
             kept,
             pass,
             has_pipeline,
@@ -106,6 +110,7 @@ impl<'f> Recorder<'f> {
             culled: 0,
             viewport: None,
             scissor: None,
+            ready: false,
             misuse,
         }
     }
@@ -148,13 +153,14 @@ impl<'f> Recorder<'f> {
     /// the format `UNDEFINED`.
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
+        self.state.lose_track();
         self.commands
     }
 
     /// Width and height of the picture that is drawn, upright.
     #[must_use]
     pub fn extent(&self) -> [u32; 2] {
-        self.target.rotation.extent(self.target.extent)
+        self.target.upright()
     }
 
     /// The rotation of the picture in the attachments. Shaders that support rotation turn their own positions
@@ -229,6 +235,9 @@ impl<'f> Recorder<'f> {
 
     /// Says which faces are left out from now on.
     pub fn set_cull_mode(&mut self, mode: CullMode) {
+        if !self.state.needs_cull_mode(mode) {
+            return;
+        }
         let mode = match mode {
             CullMode::None => vk::CullModeFlags::NONE,
             CullMode::Front => vk::CullModeFlags::FRONT,
@@ -240,6 +249,9 @@ impl<'f> Recorder<'f> {
 
     /// Says which side is the front from now on, after the projection, which flips y.
     pub fn set_front_face(&mut self, face: FrontFace) {
+        if !self.state.needs_front_face(face) {
+            return;
+        }
         let face = match face {
             FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
             FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
@@ -323,8 +335,17 @@ impl<'f> Recorder<'f> {
         may
     }
 
-    /// Whether everything that the pipeline reads is bound.
+    /// Whether everything that the pipeline reads is bound. What is bound once is bound for the rest of the pass.
     fn may_draw(&mut self) -> bool {
+        if !self.ready {
+            self.look_for_missing();
+            self.ready = true;
+        }
+        self.misuse.is_none()
+    }
+
+    /// A draw is misuse as long as something is missing.
+    fn look_for_missing(&mut self) {
         if let Some(missing) = self.kept.bound.iter().position(|bound| !bound) {
             self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
         }
@@ -335,7 +356,6 @@ impl<'f> Recorder<'f> {
         if self.pass.vertex_stride > 0 && self.vertices.is_none() {
             self.misused(|| "a draw without vertex buffer".to_owned());
         }
-        self.misuse.is_none()
     }
 
     fn misused(&mut self, what: impl FnOnce() -> String) {

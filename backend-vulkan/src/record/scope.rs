@@ -44,8 +44,7 @@ impl Recording<'_> {
                 }
                 self.draw(commands, plan, made, pass, scope.target)
             });
-            self.timing.stamp(commands);
-            self.recorded.counts.push(drawn?);
+            self.end_pass(commands, drawn?);
         }
         // SAFETY: the scope was begun above.
         unsafe { gpu.raw.cmd_end_rendering(commands) };
@@ -61,21 +60,24 @@ impl Recording<'_> {
         target: DrawTarget,
     ) -> Result<Counts, Error> {
         let gpu = self.frame.gpu;
+        self.state.begin_pass();
         if let Some(pipeline) = made.pipeline {
             // SAFETY: the command buffer is being recorded within a scope that the pipeline was made for, and the set has
             // the layout's first set layout.
             unsafe {
                 let graphics = vk::PipelineBindPoint::GRAPHICS;
-                gpu.raw.cmd_bind_pipeline(commands, graphics, pipeline);
-                gpu.raw.cmd_bind_descriptor_sets(commands, graphics, made.state.layout, 0, &[pass.set], &[]);
+                if self.state.needs_graphics(pipeline) {
+                    gpu.raw.cmd_bind_pipeline(commands, graphics, pipeline);
+                }
+                if let Some(set) = pass.set {
+                    gpu.raw.cmd_bind_descriptor_sets(commands, graphics, made.state.layout, 0, &[set], &[]);
+                }
             }
             tell_parts(gpu, commands, made.state.layout, &pass.parts);
         }
-        let kept = &mut self.recorded.kept;
-        let mut recorder = Recorder::new(gpu, commands, kept, made, plan, target, self.frame.number);
-        let [width, height] = recorder.extent();
-        recorder.set_viewport([0.0, 0.0], [width, height].map(f64::from));
-        recorder.set_scissor([0, 0], [width, height]);
+        let (state, kept) = (&mut self.state, &mut self.recorded.kept);
+        let mut recorder = Recorder::new((gpu, commands), (state, kept), made, plan, target, self.frame.number);
+        recorder.see_all();
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
         let draws = match made.draw {

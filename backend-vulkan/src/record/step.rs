@@ -3,6 +3,7 @@
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
 use super::recorder::HeldResources;
+use super::state::CommandState;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
 use crate::gpu::Gpu;
@@ -11,15 +12,18 @@ use crate::prepare::{
     DispatchCommands, Frame, PreparedDispatch, PreparedStep, PreparedWork, WorkCommands, WorkgroupCount,
 };
 use ash::vk;
-use framewright_graph::plan::{Pass, Step, Work};
+use framewright_graph::plan::{Pass, Queue, Step, Work};
 use std::time::Duration;
 
 /// The recording of a frame.
 pub(crate) struct Recording<'r> {
     pub(crate) frame: &'r Frame<'r>,
     pub(crate) source: &'r mut dyn DrawSource,
-    pub(crate) timing: &'r mut Timing,
+    /// If the frame is timed.
+    pub(crate) timing: Option<&'r mut Timing>,
     pub(crate) recorded: &'r mut Recorded,
+    /// Of the command buffer that is being recorded.
+    pub(crate) state: CommandState,
 }
 
 /// A recorded frame.
@@ -41,6 +45,14 @@ impl Recorded {
 }
 
 impl Recording<'_> {
+    /// Begins the command buffer of a batch.
+    pub(crate) fn begin_batch(&mut self, commands: vk::CommandBuffer, queue: Queue) {
+        self.state.begin_commands();
+        if let Some(timing) = &mut self.timing {
+            timing.begin_batch(commands, queue);
+        }
+    }
+
     /// Records a step.
     pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: &Step, made: &PreparedStep) -> Result<(), Error> {
         let gpu = self.frame.gpu;
@@ -53,7 +65,7 @@ impl Recording<'_> {
                     self.render(commands, plan, made, scope)?;
                 }
                 (Work::Dispatch(_), PreparedWork::Dispatch(made), WorkCommands::Dispatch(pass)) => {
-                    dispatch(gpu, commands, made, pass);
+                    self.dispatch(commands, made, pass);
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
                 (Work::Custom(pass), ..) => {
@@ -63,36 +75,50 @@ impl Recording<'_> {
                 _ => {}
             }
             prepared.releases.record(gpu, commands);
-            self.timing.stamp(commands);
+            self.stamp(commands);
             Ok(())
         })
     }
 
     /// Notes what was recorded for a pass, and when it ends.
-    fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
+    pub(super) fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
         self.recorded.counts.push(counts);
-        self.timing.stamp(commands);
+        self.stamp(commands);
+    }
+
+    /// Writes the next timestamp, if the frame is timed.
+    fn stamp(&mut self, commands: vk::CommandBuffer) {
+        if let Some(timing) = &mut self.timing {
+            timing.stamp(commands);
+        }
     }
 
     fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass) -> Result<u32, Error> {
+        self.state.lose_track();
         let mut recorder = CustomRecorder::new(self.frame, commands, pass);
         self.source.custom(&pass.shader, &mut recorder)?;
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
-}
 
-fn dispatch(gpu: &Gpu, commands: vk::CommandBuffer, made: &PreparedDispatch, pass: &DispatchCommands) {
-    tell_parts(gpu, commands, made.layout, &pass.parts);
-    let device = &gpu.raw;
-    // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
-    // and the buffer behind them were checked.
-    unsafe {
-        let compute = vk::PipelineBindPoint::COMPUTE;
-        device.cmd_bind_pipeline(commands, compute, made.pipeline);
-        device.cmd_bind_descriptor_sets(commands, compute, made.layout, 0, &[pass.set], &[]);
-        match pass.groups {
-            WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
-            WorkgroupCount::Indirect(buffer, offset) => device.cmd_dispatch_indirect(commands, buffer, offset),
+    fn dispatch(&mut self, commands: vk::CommandBuffer, made: &PreparedDispatch, pass: &DispatchCommands) {
+        let gpu = self.frame.gpu;
+        self.state.begin_pass();
+        tell_parts(gpu, commands, made.layout, &pass.parts);
+        let device = &gpu.raw;
+        // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
+        // and the buffer behind them were checked.
+        unsafe {
+            let compute = vk::PipelineBindPoint::COMPUTE;
+            if self.state.needs_compute(made.pipeline) {
+                device.cmd_bind_pipeline(commands, compute, made.pipeline);
+            }
+            if let Some(set) = pass.set {
+                device.cmd_bind_descriptor_sets(commands, compute, made.layout, 0, &[set], &[]);
+            }
+            match pass.groups {
+                WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
+                WorkgroupCount::Indirect(buffer, offset) => device.cmd_dispatch_indirect(commands, buffer, offset),
+            }
         }
     }
 }

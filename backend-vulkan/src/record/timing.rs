@@ -1,18 +1,18 @@
 //! Timestamps, and the report of a frame.
 
+use super::step::Recorded;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, passes, view_mask};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue, Work};
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Times of a frame and its steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameReport {
     /// Time on the device from the first step's barriers to the end of the last step, in milliseconds; with several queues,
-    /// on the one that took longest.
+    /// on the one that took longest. This and all times on the device are 0 without [`crate::ExecutorOptions::timestamps`].
     pub milliseconds: f64,
     /// Time that this thread took to record its commands, what the draw source did for it included, in milliseconds.
     pub recording_milliseconds: f64,
@@ -140,53 +140,9 @@ impl Timing {
         }
     }
 
-    /// The report of the frame that was waited for, with the `counts` of its passes and the time that `recording` took.
-    pub(crate) fn report(
-        &self,
-        plan: &Plan,
-        batches: &[Batch],
-        counts: &[Counts],
-        recording: Duration,
-    ) -> Result<FrameReport, Error> {
-        let values = self.values()?;
-        let mut counts = counts.iter().copied();
-        let mut stamps = values.chunks(self.queries.views as usize).map(time);
-        let mut next = move || stamps.next().flatten();
-        let mut queues: Vec<(Queue, Option<u64>, Option<u64>)> = Vec::new();
-        let mut steps = Vec::new();
-        for batch in batches {
-            let clock = self.clock(batch.queue);
-            let mut step_began = next();
-            if queues.iter().all(|(queue, ..)| *queue != batch.queue) {
-                queues.push((batch.queue, step_began, step_began));
-            }
-            for step in &plan.steps[batch.steps.clone()] {
-                let mut began = step_began;
-                let mut reports = Vec::new();
-                for pass in passes(&step.work) {
-                    let ended = next();
-                    let milliseconds = clock.between(began, ended);
-                    let Counts { draws, culled } = counts.next().unwrap_or_default();
-                    reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
-                    began = ended;
-                }
-                let ended = next();
-                steps.push(StepReport { milliseconds: clock.between(step_began, ended), passes: reports });
-                step_began = ended;
-            }
-            if let Some((_, _, end)) = queues.iter_mut().find(|(queue, ..)| *queue == batch.queue) {
-                *end = step_began;
-            }
-        }
-        let spent = queues.into_iter().map(|(queue, from, to)| self.clock(queue).between(from, to));
-        let recording_milliseconds = recording.as_secs_f64() * 1e3;
-        Ok(FrameReport { milliseconds: spent.fold(0.0, f64::max), recording_milliseconds, steps })
-    }
-
-    fn clock(&self, queue: Queue) -> Clock {
-        let bits = self.gpu.queues.families.family(queue).timestamp_bits;
-        let mask = u64::MAX.unbounded_shr(64_u32.saturating_sub(bits));
-        Clock { mask, period: f64::from(self.gpu.limits.timestamp_period) }
+    /// The timestamps in their order, as far as they were written.
+    fn read(&self) -> Result<Vec<Option<u64>>, Error> {
+        Ok(self.values()?.chunks(self.queries.views as usize).map(time).collect())
     }
 
     /// The value of each timestamp query, and whether it was written.
@@ -203,6 +159,48 @@ impl Timing {
     }
 }
 
+/// The report of a frame that was `recorded` and waited for, with its times if there is `timing`.
+pub(crate) fn report(
+    gpu: &Gpu,
+    plan: &Plan,
+    batches: &[Batch],
+    timing: Option<&Timing>,
+    recorded: &Recorded,
+) -> Result<FrameReport, Error> {
+    let mut counts = recorded.counts.iter().copied();
+    let mut stamps = timing.map(Timing::read).transpose()?.unwrap_or_default().into_iter();
+    let mut next = move || stamps.next().flatten();
+    let mut queues: Vec<(Queue, Option<u64>, Option<u64>)> = Vec::new();
+    let mut steps = Vec::new();
+    for batch in batches {
+        let clock = Clock::of(gpu, batch.queue);
+        let mut step_began = next();
+        if queues.iter().all(|(queue, ..)| *queue != batch.queue) {
+            queues.push((batch.queue, step_began, step_began));
+        }
+        for step in &plan.steps[batch.steps.clone()] {
+            let mut began = step_began;
+            let mut reports = Vec::new();
+            for pass in passes(&step.work) {
+                let ended = next();
+                let milliseconds = clock.between(began, ended);
+                let Counts { draws, culled } = counts.next().unwrap_or_default();
+                reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
+                began = ended;
+            }
+            let ended = next();
+            steps.push(StepReport { milliseconds: clock.between(step_began, ended), passes: reports });
+            step_began = ended;
+        }
+        if let Some((_, _, end)) = queues.iter_mut().find(|(queue, ..)| *queue == batch.queue) {
+            *end = step_began;
+        }
+    }
+    let spent = queues.into_iter().map(|(queue, from, to)| Clock::of(gpu, queue).between(from, to));
+    let recording_milliseconds = recorded.took.as_secs_f64() * 1e3;
+    Ok(FrameReport { milliseconds: spent.fold(0.0, f64::max), recording_milliseconds, steps })
+}
+
 /// The time that a timestamp's queries hold. Vulkan writes it to one of them and may write 0 to the others.
 fn time(queries: &[[u64; 2]]) -> Option<u64> {
     queries.iter().filter(|[_, written]| *written != 0).map(|[value, _]| *value).max()
@@ -217,6 +215,12 @@ struct Clock {
 }
 
 impl Clock {
+    fn of(gpu: &Gpu, queue: Queue) -> Clock {
+        let bits = gpu.queues.families.family(queue).timestamp_bits;
+        let mask = u64::MAX.unbounded_shr(64_u32.saturating_sub(bits));
+        Clock { mask, period: f64::from(gpu.limits.timestamp_period) }
+    }
+
     /// Milliseconds from one timestamp to another; 0 if either is missing.
     fn between(&self, from: Option<u64>, to: Option<u64>) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "durations are far below 2^53 ticks")]

@@ -1,7 +1,7 @@
-//! Recording allocates nothing: what a frame needs is prepared before.
+//! Drawing a frame allocates nothing: what it needs is prepared before, and a report is made only for those who ask for it.
 //!
-//! Counted are allocations of Rust's allocator on the thread that submits the frame. The drivers and the validation layer have
-//! allocators of their own, which nobody counts.
+//! Counted are allocations of Rust's allocator on the thread that submits the frame and waits for it. The drivers and the
+//! validation layer have allocators of their own, which nobody counts.
 
 use crate::frames::{Small, Uses, copy, dispatch, draw, on_each_driver, planned, transfer};
 use crate::testing::{OVER_ALL, WHITE};
@@ -122,29 +122,32 @@ impl DrawSource for Source {
     }
 }
 
-/// How often submitting each of some frames allocated.
+/// How often drawing each of some frames allocated.
 fn allocations(device: &Device, plan: &plan::Plan, options: &ExecutorOptions) -> Vec<u64> {
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
     let mut executor = Executor::new(device, plan, &mut shaders, options).expect("an executor");
     let mut source = Source::new(device);
-    let mut submit = |_| {
+    let mut draw = |_| {
         let counted = allocation_counter::measure(|| {
-            executor.submit(&mut source).expect("a frame");
+            executor.frame(&mut source).expect("a frame");
         });
         counted.count_total
     };
-    (0..FRAMES).map(&mut submit).collect()
+    (0..FRAMES).map(&mut draw).collect()
 }
 
 #[test]
-fn from_the_third_frame_on_recording_and_submitting_allocate_nothing() {
+fn from_the_third_frame_on_drawing_allocates_nothing() {
     on_each_driver(|device| {
-        for (poison, frames_in_flight, readback) in [(false, 1, false), (true, 1, false), (false, 2, true)] {
+        for (poison, frames_in_flight, readback, timestamps) in
+            [(false, 1, false, false), (true, 1, false, true), (false, 2, true, false)]
+        {
             let plan = planned(device, &every_kind_of_step(), &Options { poison, ..Options::default() });
             for is_of_kind in KINDS {
                 assert!(plan.steps.iter().any(|step| is_of_kind(&step.work)), "{}", plan.tree());
             }
-            let options = ExecutorOptions { poison, frames_in_flight, readback, ..ExecutorOptions::default() };
+            let options =
+                ExecutorOptions { poison, frames_in_flight, readback, timestamps, ..ExecutorOptions::default() };
             let counted = allocations(device, &plan, &options);
             assert_eq!(counted[2..], [0; FRAMES as usize - 2], "{options:?}: {counted:?}");
             assert!(counted[0] > 0, "the first frame sets initial contents: nothing is counted");

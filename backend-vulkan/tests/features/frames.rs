@@ -301,7 +301,7 @@ pub(crate) fn library(shaders: Shaders) -> ShaderLibrary {
 pub(crate) fn in_each_way(device: &Device, frame: &Frame, shaders: Shaders, test: impl Fn(&mut Executor)) {
     for (alias, poison) in [(false, false), (true, false), (true, true)] {
         let plan = planned(device, frame, &Options { alias, poison, ..Options::default() });
-        let options = ExecutorOptions { poison, ..ExecutorOptions::default() };
+        let options = ExecutorOptions { poison, timestamps: poison, ..ExecutorOptions::default() };
         test(&mut Executor::new(device, &plan, &mut library(shaders), &options).expect("an executor"));
     }
 }

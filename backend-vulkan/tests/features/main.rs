@@ -16,6 +16,7 @@ mod imports;
 mod local_reads;
 mod outlasting;
 mod queues;
+mod state;
 mod subresources;
 mod textures;
 mod transfers;

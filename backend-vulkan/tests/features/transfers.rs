@@ -157,7 +157,8 @@ fn a_custom_pass_copies_what_the_program_says() {
             assert_eq!(recorder.targets().collect::<Vec<_>>(), ["b"]);
             recorder.copy("squares", "b");
         });
-        let report = executor.frame(&mut source).expect("a frame");
+        let frame = executor.frame(&mut source).expect("a frame");
+        let report = executor.report(frame).expect("its report");
         let draws: Vec<u32> = report.steps.iter().flat_map(|step| &step.passes).map(|pass| pass.draws).collect();
         assert_eq!(draws, [1, 1]);
         assert_eq!(words(executor, "b"), [0, 1, 4, 9]);

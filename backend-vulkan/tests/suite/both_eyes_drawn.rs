@@ -57,7 +57,8 @@ fn plan(device: &Device, (stereo, form): (Stereo, EyeForm)) -> Plan {
 
 fn executor(device: &Device, plan: &Plan) -> Result<Executor, Error> {
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
-    Executor::new(device, plan, &mut shaders, &ExecutorOptions::default())
+    let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
+    Executor::new(device, plan, &mut shaders, &options)
 }
 
 struct With<F>(F);
@@ -227,8 +228,9 @@ fn times_stay_right_where_a_scope_draws_several_views() {
     let mut executor = executor(device, &plan(device, mode)).expect("the device executes the Plan");
     for _ in 0..3 {
         let begun = Instant::now();
-        let report = executor.frame(&mut With(|_: &mut Recorder<'_>| ())).expect("it is drawn");
+        let frame = executor.frame(&mut With(|_: &mut Recorder<'_>| ())).expect("it is drawn");
         let elapsed = begun.elapsed().as_secs_f64() * 1e3;
+        let report = executor.report(frame).expect("its report");
         assert!(report.milliseconds > 0.0 && report.milliseconds < elapsed, "{report:?} in {elapsed} ms");
         let steps: f64 = report.steps.iter().map(|step| step.milliseconds).sum();
         assert!((steps - report.milliseconds).abs() < 1e-3, "{report:?}");

@@ -225,9 +225,11 @@ fn an_estimated_plan_runs_if_there_is_room_enough() {
 fn a_report_names_every_pass_with_its_draws_and_time() {
     let Some(device) = testing::device() else { return };
     let plan = plan(device);
-    let mut executor = Executor::new(device, &plan, &mut library(), &ExecutorOptions::default()).expect("an executor");
+    let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(), &options).expect("an executor");
     assert!(executor.read(0).is_err(), "nothing to read before the first frame");
-    let report = executor.frame(&mut Nothing).expect("a frame");
+    let frame = executor.frame(&mut Nothing).expect("a frame");
+    let report = executor.report(frame).expect("its report");
     let names: Vec<_> =
         report.steps.iter().flat_map(|step| &step.passes).map(|it| (it.name.as_str(), it.draws)).collect();
     assert_eq!(names, [("draw", 1), ("show", 1)]);
@@ -235,6 +237,7 @@ fn a_report_names_every_pass_with_its_draws_and_time() {
     assert!(report.milliseconds > 0.0 && (sum - report.milliseconds).abs() < 1e-6);
     assert!(report.steps.iter().all(|step| step.passes.iter().all(|pass| pass.milliseconds <= step.milliseconds)));
     assert!(executor.read(1).is_err(), "there is one output");
+    assert!(executor.report(frame + 1).is_err(), "it was not submitted");
 }
 
 #[test]

@@ -184,7 +184,7 @@ fn barrier(image: ImageId, from: State, to: State, hazard: Hazard) -> ImageBarri
 
 fn attachment(image: ImageId, load: LoadOp, store: StoreOp) -> Attachment {
     let layout = Layout::ColorAttachmentOptimal;
-    let because = "the test says so".to_owned();
+    let because = "the test says so".into();
     Attachment { image, range: range(), layout, load, store, clear: None, resolve: None, because }
 }
 

@@ -5,10 +5,14 @@
 //! compared, which is said. That fails only where `CI` is set. The figures are written only if they are accepted.
 
 use std::error::Error;
+use std::hint::black_box;
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 /// The share by which a figure may differ from the committed one.
 const TOLERANCE: f64 = 0.03;
+/// The argument before the name of the only row to run, within valgrind.
+const ONLY: &str = "--only";
 
 /// A file of committed figures.
 pub(crate) struct Guard {
@@ -19,6 +23,22 @@ pub(crate) struct Guard {
 }
 
 impl Guard {
+    /// Counts what each row runs within [`counted`], and judges all. Within valgrind it runs the one row that the arguments name.
+    pub(crate) fn run_rows(&self, rows: &[(&str, fn())], code: Code) -> Result<ExitCode, Box<dyn Error>> {
+        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        if let [mark, name] = &arguments[..]
+            && mark == ONLY
+        {
+            let (_, run) = rows.iter().find(|(row, _)| row == name).ok_or("no row has this name")?;
+            run();
+            return Ok(ExitCode::SUCCESS);
+        }
+        let program = std::env::current_exe()?;
+        self.run(rows.iter().map(|(name, _)| *name), |name| {
+            instructions(Command::new(&program).args([ONLY, name]), code)
+        })
+    }
+
     /// Counts each row, prints it beside the committed count, and judges all.
     pub(crate) fn run<'r>(
         &self,
@@ -77,21 +97,73 @@ impl Guard {
     }
 }
 
-/// The instructions that callgrind counts in all of a program, or in one function of it, and in no process that it starts.
-pub(crate) fn instructions(program: &mut Command, function: Option<&str>) -> Result<u64, Box<dyn Error>> {
+/// The code whose instructions count.
+#[derive(Clone, Copy)]
+pub(crate) enum Code {
+    /// All of a program, and no process that it starts.
+    Program,
+    /// What happens within [`counted`], libraries included.
+    Counted,
+    /// The same without the shared libraries that the program calls.
+    CountedOwn,
+}
+
+/// Callgrind counts what happens within this function, which it knows by name.
+#[inline(never)]
+pub(crate) fn counted<T>(run: impl FnOnce() -> T) -> T {
+    black_box(run())
+}
+
+/// The instructions of `program` that callgrind counts.
+pub(crate) fn instructions(program: &Command, code: Code) -> Result<u64, Box<dyn Error>> {
+    let profile = std::env::temp_dir().join(format!("framewright-instructions-{}", std::process::id()));
     let mut valgrind = Command::new("valgrind");
-    valgrind.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
-    if let Some(function) = function {
-        valgrind.arg("--collect-atstart=no").arg(format!("--toggle-collect={function}"));
+    valgrind.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
+    if let Code::Counted | Code::CountedOwn = code {
+        valgrind.args(["--collect-atstart=no", "--toggle-collect=instructions::counts::counted*"]);
     }
-    valgrind.arg(program.get_program()).args(program.get_args());
-    let run = valgrind.output().map_err(|error| format!("valgrind: {error}"))?;
+    let run = valgrind.arg(program.get_program()).args(program.get_args()).output();
+    let run = run.map_err(|error| format!("valgrind: {error}"))?;
+    let written = std::fs::read_to_string(&profile);
+    let _ = std::fs::remove_file(&profile);
     let said = String::from_utf8_lossy(&run.stderr);
-    let collected = said.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
-    match collected {
+    let count = match code {
+        Code::CountedOwn => written.ok().map(|written| in_program(&written, Path::new(program.get_program()))),
+        Code::Program | Code::Counted => {
+            said.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok())
+        }
+    };
+    match count {
         Some(count) if run.status.success() && count > 0 => Ok(count),
         _ => Err(format!("valgrind counted nothing of {program:?}:\n{said}").into()),
     }
+}
+
+/// The instructions of a profile that belong to `program` itself, and not to libraries.
+///
+/// A line `ob=(1) path`, later `ob=(1)`, says to which file belongs what follows. Lines of positions and counts begin with a
+/// digit or a sign. The one behind a line `calls=` counts what was called, which has lines of its own.
+fn in_program(profile: &str, program: &Path) -> u64 {
+    let (mut own, mut is_own, mut called) = (None, false, false);
+    let mut sum = 0;
+    for line in profile.lines() {
+        if let Some(object) = line.strip_prefix("ob=").or_else(|| line.strip_prefix("cob=")) {
+            let (number, path) = object.split_once(' ').unwrap_or((object, ""));
+            if Path::new(path) == program {
+                own = Some(number.to_owned());
+            }
+            if line.starts_with("ob=") {
+                is_own = own.as_deref() == Some(number);
+            }
+        } else if line.starts_with("calls=") {
+            called = true;
+        } else if line.starts_with(|first: char| first.is_ascii_digit() || "+-*".contains(first)) {
+            let count = line.rsplit(' ').next().and_then(|count| count.parse::<u64>().ok());
+            sum += count.filter(|_| is_own && !called).unwrap_or(0);
+            called = false;
+        }
+    }
+    sum
 }
 
 /// Everything outside this repository that decides how many instructions there are.

@@ -247,7 +247,9 @@ impl Judge {
         let broken = |error: Error| Fault::NotExecuted(error.to_string());
         // Many frames leave their traces in the last; some are looked at one by one.
         let flight = 1 + (pipeline.passes.len() % 3) as u32;
-        let options = ExecutorOptions { poison: true, frames_in_flight: flight, ..ExecutorOptions::default() };
+        let timestamps = flight > 1;
+        let options =
+            ExecutorOptions { poison: true, frames_in_flight: flight, timestamps, ..ExecutorOptions::default() };
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
         for (number, state) in (0..).zip(expected) {
             hand_in(pipeline, plan, &mut executor, number).map_err(broken)?;

@@ -1,6 +1,7 @@
 //! Where a pass draws: viewport and scissor of an eye's picture, and what it takes to draw for both eyes at once.
 
 use super::Recorder;
+use crate::prepare::{scissor, viewport};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
 use std::ops::Range;
@@ -45,15 +46,15 @@ impl Recorder<'_> {
         }
     }
 
-    /// A rectangle that isn't all of one eye's picture, where both lie side by side.
-    fn other_than_all(&self, rectangle: [f64; 4]) -> Option<[f64; 4]> {
-        (self.halves() && rectangle != self.own()).then_some(rectangle)
+    /// Sets viewport and scissor to all of the picture.
+    pub(crate) fn see_all(&mut self) {
+        self.record_viewport(self.target.viewport);
+        self.record_scissor(self.target.scissor);
     }
 
-    /// All of one eye's picture.
-    fn own(&self) -> [f64; 4] {
-        let [width, height] = self.extent().map(f64::from);
-        [0.0, 0.0, width, height]
+    /// A rectangle that isn't all of one eye's picture, where both lie side by side.
+    fn other_than_all(&self, rectangle: [f64; 4]) -> Option<[f64; 4]> {
+        (self.target.halves() && rectangle != self.target.own()).then_some(rectangle)
     }
 
     /// Whether viewport or scissor can be as they are.
@@ -65,32 +66,22 @@ impl Recorder<'_> {
         rectangle.is_none() || !instances
     }
 
-    /// Whether it draws into both eyes' halves.
-    fn halves(&self) -> bool {
-        matches!(self.target.eyes, Some((_, EyeForm::Halves)))
-    }
-
-    /// Width and height of what an upright picture's rectangles lie in.
-    fn all(&self) -> [f64; 2] {
-        let [width, height] = self.extent().map(f64::from);
-        [if self.halves() { 2.0 * width } else { width }, height]
-    }
-
-    /// Where a rectangle of an eye's upright picture lies in the turned one.
-    fn turned(&self, [x, y, width, height]: [f64; 4], eye: u32) -> [f64; 4] {
-        let half = f64::from(self.extent()[0]);
-        let rectangle = match self.target.eyes {
-            // Vertices are put in one half of clip space.
-            Some((Stereo::Instanced, EyeForm::Halves)) => [x, y, 2.0 * width, height],
-            _ => [x + f64::from(eye) * half, y, width, height],
-        };
-        self.target.rotation.rectangle(self.all(), rectangle)
-    }
-
     /// Sets the viewport so that a rectangle of an eye's picture is seen.
     fn see(&mut self, rectangle: [f64; 4], eye: u32) {
-        #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
-        let [x, y, width, height] = self.turned(rectangle, eye).map(|side| side as f32);
+        self.record_viewport(viewport(self.target.turned(rectangle, eye)));
+    }
+
+    /// Sets the scissor to a rectangle of an eye's picture; where instances draw into both eyes' halves it is all of both.
+    fn cut(&mut self, rectangle: [f64; 4], eye: u32) {
+        self.record_scissor(scissor(self.target.turned(rectangle, eye)));
+    }
+
+    /// Sets the viewport to a rectangle of the turned picture, unless it is that.
+    fn record_viewport(&mut self, rectangle: [f32; 4]) {
+        if !self.state.needs_viewport(rectangle) {
+            return;
+        }
+        let [x, y, width, height] = rectangle;
         let [least, most] = self.gpu.limits.viewport_bounds_range;
         let [widest, highest] = self.gpu.limits.max_viewport_dimensions.map(f64::from);
         let inside = x >= least && y >= least && x + width <= most && y + height <= most;
@@ -102,10 +93,12 @@ impl Recorder<'_> {
         unsafe { self.gpu.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };
     }
 
-    /// Sets the scissor to a rectangle of an eye's picture; where instances draw into both eyes' halves it is all of both.
-    fn cut(&mut self, rectangle: [f64; 4], eye: u32) {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers within the picture")]
-        let [x, y, width, height] = self.turned(rectangle, eye).map(|side| side as u32);
+    /// Sets the scissor to a rectangle of the turned picture, unless it is that.
+    fn record_scissor(&mut self, rectangle: [u32; 4]) {
+        if !self.state.needs_scissor(rectangle) {
+            return;
+        }
+        let [x, y, width, height] = rectangle;
         let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
         let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
         // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and it lies within the target.
@@ -129,9 +122,9 @@ impl Recorder<'_> {
                     return self.misused(|| format!("instances {instances:?} for both eyes"));
                 }
                 for eye in [0, 1] {
-                    self.see(self.viewport.unwrap_or_else(|| self.own()), eye);
+                    self.see(self.viewport.unwrap_or_else(|| self.target.own()), eye);
                     // A draw that reaches over the seam would fill the other eye's half.
-                    self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
+                    self.cut(self.scissor.unwrap_or_else(|| self.target.own()), eye);
                     draw(&self.gpu.raw, self.commands, instances.start | (eye * RIGHT_EYE), count);
                 }
             }

@@ -141,7 +141,9 @@ fn the_program_s_upscaler_is_told_what_is_rendered_where_that_changes_from_frame
         }
         for (number, scale) in SCALES.into_iter().enumerate() {
             let mut alone = Program::new(device, &scene, &fixed[scale], &mut shaders);
-            (0..=number).for_each(|_| drop(alone.executor.frame(&mut alone.upscaler).expect("a frame")));
+            for _ in 0..=number {
+                alone.executor.frame(&mut alone.upscaler).expect("a frame");
+            }
             assert!(shown[number] == alone.executor.read(3).expect("its texels").bytes, "frame {number}, {scale}");
             assert_eq!(told[number], alone.upscaler.told.last().copied());
         }

@@ -178,7 +178,7 @@ fn draw(
 ) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
     let size = [arguments.size.width, arguments.size.height];
     let mut source = SceneDrawSource::for_plan(device, scene, size, &planned.plan)?;
-    let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
+    let options = ExecutorOptions { poison: arguments.planning.poison, timestamps: true, ..ExecutorOptions::default() };
     let Loaded { shaders, textures, .. } = pipeline;
     let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)
         .map_err(|problem| diagnostics::texture(&planned.frame, problem))?;
@@ -188,7 +188,7 @@ fn draw(
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        let frame = executor.frame(&mut source).map_err(Error::from);
+        let frame = executor.frame(&mut source).and_then(|frame| executor.report(frame)).map_err(Error::from);
         frames.push(frame.map_err(interrupted(drawn, arguments.frames))?);
         progress.inc(1);
     }

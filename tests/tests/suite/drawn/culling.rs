@@ -26,7 +26,8 @@ fn drawn(pipeline: &str, scene: &Scene, culling: bool) -> Result<Option<Drawn>, 
     let mut source = SceneDrawSource::for_plan(device, scene, EXTENT, &plan)?;
     source.set_culling(culling);
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
-    let report = executor.frame(&mut source)?;
+    let frame = executor.frame(&mut source)?;
+    let report = executor.report(frame)?;
     let outputs =
         (0..plan.outputs.len()).map(|at| Ok(executor.read(at)?.bytes)).collect::<Result<_, Box<dyn Error>>>()?;
     silent(device)?;

@@ -155,7 +155,8 @@ fn what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode() -> Res
             let plan = plan_for(device, &setup, upright(stereo), &mut shaders, &Options::default())?;
             let mut painter = Painter(SceneDrawSource::for_plan(device, &scene, extent, &plan)?);
             let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
-            let report = executor.frame(&mut painter)?;
+            let frame = executor.frame(&mut painter)?;
+            let report = executor.report(frame)?;
             let frames = vec![read(&plan, &mut executor)?];
             silent(device)?;
             Ok::<_, Box<dyn Error>>(Drawn { plan, report, frames })

@@ -103,11 +103,13 @@ fn drawn(device: &Device, case: &Case<'_>, ways: Ways, eyes: &Eyes) -> Result<Dr
     let Case { pipeline, set, scene, extent, frames } = *case;
     let plan = plan_for(device, &Setup { pipeline, set, scene, extent }, ways, &mut shaders, &Options::default())?;
     let mut draws = SceneDrawSource::for_eyes(device, scene, extent, &plan, eyes)?;
-    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut shaders, &options)?;
     let mut shown = Vec::new();
     let mut report = None;
     for _ in 0..frames {
-        report = Some(executor.frame(&mut draws)?);
+        let frame = executor.frame(&mut draws)?;
+        report = Some(executor.report(frame)?);
         shown.push(read(&plan, &mut executor)?);
     }
     silent(device)?;

@@ -106,7 +106,8 @@ fn shared_culling_shows_the_same() -> Result<(), Box<dyn Error>> {
         let mut draws = SceneDrawSource::for_eyes(device, &scene, EXTENT, &plan, &eyes)?;
         draws.set_shared_culling(shared);
         let mut executor = Executor::new(device, &plan, &mut library(), &ExecutorOptions::default())?;
-        let report = executor.frame(&mut draws)?;
+        let frame = executor.frame(&mut draws)?;
+        let report = executor.report(frame)?;
         let frames = vec![read(&plan, &mut executor)?];
         silent(device)?;
         Ok::<_, Box<dyn Error>>(Drawn { plan: plan.clone(), report, frames })
