@@ -2,8 +2,8 @@
 //! takes, beside the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It
 //! needs valgrind. The profile `dev` counts what tests build anyway.
 //!
-//! The counted program is the command on one thread, without the command for one variant: so neither its
-//! beginning nor its shaders are part of it. The helper process that compiles shaders isn't counted; a first run fills the
+//! The count is that of checking all variants on one thread, less that of checking one: so neither the beginning of the
+//! command nor its shaders are part of it. The helper process that compiles shaders isn't counted; a first run fills the
 //! cache of shaders. `instructions.txt` holds the committed figures.
 
 #[allow(dead_code, reason = "each bench uses a part of it")]

@@ -2,11 +2,10 @@
 //! written by hand in raw Vulkan, with the goals of the project in brackets.
 //!
 //! Both record the same Plan in turns. Before, the pictures of both are compared. The least time of each counts, since other work
-//! on the machine only adds; medians stand beside it. Half of a frame's time is the driver's own allocation, which takes longer or
-//! shorter by where its memory lies: with the same frame by hand on both sides ratios up to 1.4 were seen. So both sides are made
-//! anew several times. `-- chain` measures only what has this in its name; `-- --short` draws each
-//! frame twice, to see that it runs. The frames by hand are here and not in the crate `framewright-tests`, since only this package
-//! may be unsafe.
+//! on the machine only adds; medians stand beside it. With the same frame by hand on both sides, ratios up to 1.4 were seen,
+//! depending on which side was made first. So both sides are made anew several times, and take turns in being first.
+//! `-- chain` measures only what has this in its name; `-- --short` draws each frame twice, to see that it runs. The frames by
+//! hand are here and not in the crate `framewright-tests`, since only this package may be unsafe.
 
 mod by_hand;
 mod ours;
@@ -64,7 +63,7 @@ fn measure(device: &Device, name: &str, frames: u32, workload: &Workload, goal: 
     let plan = workload.plan(device);
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..ROUNDS {
-        // Where the driver's own memory comes to lie makes a difference: each side is made first in every other round.
+        // Which side is made first makes a difference.
         let ours_first = round % 2 == 0;
         let made = ours_first.then(|| Ours::new(device, workload, &plan));
         let mut by_hand = ByHand::new(device, workload, &plan);
@@ -80,11 +79,13 @@ fn measure(device: &Device, name: &str, frames: u32, workload: &Workload, goal: 
             pictures.0.chunks_exact(4).any(|texel| texel != &pictures.0[..4]),
             "{name}: the picture has one colour"
         );
-        for _ in 0..frames.div_ceil(ROUNDS) {
-            settle();
-            times[0].push(frame_of_ours(&mut ours));
-            settle();
-            times[1].push(frame_by_hand(&mut by_hand));
+        for frame in 0..frames.div_ceil(ROUNDS) as usize {
+            // Being first might make a difference, so the sides take turns.
+            for side in [frame % 2, 1 - frame % 2] {
+                settle();
+                let drawn = if side == 0 { frame_of_ours(&mut ours) } else { frame_by_hand(&mut by_hand) };
+                times[side].push(drawn);
+            }
         }
     }
     let parts: [Part; 4] = [

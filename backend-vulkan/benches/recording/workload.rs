@@ -65,7 +65,7 @@ impl Workload {
     }
 }
 
-/// What the draw source brings along.
+/// The interface of the draw source.
 pub(crate) fn interface(draw: Draw) -> DrawInterface {
     if draw != Draw::Objects(DrawList::Opaque) {
         return DrawInterface::default();

@@ -169,10 +169,11 @@ impl Executor {
         if self.frames.holds(frame) {
             return Ok(());
         }
-        Err(Error::BadResource { what: format!("frame {frame} was not submitted, or its report is gone") })
+        Err(Error::BadResource { what: format!("frame {frame} was not submitted, or a later one has taken its place") })
     }
 
-    /// What a frame did, and if [`ExecutorOptions::timestamps`] is set how long the device took for it. It is waited for.
+    /// The report of a frame, which is waited for: its draws, and how long the device took if [`ExecutorOptions::timestamps`]
+    /// is set.
     ///
     /// # Errors
     /// Those of [`Executor::wait`].

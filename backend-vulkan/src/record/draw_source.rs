@@ -12,7 +12,7 @@ pub trait DrawSource {
     /// It is called once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`], where
     /// [`Recorder::shader`] says what), and for full-screen draws whose shader reads what the draw source brings along; in
     /// the frame's order, never for others. Pipeline, viewport and the pass's
-    /// own set are bound already; face culling is off and the front face is counter-clockwise. With several frames in
+    /// own set, if it has bindings, are bound already; face culling is off and the front face is counter-clockwise. With several frames in
     /// flight the frame before may still be drawn from what it was drawn from.
     ///
     /// # Errors

@@ -60,8 +60,8 @@ pub struct Recorder<'f> {
     /// The rectangles of viewport and scissor, where they aren't all of the picture and each eye's half has its own.
     viewport: Option<[f64; 4]>,
     scissor: Option<[f64; 4]>,
-    /// Whether everything that draws need was found bound.
-    ready: bool,
+    /// Whether the pass was looked through for bindings that its draws lack.
+    looked: bool,
     misuse: Option<String>,
 }
 
@@ -110,7 +110,7 @@ impl<'f> Recorder<'f> {
             culled: 0,
             viewport: None,
             scissor: None,
-            ready: false,
+            looked: false,
             misuse,
         }
     }
@@ -337,9 +337,9 @@ impl<'f> Recorder<'f> {
 
     /// Whether everything that the pipeline reads is bound. What is bound once is bound for the rest of the pass.
     fn may_draw(&mut self) -> bool {
-        if !self.ready {
+        if !self.looked {
             self.look_for_missing();
-            self.ready = true;
+            self.looked = true;
         }
         self.misuse.is_none()
     }

@@ -23,7 +23,7 @@ impl CommandState {
         *self = CommandState::default();
     }
 
-    /// Forgets what commands of the program's own may have changed. From the beginning of a pass on it records none.
+    /// Forgets what the program's own commands may have changed. It recorded them before this pass.
     pub(super) fn begin_pass(&mut self) {
         if self.unknown {
             *self = CommandState::default();
@@ -35,8 +35,7 @@ impl CommandState {
         self.unknown = true;
     }
 
-    /// Whether the graphics pipeline must be bound. So say the other methods, too, of what they are named for, and take it for
-    /// done.
+    /// Whether the graphics pipeline must be bound. It counts as bound from now on. The methods below answer in the same way.
     pub(super) fn needs_graphics(&mut self, pipeline: vk::Pipeline) -> bool {
         self.graphics.replace(pipeline) != Some(pipeline) || self.unknown
     }

@@ -102,7 +102,7 @@ fn merge(scope: &mut RenderScope, mut second: RenderScope, a: ImageId) {
     }
     scope.passes[0].accesses[0].layout = LOCAL;
     reader.local_barrier = true;
-    reader.merged = Some("it reads its own position".into());
+    reader.merged = Some(Box::new("it reads its own position".into()));
     scope.passes.push(reader);
     for pass in &mut scope.passes {
         pass.blend = vec![Blend::Replace; 2];

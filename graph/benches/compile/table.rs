@@ -93,7 +93,7 @@ fn print(row: &Row) {
         "{:<14}{:>15}{:>19}{:>15}{:>11}{:>12}{:>15}",
         format!("{} {}", row.name, row.passes),
         beside(format!("{:.3}", row.compile), goals.compile.map(|goal| format!("{goal:.2}"))),
-        beside(format!("{:.2}", row.verify / row.compile), Some("3".to_owned())),
+        beside(format!("{:.2}", row.verify / row.compile), Some("1".to_owned())),
         beside(totals.image_barriers.to_string(), goals.barriers.map(|goal| goal.to_string())),
         beside(totals.barrier_calls.to_string(), goals.calls.map(|goal| goal.to_string())),
         format!("{:.1}", totals.placed_bytes as f64 / f64::from(1 << 20)),

@@ -102,7 +102,7 @@ impl Guard {
 pub(crate) enum Code {
     /// All of a program, and no process that it starts.
     Program,
-    /// What happens within [`counted`], libraries included.
+    /// The code that runs within [`counted`], libraries included.
     Counted,
     /// The same without the shared libraries that the program calls.
     CountedOwn,

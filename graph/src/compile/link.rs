@@ -4,7 +4,7 @@
 
 use super::parts::Grids;
 use crate::base::Diagnostic;
-use crate::frame::{Access, BufferIndex, Effect, Frame, ImageIndex, Pass, Resource, VisitAccess};
+use crate::frame::{Access, BufferIndex, Effect, Frame, ImageIndex, Pass, Resource, SAMPLING, VisitAccess};
 
 /// The access of one pass to one part of an image, or to a buffer.
 #[derive(Debug, Clone, Copy)]
@@ -116,7 +116,8 @@ impl VisitAccess for PassLinker<'_, '_> {
         let first = linker.first_part[number];
         if let (Access::Sampled(_), None) = (access, grid) {
             // The image itself isn't looked at: a large frame has more of them than a cache holds.
-            return linker.access(pass, &access, first, true, false);
+            let (reads, writes) = SAMPLING;
+            return linker.access(pass, &access, first, reads, writes);
         }
         access.for_each_effect(pass, image, |Effect { range, reads, writes }| match (image, grid) {
             (Some(image), Some(grid)) => {

@@ -37,6 +37,9 @@ pub(crate) struct Effect {
     pub(crate) writes: bool,
 }
 
+/// Whether sampling reads, and whether it writes.
+pub(crate) const SAMPLING: (bool, bool) = (true, false);
+
 impl Pass {
     /// All accesses of the pass: sampled images, storage images, attachments, buffers, transfers, then forwarded images.
     #[inline]
@@ -172,7 +175,8 @@ impl Access<'_> {
     pub(crate) fn for_each_effect(&self, pass: &Pass, image: Option<&Image>, mut visit: impl FnMut(Effect)) {
         let (reads, writes) = match (*self, image) {
             (Access::Sampled(it), Some(image)) => {
-                return visit(Effect { range: image.sampled_part(it.range), reads: true, writes: false });
+                let (reads, writes) = SAMPLING;
+                return visit(Effect { range: image.sampled_part(it.range), reads, writes });
             }
             (Access::Color(target), Some(image)) => (pass.keeps_color(target, image), true),
             (Access::Depth(target), Some(image)) => {
@@ -208,5 +212,55 @@ impl BufferRole {
     /// Whether the buffer is written.
     pub(crate) const fn writes(self) -> bool {
         matches!(self, BufferRole::Storage { write: true, .. })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Blend, BufferIndex};
+    use crate::vulkan::{CompareOp, Filter, Sampler, Stages};
+
+    /// Puts down what it is shown.
+    struct Shown(Vec<String>);
+
+    impl VisitAccess for Shown {
+        fn visit(&mut self, access: Access<'_>) {
+            self.0.push(format!("{access:?}"));
+        }
+    }
+
+    #[test]
+    fn a_visitor_is_shown_all_accesses_in_their_order() {
+        let image = ImageIndex;
+        let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::FRAGMENT_SHADER);
+        let work = Work::Forward { from: image(6), to: image(7), because: String::new() };
+        let mut pass = Pass::new("all", work);
+        pass.sampled = vec![Sampled {
+            binding: "s".into(),
+            image: image(0),
+            range,
+            frames_ago: 0,
+            span,
+            eye: None,
+            face: Default::default(),
+            texture: None,
+            own_pixel: false,
+            sampler: Sampler::new(Filter::Nearest),
+            stages,
+        }];
+        pass.storage =
+            vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
+        pass.color = vec![ColorTarget { image: image(2), range, span, clear: None, blend: Blend::Replace }];
+        let test = CompareOp::Always;
+        pass.depth = Some(DepthTarget { image: image(3), range, span, clear: None, test, write: true, stencil: None });
+        let (buffer, role) = (BufferIndex(4), BufferRole::Uniform);
+        pass.buffers = vec![BufferUse { binding: None, buffer, frames_ago: 0, role, stages, span }];
+        let resource = Resource::Image(image(5));
+        pass.transfers = vec![TransferUse { resource, range, frames_ago: 0, write: false, span }];
+        let mut shown = Shown(Vec::new());
+        pass.visit_accesses(&mut shown);
+        let listed: Vec<String> = pass.accesses().map(|access| format!("{access:?}")).collect();
+        assert_eq!((shown.0.len(), shown.0), (8, listed));
     }
 }

@@ -16,7 +16,7 @@ mod texture;
 mod uses;
 mod view;
 
-pub(crate) use access::{Access, Effect, VisitAccess};
+pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;

@@ -6,7 +6,8 @@ use serde::ser::{Serialize, Serializer};
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
-/// Why the compiler decided something. It is shown, written to JSON and compared as its sentence.
+/// Why the compiler decided something. It is shown, written to JSON and compared as its sentence. Comparing puts the sentences
+/// together.
 #[derive(Debug, Clone)]
 pub enum Reason {
     /// An attachment is loaded and stored so.

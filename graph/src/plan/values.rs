@@ -76,7 +76,7 @@ fn of_scope(scope: &mut RenderScope, changing: bool) {
 
 fn of_pass(pass: &mut Pass) {
     pass.cause = Cause::Written(None);
-    pass.merged = pass.merged.take().map(|_| Reason::from(""));
+    pass.merged = pass.merged.take().map(|_| Box::new(Reason::from("")));
     pass.params.iter_mut().for_each(|param| param.value = ParamValue::Bool(false));
     pass.groups = pass.groups.map(|groups| match groups {
         Groups::Count(_) => Groups::Count([0; 3]),

@@ -132,8 +132,8 @@ pub struct Pass {
     /// include earlier and later stages of the pipeline, so colour that they read at their own position is read by then, and
     /// may be drawn over.
     pub local_barrier: bool,
-    /// Why it shares its scope with the pass before it.
-    pub merged: Option<Reason>,
+    /// Why it shares its scope with the pass before it. Boxed, since few passes do.
+    pub merged: Option<Box<Reason>>,
 }
 
 /// Depth comparison and writing.

@@ -115,7 +115,8 @@ impl Check<'_, '_> {
             }
             clashes
         };
-        // Up to here one mistake is reported, beyond it one of each image.
+        // Few barriers are compared in pairs, which is quicker than sorting them. Of pairs one mistake is reported, of sorted ones
+        // one of each image.
         const FEW: usize = 8;
         if barriers.len() <= FEW {
             for (at, one) in barriers.iter().enumerate() {

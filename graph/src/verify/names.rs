@@ -6,7 +6,7 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 /// The names that were seen so far.
 pub(super) struct Names<'p>(HashSet<&'p str, Key>);
 
-/// The random key of the hashes of one set: no Plan can be made whose names all collide.
+/// The random key of the hashes of one set: names that collide can't be chosen without knowing it.
 #[derive(Clone, Copy)]
 struct Key(u64);
 

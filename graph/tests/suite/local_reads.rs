@@ -49,7 +49,10 @@ fn lighting_joins_the_scope_of_the_geometry_that_it_reads_at_its_own_pixel() {
     let local = Layout::RenderingLocalReadKhr;
     assert_eq!(layouts, [local, local, Layout::ColorAttachmentOptimal]);
     assert!(!geometry.local_barrier && light.local_barrier);
-    assert_eq!(light.merged, Some("reads `albedo` at its own position: 0.0 MiB need not be read from memory".into()));
+    assert_eq!(
+        light.merged,
+        Some(Box::new("reads `albedo` at its own position: 0.0 MiB need not be read from memory".into()))
+    );
     let bound =
         light.accesses.iter().filter_map(|access| access.binding.as_ref().map(|binding| (access, binding.kind)));
     for (access, kind) in bound {

@@ -253,9 +253,12 @@ impl Judge {
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
         for (number, state) in (0..).zip(expected) {
             hand_in(pipeline, plan, &mut executor, number).map_err(broken)?;
-            executor.submit(&mut Program(pipeline)).map_err(broken)?;
+            let frame = executor.submit(&mut Program(pipeline)).map_err(broken)?;
             if flight > 1 && number + 1 < expected.len() as u32 {
                 continue;
+            }
+            if timestamps {
+                executor.report(frame).map_err(broken)?;
             }
             for (output, thing) in pipeline.outputs.iter().enumerate() {
                 let found = read(plan, &mut executor, output).map_err(broken)?;

@@ -57,7 +57,7 @@ enum StepWork {
     Nothing,
 }
 
-/// What a pass binds.
+/// The bindings of a pass.
 struct Pass {
     /// `None`: it is bound already.
     pipeline: Option<vk::Pipeline>,

@@ -128,7 +128,12 @@ impl<'a> Adapter<'a> {
 
     /// Whether a range is all of an image that is one part, so of one plane.
     fn is_all(&self, image: ImageIndex, range: Subresources) -> bool {
-        range == Subresources::WHOLE && self.input.grids.of(image).is_none()
+        let is_all = range == Subresources::WHOLE && self.input.grids.of(image).is_none();
+        debug_assert!(
+            !is_all || self.input.frame.images[image.0 as usize].format.aspects().bits().count_ones() == 1,
+            "images of several planes are cut"
+        );
+        is_all
     }
 
     fn part(&mut self, image: ImageIndex, range: Subresources) -> u32 {

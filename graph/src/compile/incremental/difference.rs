@@ -32,11 +32,14 @@ fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
     Arc::ptr_eq(old, new) || old == new
 }
 
-/// Whether two parts of images are the same. As one number of 128 bits, the counts take one comparison.
+/// Whether two parts of images are the same. Four numbers in an array take one comparison.
 #[inline]
 fn same_range(old: Subresources, new: Subresources) -> bool {
-    let counts = |range: Subresources| [range.base_mip, range.mips, range.base_layer, range.layers];
-    (counts(old) == counts(new)) & (old.aspects == new.aspects)
+    let numbers = |range: Subresources| {
+        let Subresources { aspects: _, base_mip, mips, base_layer, layers } = range;
+        [base_mip, mips, base_layer, layers]
+    };
+    (numbers(old) == numbers(new)) & (old.aspects == new.aspects)
 }
 
 /// Whether all members of two lists are the same.

@@ -18,7 +18,7 @@ pub(super) struct Intervals {
 
 impl Intervals {
     /// The fewest intervals in which, with each resource alive from the start of its interval on, at most a fiftieth more
-    /// than `live_peak` is alive; `None` if no more than `live_peak` allows as few.
+    /// than `live_peak` is alive; `None` if the live peak alone allows as few intervals.
     ///
     /// `waits`: for each step one more than the last step that the accesses of this one wait for. An interval ends before the
     /// first step that waits for a step in it, or with which it would take too much memory. Each interval reaches as far as it
@@ -77,5 +77,36 @@ impl Walk {
         }
         self.taken += change.begun;
         self.ended += change.ended;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MIB: u64 = 1 << 20;
+
+    fn block(first: u32, last: u32, bytes: u64) -> Block {
+        Block { first, last, bytes, alignment: 1 }
+    }
+
+    /// Blocks of a step each that take 100 MiB at most, in the steps 0 to 3; `extra` more in step 1.
+    fn starts(waits: &[u32], extra: u64) -> Option<Vec<u32>> {
+        let blocks = [block(0, 0, 50 * MIB), block(1, 1, 50 * MIB + extra), block(2, 3, 100 * MIB), block(3, 3, 0)];
+        Intervals::of(waits, blocks.iter(), 100 * MIB).map(|intervals| intervals.starts)
+    }
+
+    #[test]
+    fn a_fiftieth_more_than_the_live_peak_is_taken_where_it_saves_an_interval() {
+        assert_eq!(starts(&[0; 4], 2 * MIB), Some(vec![0, 0, 2, 2]));
+        // One byte more is too much.
+        assert_eq!(starts(&[0; 4], 2 * MIB + 1), None);
+    }
+
+    #[test]
+    fn what_saves_no_interval_is_left() {
+        assert_eq!(starts(&[0; 4], 0), None);
+        // The accesses need a call before step 1 anyway.
+        assert_eq!(starts(&[0, 1, 0, 0], 2 * MIB), None);
     }
 }

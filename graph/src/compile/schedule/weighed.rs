@@ -61,7 +61,7 @@ struct Peaks {
 }
 
 impl Sums {
-    /// Adds a resource, unless it is neither begun nor ended.
+    /// Adds a resource that begins or ends here; any other adds nothing.
     #[inline]
     pub(super) fn add(&mut self, bytes: u64, begun: bool, ended: bool) {
         let of = |counts: bool| if counts { bytes } else { 0 };

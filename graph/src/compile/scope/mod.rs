@@ -28,8 +28,8 @@ pub(super) struct Scoped {
 
 impl Scoped {
     /// Why operation number `op` shares its scope with the one before it.
-    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<Reason> {
-        Some(self.gains.get(op as usize)?.as_ref()?.reason(frame, adapted))
+    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<Box<Reason>> {
+        Some(Box::new(self.gains.get(op as usize)?.as_ref()?.reason(frame, adapted)))
     }
 }
 

@@ -25,12 +25,12 @@ pub(crate) fn plan() -> Plan {
         Access { binding: Some(Binding { name: "albedo".into(), kind, texture: None }), ..access(&albedo, own) };
     let lighting = Pass {
         local_barrier: true,
-        merged: Some("it reads `albedo` at its own position".into()),
+        merged: Some(Box::new("it reads `albedo` at its own position".into())),
         ..draw("lighting", 20, Draw::FullScreen, &blend, None, vec![input, access(&lit, drawn)])
     };
     let marks = Pass {
         local_barrier: true,
-        merged: Some("it draws into `albedo` like `geometry`".into()),
+        merged: Some(Box::new("it draws into `albedo` like `geometry`".into())),
         ..draw("marks", 30, objects, &blend, None, vec![access(&albedo, drawn)])
     };
     let attachments = vec![

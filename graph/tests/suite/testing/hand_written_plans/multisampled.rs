@@ -53,7 +53,7 @@ pub(crate) fn plan() -> Plan {
     let objects = Draw::Objects(DrawList::Opaque);
     let opaque = draw("opaque", 20, objects, &[Blend::Replace], Some(nearer), accesses());
     let mut sky = draw("sky", 30, Draw::Sky, &[Blend::Replace], Some(nearer), accesses());
-    sky.merged = Some("it draws into the attachments of `opaque`".into());
+    sky.merged = Some(Box::new("it draws into the attachments of `opaque`".into()));
 
     let scene = scope(4, vec![color_attachment], Some(depth_attachment), vec![opaque, sky]);
     let mut steps = vec![step(barriers, scene)];
