@@ -255,7 +255,7 @@ impl Builder {
         Pass { sampled: sampled(reads, Stages::FRAGMENT_SHADER), ..Pass::new(name, work) }
     }
 
-    /// The name of the shader of full-screen passes with so many sources and targets.
+    /// The name of the shader of full-screen passes with `reads` sources and `targets` targets.
     fn full_screen(&mut self, reads: usize, targets: usize) -> String {
         let name = format!("draw{reads}_{targets}");
         self.shader(&format!("{name}.frag"), || {
@@ -287,7 +287,7 @@ impl Builder {
     }
 }
 
-/// The declarations of a shader with so many sources.
+/// The declarations of a shader with `count` sources.
 fn sources(count: usize) -> String {
     (0..count).fold("#version 460\n".to_owned(), |mut text, number| {
         let _ = writeln!(text, "layout(set = 0, binding = {number}) uniform sampler2D source{number};");

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The name of the block that a pass's parameters go to.
 pub(super) const PARAMS: &str = "params";
 
-/// Beyond so many bindings a name among them is looked up.
+/// The most bindings that are searched one by one; among more, a name is looked up.
 const MANY_GIVEN: usize = 16;
 
 /// Shader interfaces, each of whose mistakes is reported once.

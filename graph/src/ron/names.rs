@@ -29,7 +29,7 @@ impl Names {
         Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
-    /// Makes room for so many more things.
+    /// Makes room for `more` things.
     pub(crate) fn reserve(&mut self, more: usize) {
         self.given.reserve(more);
         self.index.reserve(more);

@@ -1,4 +1,4 @@
-//! What each pass of a frame accesses, as plain data. Graphs of other systems are built of it.
+//! The accesses of each pass of a frame, as plain data. Graphs of other systems are built of it.
 
 use framewright_graph::frame::{self, Frame, Image};
 
@@ -8,7 +8,7 @@ pub(crate) struct Accesses {
     pub(crate) passes: Vec<Pass>,
 }
 
-/// What one pass accesses. Images are numbers.
+/// The accesses of one pass. Images are numbers.
 pub(crate) struct Pass {
     /// Images that it samples.
     pub(crate) sampled: Vec<u32>,

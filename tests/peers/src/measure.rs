@@ -17,7 +17,7 @@ pub(crate) trait Candidate {
     fn barriers(&self) -> Option<Barriers>;
 }
 
-/// What `work` returns, and the time that it takes: on the processor, where other work on the machine interrupts it.
+/// The result of `work`, and the time that it takes: on the processor, where other work on the machine interrupts it.
 pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let processor = || Duration::try_from(clock_gettime(ClockId::ThreadCPUTime)).expect("processor time is positive");
     let (processor_before, before) = (processor(), Instant::now());
@@ -34,7 +34,7 @@ pub(crate) struct Times {
     pub(crate) compile: Duration,
 }
 
-/// What a frame synchronises.
+/// The barriers of a frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Barriers {
     /// Image barriers.
@@ -43,7 +43,7 @@ pub(crate) struct Barriers {
     pub(crate) calls: u64,
 }
 
-/// What was found out of a candidate, or why nothing was.
+/// The figures of a candidate, or why there are none.
 pub(crate) type Found = Result<(Times, Option<Barriers>), String>;
 
 /// The least of each part over all runs. A candidate that fails is not asked again.

@@ -22,7 +22,7 @@ pub(super) struct Lifetimes {
 }
 
 impl Lifetimes {
-    /// Of so many resources, in an order that has `places` and is walked by [`Lifetimes::use_at`].
+    /// Of `resources` resources, in an order that has `places` and is walked by [`Lifetimes::use_at`].
     pub(super) fn unused(resources: usize, places: u32) -> Lifetimes {
         Lifetimes { places, of: vec![[u32::MAX, 0]; resources] }
     }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// So many keys are compared one by one.
+/// The most keys that are compared one by one.
 const FEW: usize = 8;
 
 /// The last place of each key. Most entries have a few keys, which are compared without being hashed.

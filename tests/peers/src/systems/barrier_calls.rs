@@ -9,7 +9,7 @@ use std::mem::transmute;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
-/// What becomes of a counted call.
+/// The end of a counted call.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Driver {
     /// It is passed on.

@@ -11,7 +11,7 @@ use crate::measure::Candidate;
 use barrier_calls::Driver;
 use vulkano::Origin;
 
-/// What a system does in the part "compile", and what it doesn't do.
+/// The work of a system in the part "compile", and the work that it leaves out.
 pub(crate) struct About {
     /// Its name in the table.
     pub(crate) system: &'static str,
