@@ -3,12 +3,12 @@
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
     Storage, Work,
 };
 use framewright_graph::plan::Plan;
 use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
-use framewright_graph::vulkan::{CompareOp, Filter, Format, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{CompareOp, Format, Stages, Subresources};
 use framewright_vulkan::Device;
 use std::fmt::Write;
 
@@ -304,19 +304,7 @@ fn sum(sources: usize, at: &str) -> String {
 }
 
 fn sampled(reads: &[ImageIndex], stages: Stages) -> Vec<Sampled> {
-    let one = |(number, image): (usize, &ImageIndex)| Sampled {
-        binding: format!("source{number}").into(),
-        image: *image,
-        range: Subresources::WHOLE,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages,
-    };
+    let one = |(number, image): (usize, &ImageIndex)| Sampled::new(format!("source{number}"), *image, stages);
     reads.iter().enumerate().map(one).collect()
 }
 

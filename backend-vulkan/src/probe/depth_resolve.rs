@@ -18,7 +18,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, EyeForm, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay,
     Resource, Sampled, Stereo, Work,
 };
-use framewright_graph::vulkan::{CompareOp, Filter, Format, ResolveMode, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{CompareOp, Format, ResolveMode, Stages, Subresources};
 
 /// Depth alone: what has stencil too isn't resolved.
 const FORMATS: [Format; 3] = [Format::D16_UNORM, Format::X8_D24_UNORM_PACK32, Format::D32_SFLOAT];
@@ -147,19 +147,7 @@ fn frame(stereo: Stereo, format: Format, samples: u32, modes: &[ResolveMode]) ->
         };
         frame.passes.push(Pass { depth: Some(depth), ..full_screen(&format!("slope {number}"), "slope") });
     }
-    let slope = Sampled {
-        binding: "slope".into(),
-        image: ImageIndex(1),
-        range: whole,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Samples,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages: Stages::FRAGMENT_SHADER,
-    };
+    let slope = Sampled { face: Face::Samples, ..Sampled::new("slope", ImageIndex(1), Stages::FRAGMENT_SHADER) };
     let target =
         ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });

@@ -4,13 +4,13 @@ use crate::testing::{Nothing, OVER_ALL, find_layer, findings, skip};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Face, Frame, Groups, Image,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Frame, Groups, Image,
     ImageIndex, Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::Plan;
 use framewright_graph::shader::DrawInterface;
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{Aspects, Filter, Format, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{Aspects, Format, Stages, Subresources};
 use framewright_tests::drivers::Driver;
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,
@@ -203,19 +203,7 @@ fn stages(pass: &Pass) -> Stages {
 }
 
 fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -> Sampled {
-    Sampled {
-        binding: binding.into(),
-        image,
-        range,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages: stages(pass),
-    }
+    Sampled { range, ..Sampled::new(binding, image, stages(pass)) }
 }
 
 fn stored(mut pass: Pass, binding: &str, image: ImageIndex, range: Subresources, access: (bool, bool)) -> Pass {

@@ -3,10 +3,10 @@
 use crate::testing::{self, Nothing, OVER_ALL};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Pass, Sampled, Work};
+use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, Sampled, Work};
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::shader::DrawInterface;
-use framewright_graph::vulkan::{Filter, Format, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{Format, Stages, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions, ShaderLibrary};
 
 /// Each image holds the one before, and a little more; `sum` adds two.
@@ -41,19 +41,8 @@ const SHADERS: &[(&str, &str)] = &[
 const EXTENT: [u32; 2] = [8, 8];
 
 fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass {
-    let sampled = sampled.iter().map(|(binding, image)| Sampled {
-        binding: (*binding).into(),
-        image: ImageIndex(*image),
-        range: Subresources::WHOLE,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages: Stages::FRAGMENT_SHADER,
-    });
+    let sampled =
+        sampled.iter().map(|(binding, image)| Sampled::new(*binding, ImageIndex(*image), Stages::FRAGMENT_SHADER));
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
     let (image, range) = (ImageIndex(target), Subresources::WHOLE);
     Pass {

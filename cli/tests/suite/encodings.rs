@@ -12,11 +12,11 @@ use crate::testing::{self, Vulkan};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
-    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{self, *};
-use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{Encoding, Stages, Subresources};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
@@ -61,19 +61,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
     let height = u32::try_from(TINTS.len()).expect("few");
     frame.images.push(Image::new(&format!("{shader}ed"), format, WIDTH, height));
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
-    let sampled = from.map(|image| Sampled {
-        binding: "source".into(),
-        image,
-        range: Subresources::WHOLE,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages: Stages::FRAGMENT_SHADER,
-    });
+    let sampled = from.map(|image| Sampled::new("source", image, Stages::FRAGMENT_SHADER));
     let color =
         ColorTarget { image: to, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: sampled.into_iter().collect(), color: vec![color], ..Pass::new(shader, work) });

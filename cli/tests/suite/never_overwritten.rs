@@ -102,8 +102,8 @@ fn all_is_as_it_was(place: &Place) {
     }
 }
 
-/// The name that messages give a file, which is read as `what`, where `name` is to be written. By its ending a shader is known before it is read;
-/// a hard link has an ending of its own.
+/// The name that messages give a file, which is read as `what`, where `name` is to be written. By its ending a shader is known before
+/// it is read; a hard link has an ending of its own.
 fn said(what: &'static str, name: &str) -> &'static str {
     if what == "the shader itself" && !name.starts_with("hard") { "a shader by its name" } else { what }
 }

@@ -61,9 +61,9 @@ fn the_other_driver_draws_the_same_pictures() {
     hold(Vulkan::SWIFTSHADER, [20, 200], false);
 }
 
-/// Draws shipped pipelines, on lavapipe all of them, and takes each picture for the one that is shown or compares the two: one pixel in `one_in[0]`
-/// may be further away than 2/255, and one in `one_in[1]` further than 24/255. Another driver, or a processor with other vector
-/// instructions, rounds otherwise: an edge may fall on the other side of a pixel's middle.
+/// Draws shipped pipelines, on lavapipe all of them, and takes each picture for the one that is shown or compares the two: one pixel in
+/// `one_in[0]` may be further away than 2/255, and one in `one_in[1]` further than 24/255. Another driver, or a processor with other
+/// vector instructions, rounds otherwise: an edge may fall on the other side of a pixel's middle.
 fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let Some(variables) = vulkan.variables() else { return };
     let place = Place::new();

@@ -219,7 +219,7 @@ impl BufferRole {
 mod tests {
     use super::*;
     use crate::frame::{Blend, BufferIndex};
-    use crate::vulkan::{CompareOp, Filter, Sampler, Stages};
+    use crate::vulkan::{CompareOp, Stages};
 
     /// Puts down what it is shown.
     struct Shown(Vec<String>);
@@ -236,19 +236,7 @@ mod tests {
         let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::FRAGMENT_SHADER);
         let work = Work::Forward { from: image(6), to: image(7), because: String::new() };
         let mut pass = Pass::new("all", work);
-        pass.sampled = vec![Sampled {
-            binding: "s".into(),
-            image: image(0),
-            range,
-            frames_ago: 0,
-            span,
-            eye: None,
-            face: Default::default(),
-            texture: None,
-            own_pixel: false,
-            sampler: Sampler::new(Filter::Nearest),
-            stages,
-        }];
+        pass.sampled = vec![Sampled::new("s", image(0), stages)];
         pass.storage =
             vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
         pass.color = vec![ColorTarget { image: image(2), range, span, clear: None, blend: Blend::Replace }];

@@ -2,7 +2,7 @@
 
 use super::{BufferIndex, Eye, ImageIndex, Resource};
 use crate::base::Span;
-use crate::vulkan::{Aspects, CompareOp, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
+use crate::vulkan::{Aspects, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -35,6 +35,26 @@ pub struct Sampled {
     pub sampler: Sampler,
     /// Shader stages that sample it.
     pub stages: Stages,
+}
+
+impl Sampled {
+    /// All of an image of this frame, sampled by its nearest texels, one value each; no file names it.
+    #[must_use]
+    pub fn new(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> Sampled {
+        Sampled {
+            binding: binding.into(),
+            image,
+            range: Subresources::WHOLE,
+            frames_ago: 0,
+            span: Span::NONE,
+            eye: None,
+            face: Face::Resolved,
+            texture: None,
+            own_pixel: false,
+            sampler: Sampler::new(Filter::Nearest),
+            stages,
+        }
+    }
 }
 
 /// The values that a shader reads of each texel of a sampled image.

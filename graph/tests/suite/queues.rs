@@ -1,13 +1,13 @@
 //! Which passes run on the queues for compute and transfer, what waits for what, and how images change hands.
 
-use crate::testing::parts::{self, sampled, stored};
+use crate::testing::parts::{self, stored};
 use crate::testing::plans::planned;
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime,
-    Pass, Resource, TransferUse, Work,
+    Pass, Resource, Sampled, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role};
 use framewright_graph::vulkan::{
@@ -33,7 +33,7 @@ impl Builder {
     }
 
     fn pass(&mut self, mut pass: Pass, stages: Stages, reads: &[ImageIndex], buffers: &[(BufferIndex, bool)]) {
-        pass.sampled = reads.iter().map(|image| sampled(format!("source{}", image.0), *image, stages)).collect();
+        pass.sampled = reads.iter().map(|image| Sampled::new(format!("source{}", image.0), *image, stages)).collect();
         pass.buffers = buffers.iter().map(|(buffer, write)| used(*buffer, *write, stages)).collect();
         self.0.passes.push(pass);
     }

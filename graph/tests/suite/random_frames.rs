@@ -11,7 +11,7 @@ use framewright_graph::frame::{
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
-use framewright_graph::vulkan::{CompareOp, Filter, Rotation, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{CompareOp, Rotation, Stages, Subresources};
 use proptest::prelude::*;
 use std::cell::Cell;
 
@@ -132,19 +132,8 @@ impl Maker {
                 true => Face::Samples,
                 false => Face::Resolved,
             };
-            pass.sampled.push(Sampled {
-                binding: format!("source{number}").into(),
-                image: ImageIndex(image as u32),
-                range: Subresources::WHOLE,
-                frames_ago: 0,
-                span: Span::NONE,
-                eye: None,
-                face,
-                texture: None,
-                own_pixel: false,
-                sampler: Sampler::new(Filter::Nearest),
-                stages,
-            });
+            pass.sampled
+                .push(Sampled { face, ..Sampled::new(format!("source{number}"), ImageIndex(image as u32), stages) });
         }
     }
 

@@ -210,7 +210,7 @@ fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Re
 
 fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> frame::Sampled {
     let range = range(pipeline.images[part.image].format, part);
-    frame::Sampled { range, ..parts::sampled(binding, ImageIndex(part.image as u32), stages) }
+    frame::Sampled { range, ..frame::Sampled::new(binding, ImageIndex(part.image as u32), stages) }
 }
 
 fn add_store(

@@ -90,7 +90,7 @@ mod tests {
         Block { first, last, bytes, alignment: 1 }
     }
 
-    /// Blocks of a step each that take 100 MiB at most, in the steps 0 to 3; `extra` more in step 1.
+    /// Where intervals start in four steps whose blocks take 100 MiB together at most, and `extra` more in step 1.
     fn starts(waits: &[u32], extra: u64) -> Option<Vec<u32>> {
         let blocks = [block(0, 0, 50 * MIB), block(1, 1, 50 * MIB + extra), block(2, 3, 100 * MIB), block(3, 3, 0)];
         Intervals::of(waits, blocks.iter(), 100 * MIB).map(|intervals| intervals.starts)

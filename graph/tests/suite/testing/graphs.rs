@@ -1,8 +1,8 @@
 //! The graphs that the compiler is measured on, built in memory.
 
 pub(crate) use super::parts::device;
-use super::parts::{sampled, stored};
-use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Pass, Resource, Work};
+use super::parts::stored;
+use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Work};
 use framewright_graph::vulkan::{Format, Stages};
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ impl Builder {
         let target = self.stored.get_or_insert_with(|| "target".into()).clone();
         let work = Work::Dispatch { shader: source.clone(), groups: Groups::Invocations([256, 256, 1]) };
         self.frame.passes.push(Pass {
-            sampled: reads.iter().map(|image| sampled(source.clone(), *image, Stages::COMPUTE_SHADER)).collect(),
+            sampled: reads.iter().map(|image| Sampled::new(source.clone(), *image, Stages::COMPUTE_SHADER)).collect(),
             storage: writes.iter().map(|(image, read)| stored(target.clone(), *image, *read)).collect(),
             ..Pass::new(name, work)
         });

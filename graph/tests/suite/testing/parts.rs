@@ -2,8 +2,8 @@
 
 use framewright_graph::base::Span;
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
-use framewright_graph::frame::{Face, ImageIndex, Sampled, Storage};
-use framewright_graph::vulkan::{Filter, Format, ResolveMode, Sampler, Stages, Subresources, Usage};
+use framewright_graph::frame::{ImageIndex, Storage};
+use framewright_graph::vulkan::{Format, ResolveMode, Stages, Subresources, Usage};
 use std::sync::Arc;
 
 /// A device that has every format at 1, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
@@ -48,23 +48,6 @@ pub(crate) fn device() -> Profile {
         },
         known_needs: Vec::new(),
         unknown: Vec::new(),
-    }
-}
-
-/// All of an image, sampled by its nearest texels, one value each.
-pub(crate) fn sampled(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> Sampled {
-    Sampled {
-        binding: binding.into(),
-        image,
-        range: Subresources::WHOLE,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages,
     }
 }
 

@@ -1,7 +1,6 @@
 //! Raster frames built in memory.
 
 pub(crate) use super::parts::device;
-use super::parts::sampled;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
@@ -133,7 +132,7 @@ impl Added<'_> {
     }
 
     fn sampled(self, image: ImageIndex, face: Face, filter: Filter) -> Self {
-        let sampled = sampled(format!("source{}", self.0.sampled.len()), image, Stages::FRAGMENT_SHADER);
+        let sampled = Sampled::new(format!("source{}", self.0.sampled.len()), image, Stages::FRAGMENT_SHADER);
         self.0.sampled.push(Sampled { face, sampler: Sampler::new(filter), ..sampled });
         self
     }
