@@ -1,7 +1,7 @@
 //! The errors that end a command early.
 
 use crate::command_line::options;
-use crate::picture::data::EncodingError;
+use crate::picture::{DecodingError, EncodingError};
 use crate::system::{Exit, links, text};
 use framewright_graph::base;
 use framewright_graph::base::{Diagnostic, NoFile, Sources, for_shell};
@@ -74,6 +74,12 @@ pub(crate) enum Error {
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
     Picture { image: String, problem: EncodingError },
+    /// A file that is no picture to compare.
+    #[error("the picture `{}` can't be read: {}", text::path(path), text::escape(&problem.to_string()))]
+    NoLight { path: PathBuf, problem: DecodingError },
+    /// Pictures of different sizes.
+    #[error("`{}` is {}, and `{}` is {}: only pictures of one size are compared", text::path(&reference.0), pixels(reference.1), text::path(&picture.0), pixels(picture.1))]
+    Sizes { reference: (PathBuf, [usize; 2]), picture: (PathBuf, [usize; 2]) },
     /// A picture that its kind of file can't hold.
     #[error(
         "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
@@ -205,6 +211,8 @@ impl Error {
             | Error::NotText { .. }
             | Error::Picture { .. }
             | Error::NotFloats { .. }
+            | Error::NoLight { .. }
+            | Error::Sizes { .. }
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }
@@ -252,6 +260,10 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     let help =
         if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
     format!("the pipeline has no output named `{name}`\nhelp: {help}")
+}
+
+fn pixels([width, height]: [usize; 2]) -> String {
+    format!("{width}×{height}")
 }
 
 /// Help for a device that refuses.

@@ -1,5 +1,6 @@
 //! The command line: what can be said, and what each word means.
 
+use crate::command_line::comparing::CompareArguments;
 use crate::command_line::values::{
     Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
 };
@@ -40,6 +41,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
     Facts(FactsArguments),
+    /// Print the errors of a picture beside a reference: FLIP, RMSE and others. Needs no GPU.
+    Compare(CompareArguments),
     /// Write a pipeline to begin with.
     New(NewArguments),
     /// Print the language of pipeline files as a JSON Schema (draft 2020-12), or a file as the JSON that the schema describes.

@@ -1,5 +1,6 @@
 //! The command line: its arguments, and the options that messages name.
 
 pub(crate) mod args;
+pub(crate) mod comparing;
 pub(crate) mod options;
 pub(crate) mod values;

@@ -137,6 +137,21 @@ pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
     }
 }
 
+/// Reads a number.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "expected a number, such as 0.02".to_owned())
+}
+
+/// Reads the name of a PNG file.
+pub(crate) fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match FileFormat::of(&path) {
+        Some(FileFormat::Png) => Ok(path),
+        _ => Err("it is written as PNG: the file's name must end in .png".to_owned()),
+    }
+}
+
 /// Reads the name of a picture's file.
 pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);

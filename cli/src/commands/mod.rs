@@ -2,6 +2,7 @@
 
 mod cache;
 mod check;
+mod compare;
 mod devices;
 mod facts;
 mod inspect;
@@ -23,6 +24,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Inspect(arguments) => inspect::inspect(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Devices(arguments) => devices::devices(arguments),

@@ -3,6 +3,7 @@
 use crate::command_line::args;
 use crate::error::Error;
 use crate::files::shipped;
+use crate::picture::Light;
 use crate::system::text;
 use framewright_graph::base::{FilePath, ReadFiles, Root, Sources};
 use framewright_graph::language::{Found, LARGEST_FILE, PipelineFiles, Shipped};
@@ -10,6 +11,9 @@ use framewright_passes::scene::{self, Scene, SceneError};
 use std::io;
 use std::io::Read;
 use std::path::Path;
+
+/// A picture's file has at most this many bytes: those of the largest picture without compression.
+const LARGEST_PICTURE: usize = 1 << 32;
 
 /// The role of a file that the command line names.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +35,8 @@ impl FileRole {
     pub(crate) const PROFILE: FileRole = FileRole { name: "device profile", recorded: "the device profile itself" };
     /// A scene.
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
+    /// A picture.
+    const PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture that is compared" };
     /// Any of the files that `schema` takes.
     pub(crate) const ANY: FileRole = FileRole { name: "file", recorded: "the file itself" };
 }
@@ -141,6 +147,15 @@ pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
         text::say(&format!("note: {}: {}", text::path(path), text::escape(note)));
     }
     Ok(scene)
+}
+
+/// Reads a picture.
+///
+/// # Errors
+/// If it can't be read, or is no picture.
+pub(crate) fn picture(path: &Path, read: &ReadFiles) -> Result<Light, Error> {
+    let file = bytes(FileRole::PICTURE, path, LARGEST_PICTURE, read)?;
+    Light::decode(&file).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })
 }
 
 /// Reads a text file of at most `limit` bytes.

@@ -1,4 +1,4 @@
-//! Images as files that other programs open.
+//! Images as files that other programs open, and such files as images.
 //!
 //! A PNG holds encoded values as they are, with a chunk that names the encoding: 8 bits where the format has 8, else 16.
 //! All else is shown as a display would show it: clamped to 0…1 and encoded with the sRGB curve, NaN as 0. Alpha is left
@@ -8,11 +8,13 @@
 //!
 //! An OpenEXR file holds every component of floating-point images, bit for bit.
 
-pub(crate) mod data;
+mod data;
 mod exr;
 mod file_format;
+mod light;
 mod png;
 mod texel;
 
-pub(crate) use data::Picture;
+pub(crate) use data::{EncodingError, Picture};
 pub(crate) use file_format::FileFormat;
+pub(crate) use light::{DecodingError, Light};

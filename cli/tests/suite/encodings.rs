@@ -5,7 +5,7 @@
 //! anew for each driver.
 
 #[path = "../../src/picture/mod.rs"]
-#[allow(dead_code, reason = "the command asks more of it")]
+#[allow(dead_code, unused_imports, reason = "the command asks more of it")]
 mod picture;
 
 use crate::testing::{self, Vulkan};

@@ -6,6 +6,7 @@ mod beginning;
 mod book;
 mod broken_environment;
 mod cache;
+mod compare;
 mod deferred;
 mod depth_ladder;
 mod encodings;

@@ -47,7 +47,7 @@ fn every_whole_file_of_the_reference_is_fine() {
 }
 
 /// The commands.
-const COMMANDS: [&str; 8] = ["check", "inspect", "run", "facts", "new", "schema", "devices", "cache"];
+const COMMANDS: [&str; 9] = ["check", "inspect", "run", "facts", "compare", "new", "schema", "devices", "cache"];
 
 /// The options of all commands, as their helps list them.
 fn options() -> BTreeSet<String> {

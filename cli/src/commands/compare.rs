@@ -1,0 +1,136 @@
+//! `framewright compare`: the errors of a picture beside a reference.
+
+use crate::command_line::args::AnswerFormat;
+use crate::command_line::comparing::CompareArguments;
+use crate::error::Error;
+use crate::files::{inputs, outputs};
+use crate::metric::{self, Errors, Metric};
+use crate::picture::Light;
+use crate::system::{Exit, progress, text};
+use framewright_graph::base::ReadFiles;
+use serde::Serialize;
+
+#[derive(Debug, Serialize)]
+struct Answer<'a> {
+    format_version: u32,
+    reference: String,
+    picture: String,
+    size: [usize; 2],
+    errors: &'a Errors,
+    limits: Vec<Limit>,
+    held: bool,
+}
+
+/// A limit that the command line states.
+#[derive(Debug, Serialize)]
+struct Limit {
+    metric: &'static str,
+    limit: f64,
+    held: bool,
+}
+
+/// Prints a picture's errors, and holds them against the limits.
+///
+/// # Errors
+/// If a file is no picture, their sizes differ, or the heat map can't be written.
+pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    let heat_map = arguments.heatmap.as_deref();
+    outputs::prepare(heat_map.into_iter(), &read)?;
+    let reference = inputs::picture(&arguments.reference, &read)?;
+    let test = inputs::picture(&arguments.picture, &read)?;
+    if reference.extent != test.extent {
+        return Err(Error::Sizes {
+            reference: (arguments.reference.clone(), reference.extent),
+            picture: (arguments.picture.clone(), test.extent),
+        });
+    }
+    let busy = progress::busy("comparing");
+    let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);
+    drop(busy);
+    if let Some(file) = heat_map {
+        let size = reference.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
+        let picture = metric::heat_map(errors.flip_map(), size);
+        let picture = picture.map_err(|problem| Error::Picture { image: "flip".to_owned(), problem })?;
+        outputs::write(&[(file, &picture)], &read)?;
+    }
+    let limits: Vec<Limit> = Metric::ALL.iter().filter_map(|metric| limit(arguments, &errors, *metric)).collect();
+    let is_finite = errors.non_finite == [0, 0];
+    let held = limits.is_empty() || (is_finite && limits.iter().all(|limit| limit.held));
+    let shown = match arguments.format {
+        AnswerFormat::Human => table(arguments, &reference, &errors),
+        AnswerFormat::Json => text::json(&Answer {
+            format_version: 1,
+            reference: arguments.reference.to_string_lossy().into_owned(),
+            picture: arguments.picture.to_string_lossy().into_owned(),
+            size: reference.extent,
+            errors: &errors,
+            limits,
+            held,
+        })?,
+    };
+    text::print(&shown).map_err(Error::Print)?;
+    Ok(if held { Exit::Fine } else { Exit::Found })
+}
+
+/// The limit that is stated for a metric, and whether it is held.
+fn limit(arguments: &CompareArguments, errors: &Errors, metric: Metric) -> Option<Limit> {
+    let limit = arguments.limits.of(metric)?;
+    let figure = errors.of(metric);
+    let held = if metric.is_likeness() { figure >= limit } else { figure <= limit };
+    Some(Limit { metric: metric.name(), limit, held })
+}
+
+/// A line for each metric, and one if pixels aren't finite.
+fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> String {
+    let wanted = |metric: &&Metric| arguments.metric.is_empty() || arguments.metric.contains(metric);
+    let line = |metric: &Metric| {
+        let limit = limit(arguments, errors, *metric).map_or_else(String::new, |limit| {
+            let (kind, verdict) = match (metric.is_likeness(), limit.held) {
+                (true, true) => ("least", "held"),
+                (true, false) => ("least", "missed"),
+                (false, true) => ("most", "held"),
+                (false, false) => ("most", "exceeded"),
+            };
+            format!("  ({kind} {}: {verdict})", limit.limit)
+        });
+        format!("{:<14}{}{limit}\n", metric.name(), figure(*metric, errors))
+    };
+    let mut lines: String = Metric::ALL.iter().filter(wanted).map(line).collect();
+    let [before, after] = errors.non_finite;
+    if [before, after] != [0, 0] {
+        let pixels = reference.texels.len();
+        lines += &format!(
+            "not finite    {before} of {pixels} pixels in the reference, {after} in the picture; they are no part of the figures\n"
+        );
+    }
+    lines
+}
+
+/// A metric's figure in words.
+fn figure(metric: Metric, errors: &Errors) -> String {
+    match metric {
+        Metric::Flip => {
+            let flip = &errors.flip;
+            let exposures = flip.exposures.map_or_else(String::new, |exposures| {
+                let count = text::count(exposures.count as usize, "exposure", "exposures");
+                format!("; HDR, {count} from {:.2} to {:.2} stops", exposures.first, exposures.last)
+            });
+            format!(
+                "{:.6}, at most {:.6} at 95 of 100 pixels, {:.6} at the worst{exposures}",
+                flip.mean, flip.percentile_95, flip.worst
+            )
+        }
+        Metric::Psnr => errors.psnr.map_or_else(|| "no difference".to_owned(), |ratio| format!("{ratio:.4} dB")),
+        Metric::Ssim => format!("{:.6}", errors.ssim),
+        // Light has no upper end.
+        Metric::Rmse | Metric::MaxError | Metric::RelativeMse => {
+            let figure = errors.of(metric);
+            if figure == 0.0 || (1e-4..1e6).contains(&figure) {
+                format!("{figure:.6}")
+            } else {
+                format!("{figure:.4e}")
+            }
+        }
+    }
+}

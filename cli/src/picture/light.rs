@@ -1,0 +1,161 @@
+//! Pictures read from files, as linear light.
+
+use exr::prelude::{AnyChannels, FlatSamples, Layer, MetaData, ReadChannels, ReadLayers, read};
+use framewright_passes::srgb;
+use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+use std::io::Cursor;
+
+/// The bytes that a file begins with.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+const OPEN_EXR: [u8; 4] = exr::meta::magic_number::BYTES;
+
+/// A picture has at most this many pixels: 16,384 on each side.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// A picture of linear light with the primaries of Rec. 709.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Light {
+    /// Width and height in pixels.
+    pub(crate) extent: [usize; 2],
+    /// Red, green and blue, in rows from the top.
+    pub(crate) texels: Vec<[f32; 3]>,
+    /// Whether light isn't limited to what a display shows, from 0 to 1.
+    pub(crate) is_light: bool,
+}
+
+/// Why a file isn't a picture to compare.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum DecodingError {
+    /// Neither signature.
+    #[error("it is neither a PNG nor an OpenEXR file")]
+    Neither,
+    /// A size that no device draws.
+    #[error("it has {width} × {height} pixels, and at most {MOST_PIXELS} are compared")]
+    TooLarge { width: u64, height: u64 },
+    /// A signal for HDR displays.
+    #[error("it holds an HDR10 signal: write the picture before its encoding as an .exr file, and compare that")]
+    Hdr10,
+    /// An OpenEXR file of something else, such as depth.
+    #[error("it has no colours: an OpenEXR picture has the channels R, G and B, or Y")]
+    NoColors,
+    /// The PNG decoder's words.
+    #[error(transparent)]
+    Png(#[from] png::DecodingError),
+    /// The OpenEXR decoder's words.
+    #[error(transparent)]
+    OpenExr(#[from] exr::error::Error),
+}
+
+impl Light {
+    /// Reads a file's contents. Alpha is left out, since what lies on a screen is opaque.
+    ///
+    /// # Errors
+    /// If it is no PNG or OpenEXR file, is damaged, or is too large.
+    pub(crate) fn decode(file: &[u8]) -> Result<Light, DecodingError> {
+        if file.starts_with(PNG) {
+            of_png(file)
+        } else if file.starts_with(&OPEN_EXR) {
+            of_exr(file)
+        } else {
+            Err(DecodingError::Neither)
+        }
+    }
+}
+
+/// A PNG holds values in the curve of sRGB.
+fn of_png(file: &[u8]) -> Result<Light, DecodingError> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(file), Limits { bytes: usize::MAX });
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info()?;
+    let info = reader.info();
+    let extent = sized(info.width.into(), info.height.into())?;
+    if info.coding_independent_code_points.is_some_and(|points| points.transfer_function == 16) {
+        return Err(DecodingError::Hdr10);
+    }
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap_or(0)];
+    let info = reader.next_frame(&mut bytes)?;
+    reader.finish()?;
+    let (channels, depth) = (info.color_type.samples(), info.bit_depth);
+    let grey = matches!(info.color_type, ColorType::Grayscale | ColorType::GrayscaleAlpha);
+    #[allow(clippy::cast_possible_truncation, reason = "light is kept with as many bits as shaders have")]
+    let light = |share: f64| srgb::decode(share) as f32;
+    let values: Vec<f32> = match depth {
+        BitDepth::Sixteen => {
+            let samples = bytes.chunks_exact(2).map(|it| u16::from_be_bytes([it[0], it[1]]));
+            samples.map(|sample| light(f64::from(sample) / 65535.0)).collect()
+        }
+        _ => bytes.iter().map(|sample| light(f64::from(*sample) / 255.0)).collect(),
+    };
+    let texels = values.chunks_exact(channels).map(|it| if grey { [it[0]; 3] } else { [it[0], it[1], it[2]] });
+    Ok(Light { extent, texels: texels.take(extent[0] * extent[1]).collect(), is_light: false })
+}
+
+/// An OpenEXR file holds linear light. Of several layers the first one counts.
+fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
+    for header in MetaData::read_from_buffered(Cursor::new(file), false)?.headers {
+        sized(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
+    }
+    let layers = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
+    let image = layers.non_parallel().from_buffered(Cursor::new(file))?;
+    let Layer { size, channel_data: AnyChannels { list }, .. } = image.layer_data;
+    let channel = |name: &str| list.iter().find(|it| it.name.eq(name)).map(|it| &it.sample_data);
+    let values = |samples: &FlatSamples| samples.values_as_f32().collect::<Vec<f32>>();
+    let texels = match (["R", "G", "B"].map(channel), channel("Y")) {
+        ([Some(red), Some(green), Some(blue)], _) => {
+            let [red, green, blue] = [red, green, blue].map(values);
+            red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+        }
+        (_, Some(grey)) => values(grey).into_iter().map(|grey| [grey; 3]).collect(),
+        _ => return Err(DecodingError::NoColors),
+    };
+    Ok(Light { extent: [size.width(), size.height()], texels, is_light: true })
+}
+
+fn sized(width: u64, height: u64) -> Result<[usize; 2], DecodingError> {
+    let pixels = width.checked_mul(height).filter(|pixels| *pixels <= MOST_PIXELS);
+    match (pixels, usize::try_from(width), usize::try_from(height)) {
+        (Some(_), Ok(width), Ok(height)) => Ok([width, height]),
+        _ => Err(DecodingError::TooLarge { width, height }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FileFormat, Picture};
+    use super::*;
+    use framewright_graph::vulkan::Format;
+
+    fn written(file_format: FileFormat, format: Format, extent: [u32; 2], bytes: &[u8]) -> Vec<u8> {
+        file_format.encode(&Picture { format, encoding: None, extent, bytes }).expect("a file")
+    }
+
+    #[test]
+    fn what_was_written_is_read_as_the_same_light() {
+        let file = written(FileFormat::Png, Format::R8G8B8A8_SRGB, [2, 1], &[0, 188, 255, 9, 255, 0, 10, 9]);
+        let light = Light::decode(&file).expect("a picture");
+        assert_eq!((light.extent, light.is_light), ([2, 1], false));
+        assert!((light.texels[0][1] - 0.503).abs() < 1e-3 && light.texels[1][0] == 1.0, "{light:?}");
+        let floats = [0.5_f32, -2.0, f32::INFINITY, 1.0].map(f32::to_ne_bytes).concat();
+        let file = written(FileFormat::OpenExr, Format::R32G32B32A32_SFLOAT, [1, 1], &floats);
+        let light = Light::decode(&file).expect("a picture");
+        assert_eq!(light, Light { extent: [1, 1], texels: vec![[0.5, -2.0, f32::INFINITY]], is_light: true });
+        let grey = written(FileFormat::OpenExr, Format::R32_SFLOAT, [1, 1], &0.25_f32.to_ne_bytes());
+        assert_eq!(Light::decode(&grey).expect("a picture").texels, [[0.25; 3]]);
+        let grey = written(FileFormat::Png, Format::R8_UNORM, [1, 1], &[255]);
+        assert_eq!(Light::decode(&grey).expect("a picture").texels, [[1.0; 3]]);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        let problem = |file: &[u8]| Light::decode(file).expect_err("no picture").to_string();
+        assert_eq!(problem(b"hello"), "it is neither a PNG nor an OpenEXR file");
+        assert_eq!(problem(b""), "it is neither a PNG nor an OpenEXR file");
+        let depth = written(FileFormat::OpenExr, Format::D32_SFLOAT, [1, 1], &0.25_f32.to_ne_bytes());
+        assert!(problem(&depth).starts_with("it has no colours"), "{}", problem(&depth));
+        for file in [depth, written(FileFormat::Png, Format::R8_UNORM, [4, 4], &[7; 16])] {
+            (0..file.len()).for_each(|length| assert!(Light::decode(&file[..length]).is_err(), "{length}"));
+        }
+        assert!(matches!(sized(1 << 15, 1 << 14), Err(DecodingError::TooLarge { .. })));
+        assert!(matches!(sized(u64::MAX, 2), Err(DecodingError::TooLarge { .. })));
+    }
+}
