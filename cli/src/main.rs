@@ -4,6 +4,7 @@ mod command_line;
 mod commands;
 mod error;
 mod files;
+mod measure;
 mod metric;
 mod picture;
 mod planning;
