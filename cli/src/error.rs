@@ -80,6 +80,15 @@ pub(crate) enum Error {
     /// Pictures of different sizes.
     #[error("`{}` is {}, and `{}` is {}: only pictures of one size are compared", text::path(&reference.0), pixels(reference.1), text::path(&picture.0), pixels(picture.1))]
     Sizes { reference: (PathBuf, [usize; 2]), picture: (PathBuf, [usize; 2]) },
+    /// A sweep that can't be measured.
+    #[error("{what}")]
+    Sweep { what: String },
+    /// A folder holds results of something else.
+    #[error(
+        "`{}` holds results of another pipeline, device, baseline or number of frames: name another folder",
+        text::path(folder)
+    )]
+    OtherResults { folder: PathBuf },
     /// A picture that its kind of file can't hold.
     #[error(
         "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
@@ -240,6 +249,8 @@ impl Error {
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
+            | Error::Sweep { .. }
+            | Error::OtherResults { .. }
             | Error::ReadAndWritten { .. }
             | Error::AlreadyExists { .. }
             | Error::NoName { .. }

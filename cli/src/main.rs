@@ -2,6 +2,7 @@
 
 mod command_line;
 mod commands;
+mod drawing;
 mod error;
 mod files;
 mod measure;

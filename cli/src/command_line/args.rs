@@ -1,6 +1,7 @@
 //! The command line: what can be said, and what each word means.
 
 use crate::command_line::comparing::CompareArguments;
+use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::values::{
     Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
 };
@@ -43,6 +44,8 @@ pub(crate) enum Command {
     Facts(FactsArguments),
     /// Print the errors of a picture beside a reference: FLIP, RMSE and others. Needs no GPU.
     Compare(CompareArguments),
+    /// Measure a sweep over settings: time, memory and error of each choice beside a converged reference.
+    Measure(MeasureArguments),
     /// Write a pipeline to begin with.
     New(NewArguments),
     /// Print the language of pipeline files as a JSON Schema (draft 2020-12), or a file as the JSON that the schema describes.
@@ -356,6 +359,7 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
         Command::Check(check) => Some(check.pipeline.limits),
         Command::Inspect(inspect) => Some(inspect.pipeline.limits),
         Command::Run(run) => Some(run.pipeline.limits),
+        Command::Measure(measure) => Some(measure.pipeline.limits),
         _ => None,
     };
     match limits {

@@ -2,5 +2,6 @@
 
 pub(crate) mod args;
 pub(crate) mod comparing;
+pub(crate) mod measuring;
 pub(crate) mod options;
 pub(crate) mod values;

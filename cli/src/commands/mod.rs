@@ -12,6 +12,7 @@ mod schema;
 
 use crate::command_line::args::Command;
 use crate::error::Error;
+use crate::measure;
 use crate::system::Exit;
 
 /// Does what the command line asks for.
@@ -25,6 +26,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Run(arguments) => run::run(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        Command::Measure(arguments) => measure::measure(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Devices(arguments) => devices::devices(arguments),

@@ -77,6 +77,8 @@ pub(crate) struct Measured {
     pub(crate) passes: Vec<PassCost>,
     /// The picture, as a path within the folder.
     pub(crate) picture: Option<String>,
+    /// The reference's picture, as a path within the folder.
+    pub(crate) reference: Option<String>,
     /// The picture of FLIP, as a path within the folder.
     pub(crate) heat_map: Option<String>,
 }

@@ -14,7 +14,7 @@ pub(crate) use flip::{Exposures, PIXELS_PER_DEGREE};
 use framewright_passes::srgb;
 pub(crate) use heat_map::heat_map;
 use plane::Plane;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Added to the square of the reference, so that dark pixels don't decide the relative error.
 const RELATIVE_FLOOR: f64 = 0.01;
@@ -37,7 +37,8 @@ pub(crate) enum Metric {
 }
 
 /// FLIP over a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct FlipErrors {
     /// Those of HDR-FLIP; `None` for pictures of light from 0 to 1, which a display shows as they are.
     pub(crate) exposures: Option<Exposures>,
@@ -52,7 +53,8 @@ pub(crate) struct FlipErrors {
 }
 
 /// The errors of a picture.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Errors {
     /// FLIP.
     pub(crate) flip: FlipErrors,

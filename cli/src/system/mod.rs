@@ -1,5 +1,6 @@
 //! The process around a command: exit codes, signals, symbolic links, printed text and progress bars.
 
+pub(crate) mod counted;
 mod exit;
 pub(crate) mod interrupt;
 pub(crate) mod links;

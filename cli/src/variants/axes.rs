@@ -132,7 +132,7 @@ fn fixed(pipeline: &Document, set: &[(String, String)]) -> Vec<(String, String)>
 }
 
 /// A value as the command line has it; numbers so that they read as the very same.
-fn text(value: &Value) -> String {
+pub(crate) fn text(value: &Value) -> String {
     match value {
         Value::Number(number) => format!("{number:?}"),
         Value::Text(text) => text.to_string(),
@@ -141,7 +141,7 @@ fn text(value: &Value) -> String {
 }
 
 /// Values of a setting that are tried, the default first.
-fn values(kind: &SettingKind) -> Vec<String> {
+pub(crate) fn values(kind: &SettingKind) -> Vec<String> {
     match kind {
         SettingKind::Bool { default } => vec![default.to_string(), (!default).to_string()],
         SettingKind::OneOf { default, of } => first(default.to_string(), of.iter().map(i64::to_string)),

@@ -6,17 +6,16 @@
 //!
 //! Variants that agree on all settings and facts that are read share one verdict (`decisions`).
 
-mod axes;
+pub(crate) mod axes;
 mod axis;
 mod causes;
 mod checker;
-mod cover;
+pub(crate) mod cover;
 mod decisions;
 mod facts;
 mod identity;
 mod mentions;
 mod minimise;
-mod progress;
 mod report;
 mod run;
 mod shaders;
@@ -26,19 +25,20 @@ mod summary;
 use crate::command_line::args::{AnswerFormat, CheckArguments};
 use crate::error::Error;
 use crate::planning::{self, Loaded, View, device};
+use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
 use checker::{CheckedPipeline, VariantChecker};
 use decisions::SharedDecisions;
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
-use progress::Progress;
 use report::Report;
 use shaders::SharedShaders;
 use space::Space;
 use std::ffi::OsStr;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 /// Checks all variants of a pipeline.
 ///
@@ -92,7 +92,8 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let library = Mutex::new(shaders);
     let decisions = SharedDecisions::of(subject.devices.len());
     let threads = arguments.threads.map_or_else(processors, usize::from);
-    let progress = Progress::new(space.len());
+    let words = Words { doing: "checking", done: "checked", things: "variants" };
+    let progress = Progress::new(space.len(), words, Duration::from_secs(5));
     let mut found = run::run(&subject, &space, &library, &decisions, threads, &progress);
     progress.finish();
     let failures = std::mem::take(&mut found.failures);

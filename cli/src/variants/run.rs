@@ -4,9 +4,9 @@ use super::axes;
 use super::checker::{CheckedPipeline, VariantChecker, VerifiedPlan};
 use super::decisions::SharedDecisions;
 use super::identity::Identity;
-use super::progress::Progress;
 use super::shaders::SharedShaders;
 use super::space::Space;
+use crate::system::counted::Progress;
 use crate::system::interrupt;
 use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::plan::Totals;
@@ -108,7 +108,7 @@ pub(crate) fn run(
                     return found;
                 }
                 found.add(Example { departures, number }, axes::device(&choice), verdict);
-                progress.checked_one();
+                progress.done_one();
             }
         }
     };

@@ -7,7 +7,7 @@ use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::textures::Textures;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Scene, limits};
-use framewright_graph::frame::{Draw, DrawList, Eye};
+use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
 use framewright_graph::plan::{Plan, View, ViewId, Work};
 use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
 use std::collections::BTreeMap;
@@ -150,6 +150,18 @@ impl SceneDrawSource {
                 view.jitter = jitter;
                 seen.shift(&self.device, &self.outline, view, self.frame)?;
             }
+        }
+        Ok(())
+    }
+
+    /// Has the pictures of all views shifted so, instead of as the Plan says. Frames in flight keep what they are drawn from.
+    ///
+    /// # Errors
+    /// No memory.
+    pub fn set_jitter(&mut self, jitter: &Jitter) -> Result<(), Error> {
+        for (view, seen) in &mut self.views {
+            view.jitter = Some(jitter.clone());
+            seen.shift(&self.device, &self.outline, view, self.frame)?;
         }
         Ok(())
     }

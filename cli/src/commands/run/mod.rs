@@ -1,12 +1,11 @@
 //! `framewright run`: draws a scene through a pipeline.
 
-mod diagnostics;
 mod layer;
-mod pictures;
 mod report;
-mod timings;
 
 use crate::command_line::args::RunArguments;
+use crate::drawing::pictures::{EncodedPicture, PictureRequest};
+use crate::drawing::{Prepared, diagnostics, pictures, timings};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
@@ -16,10 +15,8 @@ use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Image, Lifetime, Stereo};
 use framewright_graph::plan::{Stage, Totals};
 use framewright_graph::vulkan::Layout;
-use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, FrameReport};
-use pictures::{EncodedPicture, PictureRequest};
+use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
 use report::{Report, Validation};
 use std::path::Path;
 
@@ -176,24 +173,19 @@ fn draw(
     scene: &Scene,
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
-    let size = [arguments.size.width, arguments.size.height];
-    let mut source = SceneDrawSource::for_plan(device, scene, size, &planned.plan)?;
     let options = ExecutorOptions { poison: arguments.planning.poison, timestamps: true, ..ExecutorOptions::default() };
-    let Loaded { shaders, textures, .. } = pipeline;
-    let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)
-        .map_err(|problem| diagnostics::texture(&planned.frame, problem))?;
+    let mut prepared = Prepared::new(device, planned, pipeline, scene, arguments.size, &options)?;
     let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        let frame = executor.frame(&mut source).and_then(|frame| executor.report(frame)).map_err(Error::from);
-        frames.push(frame.map_err(interrupted(drawn, arguments.frames))?);
+        frames.push(prepared.draw().map_err(interrupted(drawn, arguments.frames))?);
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let pictures = requests.iter().map(|request| request.encode(&mut executor, &planned.plan));
+    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, &planned.plan));
     let pictures = pictures.collect::<Result<Vec<_>, _>>().map_err(interrupted(arguments.frames, arguments.frames))?;
     if interrupt::asked() {
         return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });

@@ -1,6 +1,6 @@
 //! The report of a run: a table for people, JSON for programs.
 
-use crate::commands::run::timings::{Row, WorkKind};
+use crate::drawing::timings::{Row, WorkKind};
 use crate::system::text;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};

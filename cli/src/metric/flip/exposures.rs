@@ -1,10 +1,11 @@
 //! The exposures of HDR-FLIP, and the tone curve under which they are compared.
 
 use super::color::luminance;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The exposures under which two pictures are compared, in stops.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Exposures {
     /// The brightest pixel of the reference is just below white.
     pub(crate) first: f64,

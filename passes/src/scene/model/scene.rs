@@ -5,6 +5,7 @@ use super::camera::{Camera, NamedCamera};
 use super::light::{PointLight, Sky, Sun};
 use super::material::{AlphaMode, Material, Texture};
 use super::mesh::Mesh;
+use super::movement::Movement;
 use super::object::Object;
 use framewright_graph::frame::DrawList;
 
@@ -84,6 +85,16 @@ impl Scene {
         for camera in &mut scene.cameras {
             camera.camera = camera.camera.at(frame);
         }
+        scene
+    }
+
+    /// The scene as it stands at a frame, in which nothing moves any more.
+    #[must_use]
+    pub fn still_at(&self, frame: u64) -> Scene {
+        let mut scene = self.at(frame);
+        let cameras = scene.cameras.iter_mut().map(|camera| &mut camera.camera.movement);
+        let objects = scene.objects.iter_mut().map(|object| &mut object.movement);
+        objects.chain(cameras).chain([&mut scene.camera.movement]).for_each(|movement| *movement = Movement::default());
         scene
     }
 

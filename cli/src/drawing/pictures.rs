@@ -13,13 +13,13 @@ use framewright_vulkan::{Executor, Texels};
 use std::path::{Path, PathBuf};
 
 /// A picture that is ready to be written.
-pub(super) struct EncodedPicture {
-    pub(super) path: PathBuf,
-    pub(super) contents: Vec<u8>,
+pub(crate) struct EncodedPicture {
+    pub(crate) path: PathBuf,
+    pub(crate) contents: Vec<u8>,
 }
 
 /// A picture that the command line asks for.
-pub(super) struct PictureRequest<'a> {
+pub(crate) struct PictureRequest<'a> {
     /// The output's number, or those of both eyes.
     outputs: Vec<usize>,
     /// Whether the image has a layer for each eye.
@@ -33,7 +33,7 @@ pub(super) struct PictureRequest<'a> {
 
 impl PictureRequest<'_> {
     /// Reads the outputs back and encodes them, and says what the picture loses.
-    pub(super) fn encode(&self, executor: &mut Executor, plan: &Plan) -> Result<EncodedPicture, Error> {
+    pub(crate) fn encode(&self, executor: &mut Executor, plan: &Plan) -> Result<EncodedPicture, Error> {
         let texels = self.outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
         let eyes = texels.into_iter().flat_map(|texels| if self.in_layers { layers(texels) } else { vec![texels] });
         let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes.collect());
@@ -52,7 +52,7 @@ impl PictureRequest<'_> {
 ///
 /// # Errors
 /// If there is no image to write, or the file's format can't hold it.
-pub(super) fn requests<'a>(
+pub(crate) fn requests<'a>(
     arguments: &'a RunArguments,
     planned: &'a Planned,
 ) -> Result<Vec<PictureRequest<'a>>, Error> {
@@ -95,6 +95,20 @@ pub(super) fn requests<'a>(
         }
     }
     Ok(requests)
+}
+
+/// The picture of the first output, those of both eyes side by side; `None` if it is no image. Floating-point images become OpenEXR
+/// files, all others PNG files.
+pub(crate) fn of_first_output(planned: &Planned) -> Option<PictureRequest<'_>> {
+    let plan::Resource::Image(image) = planned.plan.outputs.first()?.resource else { return None };
+    let image = planned.plan.image(image);
+    let (file_format, path) = match FileFormat::OpenExr.holds(image.format) && !image.format.is_depth() {
+        true => (FileFormat::OpenExr, "picture.exr"),
+        false => (FileFormat::Png, "picture.png"),
+    };
+    let in_layers = image.eyes == Some(EyeForm::Layers);
+    let (outputs, path) = (of_both_eyes(&planned.frame, 0), Path::new(path));
+    Some(PictureRequest { outputs, in_layers, name: &image.name, path, file_format })
 }
 
 /// The output with the name, or else those of both eyes.

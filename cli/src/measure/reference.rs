@@ -1,0 +1,123 @@
+//! The picture that choices are held against: the same pipeline under its preset `reference`, drawn many times, each time shifted by
+//! another part of a texel, and averaged.
+
+use crate::command_line::values::Size;
+use crate::drawing::{Prepared, pictures};
+use crate::error::Error;
+use crate::picture::Light;
+use crate::planning::{Loaded, Planned};
+use crate::system::interrupt;
+use framewright_graph::frame::{Draw, Jitter, LONGEST_JITTER};
+use framewright_graph::plan::{Plan, Work};
+use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, ExecutorOptions};
+
+/// A reference has at least this many samples for each pixel of the output.
+pub(crate) const LEAST_SAMPLES: u32 = 64;
+/// A reference is drawn at least this often, so that half of it is one too.
+const LEAST_FRAMES: u16 = 16;
+
+/// A reference, and the one of its first half.
+#[derive(Debug)]
+pub(crate) struct Reference {
+    pub(crate) picture: Light,
+    /// Half as many samples: its distance from the whole bounds the error that the whole has itself.
+    pub(crate) of_half: Light,
+}
+
+/// Draws a reference.
+///
+/// # Errors
+/// Those of drawing; Ctrl-C.
+pub(crate) fn draw(
+    device: &Device,
+    planned: &Planned,
+    pipeline: &mut Loaded,
+    scene: &Scene,
+    size: Size,
+) -> Result<Option<Reference>, Error> {
+    let Some(request) = pictures::of_first_output(planned) else { return Ok(None) };
+    let mut prepared = Prepared::new(device, planned, pipeline, scene, size, &ExecutorOptions::default())?;
+    let (extent, samples) = drawn(&planned.plan, size);
+    let frames = frames(extent, samples, size);
+    // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
+    prepared.source.set_jitter(&Jitter::halton(frames, extent))?;
+    let mut sum: Option<Sum> = None;
+    let mut of_half = None;
+    for frame in 0..frames {
+        if interrupt::asked() {
+            return Err(Error::Interrupted { frames: frame.into(), wanted: frames.into() });
+        }
+        prepared.executor.frame(&mut prepared.source)?;
+        let file = request.encode(&mut prepared.executor, &planned.plan)?;
+        let light = Light::decode(&file.contents).map_err(|problem| Error::NoLight { path: file.path, problem })?;
+        sum.get_or_insert_with(|| Sum::of_nothing(&light)).add(&light);
+        if frame + 1 == frames / 2 {
+            of_half = sum.as_ref().map(Sum::mean);
+        }
+    }
+    Ok(sum.zip(of_half).map(|(sum, of_half)| Reference { picture: sum.mean(), of_half }))
+}
+
+/// Size and samples of the largest target that objects are drawn into.
+fn drawn(plan: &Plan, size: Size) -> ([u32; 2], u32) {
+    let scopes = plan.steps.iter().filter_map(|step| match &step.work {
+        Work::Render(scope) => Some(scope),
+        _ => None,
+    });
+    let of_objects = scopes.filter(|scope| {
+        !scope.color.is_empty() && scope.passes.iter().any(|pass| matches!(pass.draw, Some(Draw::Objects(_))))
+    });
+    let largest = of_objects.max_by_key(|scope| u64::from(scope.extent[0]) * u64::from(scope.extent[1]));
+    largest.map_or(([size.width, size.height], 1), |scope| (scope.extent, scope.samples))
+}
+
+/// How often the reference is drawn.
+fn frames([width, height]: [u32; 2], samples: u32, size: Size) -> u16 {
+    let texels = f64::from(width) * f64::from(height) / (f64::from(size.width) * f64::from(size.height));
+    let frames = f64::from(LEAST_SAMPLES) / (texels * f64::from(samples)).max(f64::MIN_POSITIVE);
+    // An even number: half of it is compared with all.
+    (frames.ceil().min(LONGEST_JITTER.into()) as u16).max(LEAST_FRAMES).next_multiple_of(2)
+}
+
+/// Light that is added up.
+struct Sum {
+    extent: [usize; 2],
+    is_light: bool,
+    light: Vec<[f64; 3]>,
+    frames: f64,
+}
+
+impl Sum {
+    fn of_nothing(like: &Light) -> Sum {
+        Sum { extent: like.extent, is_light: like.is_light, light: vec![[0.0; 3]; like.texels.len()], frames: 0.0 }
+    }
+
+    fn add(&mut self, light: &Light) {
+        for (sum, texel) in self.light.iter_mut().zip(&light.texels) {
+            sum.iter_mut().zip(texel).for_each(|(sum, light)| *sum += f64::from(*light));
+        }
+        self.frames += 1.0;
+    }
+
+    fn mean(&self) -> Light {
+        #[allow(clippy::cast_possible_truncation, reason = "light is kept with as many bits as shaders have")]
+        let texels = self.light.iter().map(|sum| sum.map(|sum| (sum / self.frames) as f32)).collect();
+        Light { extent: self.extent, texels, is_light: self.is_light }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reference_has_enough_samples_and_an_even_number_of_frames() {
+        let size = Size { width: 100, height: 50 };
+        assert_eq!(frames([100, 50], 1, size), 64);
+        assert_eq!(frames([100, 50], 4, size), 16);
+        assert_eq!(frames([400, 200], 1, size), 16);
+        assert_eq!(frames([50, 25], 1, size), 256);
+        assert_eq!(frames([130, 50], 1, size), 50);
+    }
+}

@@ -1,0 +1,145 @@
+//! The choices of a sweep, put into words that the pipeline, the scene and the output understand.
+
+use super::digest::Digest;
+use super::sweep::{self, Combined, Sweep};
+use crate::command_line::measuring::MeasureArguments;
+use crate::command_line::values::{self, Modes, Size};
+use crate::error::Error;
+use crate::files::inputs;
+use crate::planning::Loaded;
+use crate::system::text;
+use crate::variants::axes;
+use framewright_graph::base::ReadFiles;
+use framewright_passes::scene::Scene;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// The preset whose settings decide how right a picture is. All other settings decide how it looks.
+pub(crate) const REFERENCE: &str = "reference";
+/// Sweeps of things that are no settings.
+pub(crate) const SIZE: &str = "@size";
+pub(crate) const SCENE: &str = "@scene";
+pub(crate) const STEREO: &str = "@stereo";
+
+/// A scene that choices are drawn with.
+#[derive(Debug)]
+pub(crate) struct Subject {
+    pub(crate) file: String,
+    pub(crate) digest: String,
+    /// As it stands at its first frame.
+    pub(crate) scene: Scene,
+}
+
+/// A choice of a sweep.
+#[derive(Debug, Clone)]
+pub(crate) struct Choice {
+    /// The values that the sweep chose, by name.
+    pub(crate) values: BTreeMap<String, String>,
+    pub(crate) scene: Rc<Subject>,
+    pub(crate) size: Size,
+    pub(crate) stereo: Modes,
+}
+
+impl Choice {
+    /// The settings among its values.
+    pub(crate) fn settings(&self) -> impl Iterator<Item = (String, String)> + '_ {
+        let settings = self.values.iter().filter(|(name, _)| !name.starts_with('@'));
+        settings.map(|(name, value)| (name.clone(), value.clone()))
+    }
+
+    /// A name for its files, other than that of every other choice.
+    pub(crate) fn key(&self) -> String {
+        let values = self.values.iter().flat_map(|(name, value)| [&**name, &**value]);
+        let rest = [self.scene.digest.clone(), self.size.to_string(), format!("{:?}", self.stereo)];
+        Digest::of(values.chain(rest.iter().map(|it| &**it)))
+    }
+}
+
+/// All choices that the command line asks for, and the one without any sweep.
+///
+/// # Errors
+/// Names of no settings, values of no size or way, scenes that can't be read; too many choices.
+pub(crate) fn choices(
+    arguments: &MeasureArguments,
+    pipeline: &Loaded,
+    read: &ReadFiles,
+) -> Result<(Choice, Vec<Choice>), Error> {
+    let wrong = |what: String| Error::Sweep { what };
+    let (sweeps, combined) = match (arguments.sweep.is_empty(), arguments.pairwise) {
+        (true, _) => (of_reference(pipeline), Combined::OneByOne),
+        (false, true) => (arguments.sweep.clone(), Combined::Pairwise),
+        (false, false) => (arguments.sweep.clone(), Combined::All),
+    };
+    if sweeps.is_empty() {
+        return Err(wrong(format!(
+            "the pipeline has no preset `{REFERENCE}`, whose settings are swept: name some by --sweep"
+        )));
+    }
+    let settings = &pipeline.pipeline.settings;
+    for (at, Sweep { name, .. }) in sweeps.iter().enumerate() {
+        if sweeps[..at].iter().any(|other| other.name == *name) {
+            return Err(wrong(format!("`{}` is swept twice", text::escape(name))));
+        }
+        if ![SIZE, SCENE, STEREO].contains(&&**name) && settings.iter().all(|it| *it.name.text != **name) {
+            let known = settings.iter().map(|it| &*it.name.text).chain([SIZE, SCENE, STEREO]);
+            let known = text::escape(&known.collect::<Vec<_>>().join(", "));
+            return Err(wrong(format!("the pipeline has no setting `{}`; there are {known}", text::escape(name))));
+        }
+    }
+    let count = sweep::count(&sweeps, combined);
+    if count > sweep::MOST_CHOICES as u128 {
+        return Err(wrong(format!(
+            "the sweep has {count} choices, and at most {} are measured: sweep fewer values, or add --pairwise",
+            sweep::MOST_CHOICES
+        )));
+    }
+    let mut scenes: BTreeMap<PathBuf, Rc<Subject>> = BTreeMap::new();
+    let mut scene = |path: &Path| -> Result<Rc<Subject>, Error> {
+        if let Some(known) = scenes.get(path) {
+            return Ok(Rc::clone(known));
+        }
+        let still = inputs::scene(path, read)?.still_at(0);
+        let (file, digest) = (path.to_string_lossy().into_owned(), Digest::of_value(&still));
+        let subject = Rc::new(Subject { file, digest, scene: still });
+        scenes.insert(path.to_owned(), Rc::clone(&subject));
+        Ok(subject)
+    };
+    let baseline = Choice {
+        values: BTreeMap::new(),
+        scene: scene(&arguments.scene)?,
+        size: arguments.size,
+        stereo: arguments.pipeline.stereo.clone(),
+    };
+    let mut choices = Vec::new();
+    for values in sweep::choices(&sweeps, combined) {
+        let mut choice = Choice { values, ..baseline.clone() };
+        if let Some(size) = choice.values.get(SIZE) {
+            choice.size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;
+        }
+        if let Some(stereo) = choice.values.get(STEREO) {
+            choice.stereo = values::stereo(stereo).map_err(|problem| wrong(format!("{STEREO}: {problem}")))?;
+        }
+        if let Some(file) = choice.values.get(SCENE) {
+            choice.scene = scene(Path::new(file))?;
+        }
+        choices.push(choice);
+    }
+    Ok((baseline, choices))
+}
+
+/// A sweep over each setting that the preset `reference` names.
+fn of_reference(pipeline: &Loaded) -> Vec<Sweep> {
+    let settings = &pipeline.pipeline.settings;
+    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE);
+    let named = preset.into_iter().flat_map(|preset| &preset.set).filter_map(|chosen| settings.get(chosen.setting));
+    named.map(|it| Sweep { name: it.name.text.to_string(), values: axes::values(&it.kind) }).collect()
+}
+
+/// The settings of the preset `reference`; `None` if there is no such preset.
+pub(crate) fn reference_settings(pipeline: &Loaded) -> Option<Vec<(String, String)>> {
+    let settings = &pipeline.pipeline.settings;
+    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE)?;
+    let named = preset.set.iter().filter_map(|chosen| Some((settings.get(chosen.setting)?, &chosen.value)));
+    Some(named.map(|(setting, value)| (setting.name.text.to_string(), axes::text(value))).collect())
+}
