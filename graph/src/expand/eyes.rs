@@ -9,11 +9,13 @@ mod at_once;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Allowances, Eye, EyeForm, ImageIndex, Remark, Resource, Stereo, ViewEye, ViewIndex};
 use crate::language::{
-    self, Draw, Forward, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
+    self, Draw, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View,
+    Work,
 };
 use crate::ron::{Name, Spanned};
 use at_once::Apart;
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// The eyes that a pass runs for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +49,7 @@ pub(super) fn split(
     let own = own(&pipeline);
     let before = errors.len();
     let (mut none, mut for_one) = (Vec::new(), Vec::new());
-    let mut of_pass = |pass: &mut Pass| {
+    let mut of_pass = |pass: &Arc<Pass>| {
         if pass.off.is_some() && stereo != Stereo::Off {
             handed_on_once(&own, pass, &pipeline.images, errors);
         }
@@ -68,14 +70,14 @@ pub(super) fn split(
         }));
         found
     };
-    let whose: Vec<For> = pipeline.passes.iter_mut().map(&mut of_pass).collect();
+    let whose: Vec<For> = pipeline.passes.iter().map(&mut of_pass).collect();
     let mut remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
     if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
         return (pipeline, remarks);
     }
     let apart = form.map(|form| Apart::of(&pipeline, &own, &whose, stereo, form));
     remarks.extend(apart.iter().flat_map(|apart| images_apart(apart, &pipeline)));
-    let at_once = |pass: &Pass| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, stereo));
+    let at_once = |pass: &Arc<Pass>| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, stereo));
     let at_once: Vec<bool> = pipeline.passes.iter().map(at_once).collect();
     let views = views(&mut pipeline, extent);
     let both =
@@ -85,10 +87,13 @@ pub(super) fn split(
     pipeline.passes = passes
         .into_iter()
         .zip(whose.into_iter().zip(at_once))
-        .flat_map(|(pass, whose)| match whose {
-            (For::Each, true) | (For::Both, _) => vec![of_eye(&images, &views, pass, None, false)],
-            (For::One(eye), _) => vec![of_eye(&images, &views, pass, Some(eye), false)],
-            (For::Each, false) => Eye::BOTH.map(|eye| of_eye(&images, &views, pass.clone(), Some(eye), true)).into(),
+        .flat_map(|(pass, whose)| {
+            let of_eye = |eye, twice| Arc::new(of_eye(&images, &views, Pass::clone(&pass), eye, twice));
+            match whose {
+                (For::Each, true) | (For::Both, _) => vec![of_eye(None, false)],
+                (For::One(eye), _) => vec![of_eye(Some(eye), false)],
+                (For::Each, false) => Eye::BOTH.map(|eye| of_eye(Some(eye), true)).into(),
+            }
         })
         .collect();
     let outputs = std::mem::take(&mut pipeline.outputs);
@@ -99,7 +104,7 @@ pub(super) fn split(
 /// Images that are one for each eye where both are drawn at once, and why.
 fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
     let images = pipeline.images.iter().enumerate();
-    let remark = |(at, image): (usize, &language::Image)| {
+    let remark = |(at, image): (usize, &Arc<Image>)| {
         let why = apart.why(at)?;
         let text = format!("is drawn for one eye after the other: {why}");
         Some(Remark { subject: image.name.text.clone(), span: image.name.span, text, instead: false })
@@ -152,34 +157,51 @@ fn own(pipeline: &Pipeline) -> Vec<bool> {
 }
 
 /// Shows every part of an image that a pass names, and whether the pass writes it.
-fn visit<'p>(pass: &'p mut Pass, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
-    let left_out = pass.left_out.iter_mut().filter_map(|left_out| left_out.sample.as_mut());
-    pass.sample.iter_mut().chain(left_out).for_each(|sample| see(&mut sample.part, false));
-    for storage in &mut pass.storage {
+fn visit<'p>(pass: &'p Pass, see: &mut dyn FnMut(&'p ImagePart, bool)) {
+    let left_out = pass.left_out.iter().filter_map(|left_out| left_out.sample.as_ref());
+    pass.sample.iter().chain(left_out).for_each(|sample| see(&sample.part, false));
+    for storage in &pass.storage {
         let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-        of_part(&mut storage.part, !reads, see);
+        of_part(&storage.part, !reads, see);
     }
-    pass.color.iter_mut().for_each(|color| see(&mut color.part, true));
-    pass.depth.iter_mut().for_each(|depth| see(&mut depth.part, true));
-    match &mut pass.work {
+    pass.color.iter().for_each(|color| see(&color.part, true));
+    pass.depth.iter().for_each(|depth| see(&depth.part, true));
+    match &pass.work {
         Work::Copy { from, to } | Work::Blit { from, to, .. } => {
             of_part(from, false, see);
             of_part(to, true, see);
         }
         Work::Fill { to, .. } => of_part(to, true, see),
         Work::Custom { reads, writes, .. } => {
-            reads.iter_mut().for_each(|part| of_part(part, false, see));
-            writes.iter_mut().for_each(|part| of_part(part, true, see));
+            reads.iter().for_each(|part| of_part(part, false, see));
+            writes.iter().for_each(|part| of_part(part, true, see));
         }
         // Of an image that workgroups are counted by, only the size matters. It is the same for both eyes.
         Work::Dispatch { .. } | Work::Draw { .. } => {}
     }
 }
 
-fn of_part<'p>(part: &'p mut Part, write: bool, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
+fn of_part<'p>(part: &'p Part, write: bool, see: &mut dyn FnMut(&'p ImagePart, bool)) {
     if let Part::Image(part) = part {
         see(part, write);
     }
+}
+
+/// The parts of images that [`visit`] shows, to be changed.
+fn parts_mut(pass: &mut Pass) -> impl Iterator<Item = &mut ImagePart> {
+    let Pass { sample, left_out, storage, color, depth, work, .. } = pass;
+    let transfers: Vec<&mut Part> = match work {
+        Work::Copy { from, to } | Work::Blit { from, to, .. } => vec![from, to],
+        Work::Fill { to, .. } => vec![to],
+        Work::Custom { reads, writes, .. } => reads.iter_mut().chain(writes).collect(),
+        Work::Dispatch { .. } | Work::Draw { .. } => Vec::new(),
+    };
+    let left_out = left_out.iter_mut().filter_map(|left_out| left_out.sample.as_mut());
+    let sampled = sample.iter_mut().chain(left_out).map(|sample| &mut sample.part);
+    let targets = color.iter_mut().map(|color| &mut color.part).chain(depth.as_mut().map(|depth| &mut depth.part));
+    let others = storage.iter_mut().map(|storage| &mut storage.part).chain(transfers);
+    let others = others.filter_map(|part| if let Part::Image(part) = part { Some(part) } else { None });
+    sampled.chain(targets).chain(others)
 }
 
 /// Where buffers are named that a pass writes: both eyes share them.
@@ -200,7 +222,7 @@ fn written_buffers(pass: &Pass) -> impl Iterator<Item = Span> {
 }
 
 /// Says where an eye of something is named that both share.
-fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) {
+fn foreign_eyes(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) {
     visit(pass, &mut |part, _| {
         let at = part.image.index.0 as usize;
         if part.eye.is_some() && !own[at] {
@@ -215,7 +237,7 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[language::Image], error
 }
 
 /// Reports an image of each eye that would take the place of an image that both eyes share: the eye would be unknown.
-fn handed_on_once(own: &[bool], pass: &Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) {
+fn handed_on_once(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) {
     for stand_in in &pass.otherwise {
         let StandIn::Forward(Forward { from, to }) = stand_in else { continue };
         let [from_own, to_own] = [from, to].map(|image| own[image.index.0 as usize]);
@@ -229,9 +251,10 @@ fn handed_on_once(own: &[bool], pass: &Pass, images: &[language::Image], errors:
 }
 
 /// The eyes that a pass runs for. Reports contradictions.
-fn whose(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) -> For {
-    let name = pass.name.text.clone();
-    let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|span| (None, span)).collect();
+fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) -> For {
+    let name = &pass.name.text;
+    // The first that both eyes would write.
+    let mut shared: Option<(Option<&Name>, Span)> = written_buffers(pass).next().map(|span| (None, span));
     let (mut read, mut written, mut eyes) = (None, None, Vec::new());
     visit(pass, &mut |part, write| {
         let at = part.image.index.0 as usize;
@@ -239,15 +262,15 @@ fn whose(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut
             (true, None, true) => written = written.or(Some(part.image)),
             (true, None, false) => read = read.or(Some(part.image)),
             (true, Some(eye), true) => eyes.push((eye.value, part.image)),
-            (false, _, true) => shared.push((Some(images[at].name.clone()), part.image.span)),
+            (false, _, true) => shared = shared.or(Some((Some(&images[at].name), part.image.span))),
             (false, _, false) | (true, Some(_), false) => {}
         }
     });
     let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
-    match (written, eyes.first(), shared.first(), read) {
+    match (written, eyes.first(), shared, read) {
         (Some(written), _, Some((shared, span)), _) => {
             let message = format!("pass `{name}` runs once for each eye, and both would write this");
-            let wrong = Diagnostic::new(*span, message);
+            let wrong = Diagnostic::new(span, message);
             let wrong = wrong.label(written.span, "each eye has its own");
             errors.push(wrong.help(match shared {
                 Some(image) => format!("say `per_eye: true` of `{}`, or write it in a pass of its own", image.text),
@@ -264,14 +287,14 @@ fn whose(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut
         }
         (Some(_), None, None, _) => For::Each,
         (None, Some((eye, _)), None, _) if eyes.iter().all(|(other, _)| other == eye) => For::One(*eye),
-        (None, _, _, Some(read)) if !eyes.is_empty() || !shared.is_empty() => {
+        (None, _, _, Some(read)) if !eyes.is_empty() || shared.is_some() => {
             let message = format!("pass `{name}` runs once, and each eye has a `{}` of its own", image(read));
             let mut wrong = Diagnostic::new(read.span, message);
-            let target = shared.first().map(|(_, span)| *span).or_else(|| eyes.first().map(|(_, image)| image.span));
+            let target = shared.map(|(_, span)| span).or_else(|| eyes.first().map(|(_, image)| image.span));
             if let Some(target) = target {
                 wrong = wrong.label(target, "what it writes is there once");
             }
-            let shared = shared.first().and_then(|(name, _)| name.as_ref());
+            let shared = shared.and_then(|(name, _)| name);
             let own = shared.map_or_else(String::new, |name| format!("say `per_eye: true` of `{}`, or ", name.text));
             errors.push(wrong.help(format!("{own}read one eye's: `Eye(Left, \"{}\")`", image(read))));
             For::Both
@@ -305,14 +328,14 @@ fn images(pipeline: &mut Pipeline, both: Vec<bool>, own: Vec<bool>, form: Option
     let mut right: Vec<ImageIndex> = (0..own.len()).map(|at| ImageIndex(index(at))).collect();
     for (at, _) in own.iter().enumerate().filter(|(_, own)| **own) {
         if both[at] {
-            pipeline.images[at].eyes = form;
+            Arc::make_mut(&mut pipeline.images[at]).eyes = form;
             continue;
         }
-        let mut image = pipeline.images[at].clone();
+        let mut image = Image::clone(&pipeline.images[at]);
         right[at] = ImageIndex(index(pipeline.images.len()));
         image.name.text = Eye::Right.named(&image.name.text);
-        pipeline.images.push(image);
-        let left = &mut pipeline.images[at].name.text;
+        pipeline.images.push(Arc::new(image));
+        let left = &mut Arc::make_mut(&mut pipeline.images[at]).name.text;
         *left = Eye::Left.named(left);
     }
     Images { own, right, both }
@@ -351,14 +374,14 @@ impl Images {
 
 /// A pass as it is for an eye, by a name of its own if it runs for the other one too.
 fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option<Eye>, twice: bool) -> Pass {
-    visit(&mut pass, &mut |part, _| {
+    for part in parts_mut(&mut pass) {
         let eye = part.eye.map(|eye| eye.value).or(eye);
         // Of one for both it is the part that counts.
         if images.both[part.image.index.0 as usize] {
             part.eye = eye.map(|value| Spanned { value, span: part.image.span });
         }
         images.of(eye, &mut part.image);
-    });
+    }
     for stand_in in &mut pass.otherwise {
         match stand_in {
             StandIn::Forward(Forward { from, to }) => {

@@ -127,7 +127,7 @@ fn expand_so(
     match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
         (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(&document.settings, &values);
-            let passes = states.into_iter().flat_map(State::into_passes).collect();
+            let passes = State::into_passes(states);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
             let remarks = [shared, views::remarks(&pipeline), kept].concat();

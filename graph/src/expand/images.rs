@@ -3,9 +3,9 @@
 use super::follow::follow_all;
 use super::shapes;
 use crate::base::Diagnostic;
-use crate::frame::{self, Image};
+use crate::frame::{self, Image, Lifetime};
 use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Pipeline, Resolves, Samples, Size};
-use crate::vulkan::Format;
+use crate::vulkan::{Format, Rotation, Shape};
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
@@ -24,7 +24,7 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
             Described::Like(of) => Some(index(of)),
             _ => None,
         },
-        format,
+        |image, followed| format(image, followed),
     );
     let areas = follow_all(
         images,
@@ -44,7 +44,7 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
             Samples::Like(of) => Some(index(of)),
             Samples::Count(_) => None,
         },
-        samples,
+        |image, followed| samples(image, followed),
     );
     let layers = follow_all(
         images,
@@ -52,7 +52,7 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
             Layers::Like(of) => Some(index(of)),
             _ => None,
         },
-        shapes::layers,
+        |image, followed| shapes::layers(image, followed),
     );
     let mips = follow_all(
         images,
@@ -70,8 +70,22 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
     let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), area), samples), layers), mips)| {
         let (language::Area { extent: [width, height], allocated }, (samples, samples_because)) = (area?, samples?);
-        let plain = Image::new(&described.name.text, format?, width, height);
-        let image = Image { span: described.name.span, samples, allocated, eyes: described.eyes, ..plain };
+        let image = Image {
+            name: described.name.text.clone(),
+            span: described.name.span,
+            format: format?,
+            shape: Shape::D2,
+            extent: [width, height, 1],
+            allocated,
+            rotation: Rotation::Identity,
+            eyes: described.eyes,
+            mips: 1,
+            layers: 1,
+            samples,
+            resolve: None,
+            chosen: None,
+            lifetime: Lifetime::Transient,
+        };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(FrameImage { image, samples_because })

@@ -20,17 +20,18 @@ pub(super) fn lower(
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
     let variant = variant::of(resources, pass);
-    let interface = shaders.interface(pass, &variant, errors);
+    let path = shaders.find(pass, errors);
+    let interface = path.as_ref().and_then(|path| shaders.found_interface(pass, path, &variant, errors));
     let mut lowered = draft(resources, pass, interface.as_ref(), errors);
     if let Work::Draw { shader, .. } | Work::Dispatch { shader, .. } = &mut lowered.work
-        && let Some(found) = shaders.find(pass, &mut Vec::new())
+        && let Some(found) = &path
     {
-        *shader = found;
+        *shader = found.clone();
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
-    if let Some(interface) = &interface {
+    if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
-        supplied::check(shaders, pass, interface, errors);
+        supplied::check(shaders, pass, (path, interface), errors);
         let before = errors.len();
         let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
@@ -59,14 +60,25 @@ pub(super) fn draft(
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
     let raster = !pass.color.is_empty() || pass.depth.is_some();
-    let mut lowered = Pass::new(&pass.name.text, work::lower(resources, pass, interface));
-    lowered.span = pass.name.span;
-    lowered.view = pass.view;
-    lowered.side_effect = pass.side_effect;
-    lowered.alpha_to_coverage = pass.alpha_to_coverage.is_some();
-    // Vectors with room for just these: a frame has many passes with one or two.
-    lowered.sampled.reserve_exact(pass.sample.len());
-    lowered.color.reserve_exact(pass.color.len());
+    let mut lowered = Pass {
+        name: pass.name.text.clone(),
+        span: pass.name.span,
+        view: pass.view,
+        work: work::lower(resources, pass, interface),
+        // Vectors with room for just these: a frame has many passes with one or two.
+        sampled: Vec::with_capacity(pass.sample.len()),
+        storage: Vec::new(),
+        color: Vec::with_capacity(pass.color.len()),
+        depth: None,
+        alpha_to_coverage: pass.alpha_to_coverage.is_some(),
+        no_depth_only: None,
+        no_rotation: None,
+        inserted: None,
+        buffers: Vec::new(),
+        transfers: Vec::new(),
+        side_effect: pass.side_effect,
+        params: Vec::new(),
+    };
     for sample in &pass.sample {
         let range = parts::range(resources, &sample.part, errors);
         lowered.sampled.extend(sampled::lower(resources, sample, range, interface, raster));

@@ -1,7 +1,7 @@
 //! A pass and its shader meet: shaders are found, and their needs are given.
 
 use super::work;
-use crate::base::{Diagnostic, Sources, suggestion};
+use crate::base::{Diagnostic, FilePath, Sources, suggestion};
 use crate::frame::Draw;
 use crate::language::{self, Work};
 use crate::ron::Name;
@@ -26,19 +26,21 @@ pub(super) struct Checked<'s> {
     seen: HashSet<(Arc<str>, Option<Draw>)>,
     /// Shaders that have no interface, and why: one may draw several things.
     reported: Vec<(Arc<str>, ShaderProblem)>,
+    /// The path of the file that names a shader, if it is unknown.
+    nowhere: FilePath,
 }
 
 impl<'s> Checked<'s> {
     /// `sources` are the files that name the shaders.
     pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> Checked<'s> {
-        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new() }
+        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new(), nowhere: "".into() }
     }
 
     /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.
     pub(super) fn find(&mut self, pass: &language::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
         let (shader, draw) = named(pass)?;
         let from = shader.span.file().and_then(|file| self.sources.file(file)).map(|file| &file.path);
-        let found = self.shaders.find(from.unwrap_or(&"".into()), &shader.text, draw);
+        let found = self.shaders.find(from.unwrap_or(&self.nowhere), &shader.text, draw);
         self.known(shader, &shader.text, found, errors)
     }
 
@@ -50,13 +52,24 @@ impl<'s> Checked<'s> {
         variant: &Variant,
         errors: &mut Vec<Diagnostic>,
     ) -> Option<ShaderInterface> {
-        let (shader, draw) = named(pass)?;
         let path = self.find(pass, errors)?;
+        self.found_interface(pass, &path, variant, errors)
+    }
+
+    /// As [`Checked::interface`], of a shader that was found.
+    pub(super) fn found_interface(
+        &mut self,
+        pass: &language::Pass,
+        path: &Arc<str>,
+        variant: &Variant,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Option<ShaderInterface> {
+        let (shader, draw) = named(pass)?;
         let found = match draw {
-            Some(draw) => self.shaders.draw_shader(&path, draw, variant),
-            None => self.shaders.compute_shader(&path, variant),
+            Some(draw) => self.shaders.draw_shader(path, draw, variant),
+            None => self.shaders.compute_shader(path, variant),
         };
-        self.known(shader, &path, found, errors)
+        self.known(shader, path, found, errors)
     }
 
     /// The interface of a shader that draws, compiled as `variant` says; its problem is reported by the caller.
@@ -92,10 +105,9 @@ impl<'s> Checked<'s> {
 
     /// The interface that the draw source provides (an empty one, for a dispatch), the first time that a shader draws this.
     /// Later it is known to fit or not.
-    pub(super) fn brought_along_first(&mut self, pass: &language::Pass) -> Option<DrawInterface> {
+    pub(super) fn brought_along_first(&mut self, pass: &language::Pass, path: &Arc<str>) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;
-        let path = self.find(pass, &mut Vec::new())?;
-        let first = self.seen.insert((path, draw));
+        let first = self.seen.insert((path.clone(), draw));
         first.then(|| draw.map_or_else(DrawInterface::default, |draw| self.shaders.brought_along(draw)))
     }
 }

@@ -18,12 +18,16 @@ pub(super) enum State {
 }
 
 impl State {
-    /// The passes that run.
-    pub(super) fn into_passes(self) -> Vec<Pass> {
-        match self {
-            State::On(pass) => vec![pass],
-            State::Off { stand_ins, .. } => stand_ins,
+    /// All passes that run, in their order.
+    pub(super) fn into_passes(states: Vec<State>) -> Vec<Pass> {
+        let mut passes = Vec::with_capacity(states.len());
+        for state in states {
+            match state {
+                State::On(pass) => passes.push(pass),
+                State::Off { stand_ins, .. } => passes.extend(stand_ins),
+            }
         }
+        passes
     }
 
     /// The passes that run here: itself or its stand-ins.

@@ -6,12 +6,13 @@ use crate::language::{self, Draw, Work};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use crate::vulkan::{Component, Dimension, ImageShape};
+use std::sync::Arc;
 
-/// Reports inputs that the shader wants and the draw source doesn't provide.
+/// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
 pub(super) fn check(
     shaders: &mut Checked<'_>,
     pass: &language::Pass,
-    interface: &ShaderInterface,
+    (path, interface): (&Arc<str>, &ShaderInterface),
     errors: &mut Vec<Diagnostic>,
 ) {
     let Some(shader) = pass.shader() else { return };
@@ -19,7 +20,7 @@ pub(super) fn check(
     if own {
         own_attributes(pass, shader, interface, errors);
     }
-    let Some(brought) = shaders.brought_along_first(pass) else { return };
+    let Some(brought) = shaders.brought_along_first(pass, path) else { return };
     if !own {
         attributes(shader, interface, &brought, errors);
     }

@@ -113,7 +113,6 @@ pub fn slots<'t>(
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
 ) -> Option<()> {
-    let start = leaf.start();
     if leaf.is_broken() {
         return None;
     }
@@ -141,8 +140,8 @@ pub fn slots<'t>(
                 let at = first.values().and_then(|mut values| values.next()).unwrap_or(leaf);
                 Diagnostic::new(at.span(), "expected the name of a field")
             }
-            (_, Some(word)) => Diagnostic::new(start, format!("expected `{word}(…)`")),
-            (_, None) => written(Diagnostic::new(start, "expected `(`"), what, known),
+            (_, Some(word)) => Diagnostic::new(leaf.start(), format!("expected `{word}(…)`")),
+            (_, None) => written(Diagnostic::new(leaf.start(), "expected `(`"), what, known),
         };
         keep(errors, error);
         return None;
@@ -155,7 +154,7 @@ pub fn slots<'t>(
         Some(only) if missing.is_empty() => format!("field {only}"),
         Some(last) => format!("fields {} and {last}", missing.join(", ")),
     };
-    keep(errors, Diagnostic::new(start, format!("{what} lacks the {last}")));
+    keep(errors, Diagnostic::new(leaf.start(), format!("{what} lacks the {last}")));
     None
 }
 

@@ -71,8 +71,16 @@ impl<'t> Lexer<'t> {
         Stop::File(self.diagnostic(quote..quote + 1, "this text has no end").help("close it with a quote"))
     }
 
-    /// Passes over blanks and comments.
+    /// Passes over blanks and comments, of which there are none before most brackets and commas.
+    #[inline]
     pub(crate) fn blanks(&mut self) -> Result<(), Stop> {
+        match self.byte() {
+            None | Some(b'!'..=b'.' | b'0'..=b'~') => Ok(()),
+            Some(_) => self.some_blanks(),
+        }
+    }
+
+    fn some_blanks(&mut self) -> Result<(), Stop> {
         let bytes = self.text.as_bytes();
         loop {
             let mut at = self.at;

@@ -38,15 +38,13 @@ impl Names {
     /// Gives the next thing its name; `None` if it couldn't be read. Reports a name that is given twice.
     pub fn give(&mut self, reader: &mut Reader, name: Option<Name>) {
         if let Some(name) = &name {
-            match self.index.get(&name.text).and_then(|first| self.given[*first].as_ref()) {
-                Some(first) => reader.report(
+            let first = *self.index.entry(name.text.clone()).or_insert(self.given.len());
+            if first < self.given.len() {
+                reader.report(
                     Diagnostic::new(name.span, format!("`{}` is the name of more than one {}", name.text, self.what))
                         .remark("again here")
-                        .label(first.span, "first here"),
-                ),
-                None => {
-                    self.index.insert(name.text.clone(), self.given.len());
-                }
+                        .label(self.span(first), "first here"),
+                );
             }
         }
         self.complete &= name.is_some();

@@ -10,6 +10,7 @@ use crate::language::{
     StorageAccess, Work,
 };
 use crate::vulkan::AddressMode;
+use std::sync::Arc;
 
 /// The images that can't hold both eyes' parts. By image, the reason; `None`: it can, or both eyes share the image.
 pub(super) struct Apart {
@@ -91,7 +92,7 @@ impl Apart {
         &mut self,
         pipeline: &Pipeline,
         own: &[bool],
-        running: impl Iterator<Item = (&'p Pass, &'p For)>,
+        running: impl Iterator<Item = (&'p Arc<Pass>, &'p For)>,
     ) -> bool {
         let mut found = false;
         for (pass, _) in running.filter(|(_, whose)| **whose == For::Each) {

@@ -261,9 +261,10 @@ impl Context<'_> {
         mut read: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
     ) -> Option<Vec<T>> {
         let mut names = Firsts::default();
-        let mut list = Vec::new();
         let mut complete = true;
-        for (key, value) in self.reader.map(leaf, map)? {
+        let entries = self.reader.map(leaf, map)?;
+        let mut list = Vec::with_capacity(leaf.entries().map_or(0, Iterator::count));
+        for (key, value) in entries {
             let name = self.reader.reference(key, what);
             if let Some(name) = &name
                 && let Some(first) = names.insert(Arc::clone(&name.text), name.span)

@@ -23,7 +23,7 @@ use std::sync::Arc;
 pub(crate) struct Body {
     pub(crate) symbols: Arc<Symbols>,
     /// Textures first.
-    pub(crate) images: Vec<Option<Entry<FieldValue<Image>>>>,
+    pub(crate) images: Vec<Option<Entry<FieldValue<Arc<Image>>>>>,
     pub(crate) buffers: Vec<Option<Entry<FieldValue<Buffer>>>>,
     pub(crate) items: Vec<Option<Entry<Item>>>,
 }
@@ -39,7 +39,7 @@ pub(crate) struct Entry<T> {
 /// An entry of `passes`.
 pub(crate) enum Item {
     /// A pass.
-    Pass(Box<FieldValue<Pass>>),
+    Pass(FieldValue<Arc<Pass>>),
     /// A fragment is used.
     Use(Box<UseEntry>),
     /// A place that extensions may name.
@@ -52,14 +52,8 @@ pub(crate) struct Tables<'t> {
     textures: Vec<Option<TextureFields<'t>>>,
     images: Vec<Option<ImageFields<'t>>>,
     buffers: Vec<Option<BufferFields<'t>>>,
-    items: Vec<Option<ItemFields<'t>>>,
-}
-
-/// Fields of an entry of `passes`.
-enum ItemFields<'t> {
-    Pass(Box<PassFields<'t>>),
-    Use(Box<UseFields<'t>>),
-    Anchor,
+    /// The entries of `passes`. Their fields are told apart when they are read: nothing refers to a pass.
+    items: Vec<Leaf<'t>>,
 }
 
 impl<T> Entry<T> {
@@ -135,7 +129,8 @@ impl<'t> Tables<'t> {
             fixed_buffers,
         };
         symbols.differ(reader);
-        Tables { symbols: Arc::new(symbols), textures, images, buffers, items: items(reader, lists.passes) }
+        let items = lists.passes.and_then(|list| reader.list(list, "`passes`")).unwrap_or_default();
+        Tables { symbols: Arc::new(symbols), textures, images, buffers, items }
     }
 
     /// Reads the entries. `views` are the views that they may name; `None` in a fragment.
@@ -162,16 +157,23 @@ impl<'t> Tables<'t> {
             Some(level.entry(fields.repeat, fields.view, |context| context.buffer_entry(fields)))
         });
         let buffers = buffers.collect();
-        let items = self.items.iter().map(|item| {
-            Some(match item.as_ref()? {
-                ItemFields::Pass(fields) => {
-                    level.entry(fields.repeat, fields.view, |context| Some(Item::Pass(Box::new(context.pass(fields)))))
-                }
-                ItemFields::Use(fields) => level.entry(fields.repeat, fields.view, |context| {
-                    Some(Item::Use(Box::new(context.use_entry(fields, fragments)?)))
-                }),
-                ItemFields::Anchor => level.entry(None, None, |_| Some(Item::Anchor)),
-            })
+        // Passes and uses have their names in common.
+        let mut names = Names::new("pass");
+        names.reserve(self.items.len());
+        let mut anchors = HashMap::new();
+        let items = self.items.iter().map(|leaf| {
+            if leaf.field("anchor").is_some() {
+                anchor(level.reader, *leaf, &mut anchors)?;
+                return Some(level.entry(None, None, |_| Some(Item::Anchor)));
+            }
+            if leaf.field("use").is_some() {
+                let fields: UseFields<'_> = entry(level.reader, *leaf, "use", "use", &mut names)?;
+                return Some(level.entry(fields.repeat, fields.view, |context| {
+                    Some(Item::Use(Box::new(context.use_entry(&fields, fragments)?)))
+                }));
+            }
+            let fields: PassFields<'_> = entry(level.reader, *leaf, "pass", "pass", &mut names)?;
+            Some(level.entry(fields.repeat, fields.view, |context| Some(Item::Pass(context.pass(&fields)))))
         });
         let items = items.collect();
         Body { symbols: Arc::clone(&self.symbols), images, buffers, items }
@@ -208,24 +210,6 @@ impl LevelReader<'_> {
         let value = Diagnosed::read(reader, |reader| read(&mut Context { reader, scope }));
         Entry { repeat, view, value }
     }
-}
-
-/// Passes, uses of fragments, and anchors. Passes and uses have their names in common.
-fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<ItemFields<'t>>> {
-    let Some(leaves) = list.and_then(|list| reader.list(list, "`passes`")) else { return Vec::new() };
-    let mut names = Names::new("pass");
-    names.reserve(leaves.len());
-    let mut anchors = HashMap::new();
-    let item = |leaf: Leaf<'t>| {
-        if leaf.field("anchor").is_some() {
-            anchor(reader, leaf, &mut anchors).map(|()| ItemFields::Anchor)
-        } else if leaf.field("use").is_some() {
-            entry(reader, leaf, "use", "use", &mut names).map(|fields| ItemFields::Use(Box::new(fields)))
-        } else {
-            entry(reader, leaf, "pass", "pass", &mut names).map(|fields| ItemFields::Pass(Box::new(fields)))
-        }
-    };
-    leaves.into_iter().map(item).collect()
 }
 
 fn anchor<'t>(reader: &mut Reader, leaf: Leaf<'t>, anchors: &mut HashMap<Arc<str>, Name>) -> Option<()> {

@@ -12,6 +12,7 @@ use crate::language::model::{
 use crate::language::scope::{Context, FieldValue, Kept, Parameter, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
+use std::sync::Arc;
 
 /// Most array layers that a file may ask for: as many as desktop devices have.
 pub(crate) const MOST_LAYERS: i64 = 2048;
@@ -143,7 +144,7 @@ static SHAPES: Words = Words {
 
 impl Context<'_> {
     /// An image.
-    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<FieldValue<Image>> {
+    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<FieldValue<Arc<Image>>> {
         let name = self.reader.name(fields.name, "an image");
         let span = name.as_ref().map_or(Span::NONE, |name| name.span);
         let format = self.image_format(fields.format);
@@ -160,7 +161,7 @@ impl Context<'_> {
         let (name, how_many) = (name?, (samples?, mips?, layers?));
         let parts = ((format, size, shape?), how_many, resolve?, lifetime?, per_eye?);
         Some(combined(parts, move |((format, size, shape), (samples, mips, layers), resolve, lifetime, per_eye)| {
-            Image {
+            Arc::new(Image {
                 name: name.clone(),
                 format,
                 size,
@@ -174,7 +175,7 @@ impl Context<'_> {
                 per_eye,
                 view: ViewIndex::default(),
                 instance: None,
-            }
+            })
         }))
     }
 

@@ -10,10 +10,11 @@ use crate::language::model::{Color, Depth, Pass};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, IfRead, reported};
 use crate::ron::{Name, Reader};
 use std::fmt::{Display, Formatter};
+use std::sync::Arc;
 
 impl Context<'_> {
     /// A pass. An expression that has no value is no mistake if the pass is off.
-    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> FieldValue<Pass> {
+    pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> FieldValue<Arc<Pass>> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
@@ -21,7 +22,7 @@ impl Context<'_> {
         let parts = match self.pass_parts(fields, name.clone()) {
             Some(FieldValue::Constant(pass)) if is_always_on => {
                 bindings_differ(self.reader, &pass);
-                return FieldValue::Constant(pass);
+                return FieldValue::Constant(Arc::new(pass));
             }
             parts => parts,
         };
@@ -41,14 +42,14 @@ impl Context<'_> {
             let idle = pass.is_none() && is_off && evaluator.forgave && evaluator.reader.errors.len() == before;
             let (name, off, stand_ins) = (name.clone()?, off?, stand_ins?);
             if idle {
-                return Some(Pass { off, otherwise: stand_ins, ..Pass::idle(name) });
+                return Some(Arc::new(Pass { off, otherwise: stand_ins, ..Pass::idle(name) }));
             }
             let pass = Pass { off, otherwise: stand_ins, ..pass? };
             bindings_differ(evaluator.reader, &pass);
             if let Some(Some(otherwise)) = &otherwise {
                 stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
             }
-            Some(pass)
+            Some(Arc::new(pass))
         })
     }
 

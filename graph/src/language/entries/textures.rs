@@ -53,7 +53,11 @@ pub(crate) struct Picture {
 
 impl Context<'_> {
     /// A texture, once its fields are told apart.
-    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<FieldValue<Image>> {
+    pub(crate) fn texture(
+        &mut self,
+        pictures: &Pictures,
+        fields: &TextureFields<'_>,
+    ) -> Option<FieldValue<Arc<Image>>> {
         let name = self.reader.name(fields.name, "a texture");
         let path = self.reader.words(fields.file, "the path of a file");
         let color_space = color_space(self.reader, fields.color_space);
@@ -89,7 +93,7 @@ impl Context<'_> {
             }
         };
         let image = image(name, file, info.format, extent, shape, fields);
-        Some(format.of(Format::Named).map(move |format| Image { format, ..image.clone() }))
+        Some(format.of(Format::Named).map(move |format| Arc::new(Image { format, ..image.clone() })))
     }
 }
 

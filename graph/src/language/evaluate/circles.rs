@@ -3,14 +3,14 @@
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Bytes, Format, Image, ImageRef, Layers, Lifetime, Mips, Samples, Size};
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A longer circle is not shown whole.
 const MOST_SHOWN: usize = 10;
 
 /// Images, then buffers, by one index.
 struct All<'a> {
-    images: &'a [Option<Cow<'a, Image>>],
+    images: &'a [Option<Arc<Image>>],
     buffers: &'a [Option<Buffer>],
 }
 
@@ -29,62 +29,75 @@ impl All<'_> {
     }
 }
 
+/// The images or buffers that follow another in one property, by index: each with the other and where it is named.
+type Follows = Vec<(usize, (usize, Span))>;
+
 /// Reports every circle once, for each property that can follow.
-pub(crate) fn find(images: &[Option<Cow<'_, Image>>], buffers: &[Option<Buffer>], errors: &mut Vec<Diagnostic>) {
+pub(crate) fn find(images: &[Option<Arc<Image>>], buffers: &[Option<Buffer>], errors: &mut Vec<Diagnostic>) {
     let all = All { images, buffers };
-    let mut of_images = |what: &str, next: &dyn Fn(&Image) -> Option<ImageRef>| {
-        let next = |at: usize| images.get(at)?.as_deref().and_then(next).map(|of| (of.index.0 as usize, of.span));
-        along(&all, what, next, errors);
-    };
-    of_images("sizes", &|image| match image.size.value {
-        Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of),
-        _ => None,
-    });
-    of_images("formats", &|image| match image.format.value {
-        Format::Like(of) => Some(of),
-        _ => None,
-    });
-    of_images("sample counts", &|image| match image.samples.value {
-        Samples::Like(of) => Some(of),
-        Samples::Count(_) => None,
-    });
-    of_images("mip levels", &|image| match image.mips.value {
-        Mips::Like(of) => Some(of),
-        _ => None,
-    });
-    of_images("layers", &|image| match image.layers.value {
-        Layers::Like(of) => Some(of),
-        _ => None,
-    });
-    let buffer = |at: usize| buffers.get(at.checked_sub(images.len())?)?.as_ref();
-    let bytes = |at: usize| match buffer(at)?.bytes.value {
-        Bytes::Like(of) => Some((all.index(Resource::Buffer(of.index)), of.span)),
-        _ => None,
-    };
-    along(&all, "sizes", bytes, errors);
-    let lifetime = |at: usize| {
-        let of_image = images.get(at).and_then(Option::as_ref).map(|image| &image.lifetime.value);
-        match of_image.or_else(|| buffer(at).map(|buffer| &buffer.lifetime.value))? {
-            Lifetime::Like(of) => Some((all.index(of.resource), of.span)),
-            _ => None,
+    let [mut sizes, mut formats, mut samples, mut mips, mut layers] = [const { Follows::new() }; 5];
+    let [mut bytes, mut lifetimes] = [const { Follows::new() }; 2];
+    let image = |of: ImageRef| (of.index.0 as usize, of.span);
+    for (at, described) in images.iter().enumerate() {
+        let Some(described) = described else { continue };
+        if let Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } =
+            described.size.value
+        {
+            sizes.push((at, image(of)));
         }
-    };
-    along(&all, "lifetimes", lifetime, errors);
+        if let Format::Like(of) = described.format.value {
+            formats.push((at, image(of)));
+        }
+        if let Samples::Like(of) = described.samples.value {
+            samples.push((at, image(of)));
+        }
+        if let Mips::Like(of) = described.mips.value {
+            mips.push((at, image(of)));
+        }
+        if let Layers::Like(of) = described.layers.value {
+            layers.push((at, image(of)));
+        }
+        if let Lifetime::Like(of) = described.lifetime.value {
+            lifetimes.push((at, (all.index(of.resource), of.span)));
+        }
+    }
+    for (at, described) in (images.len()..).zip(buffers) {
+        let Some(described) = described else { continue };
+        if let Bytes::Like(of) = described.bytes.value {
+            bytes.push((at, (all.index(Resource::Buffer(of.index)), of.span)));
+        }
+        if let Lifetime::Like(of) = described.lifetime.value {
+            lifetimes.push((at, (all.index(of.resource), of.span)));
+        }
+    }
+    let properties = [
+        ("sizes", sizes),
+        ("formats", formats),
+        ("sample counts", samples),
+        ("mip levels", mips),
+        ("layers", layers),
+        ("sizes", bytes),
+        ("lifetimes", lifetimes),
+    ];
+    properties.iter().filter(|(_, follows)| !follows.is_empty()).for_each(|(what, follows)| {
+        along(&all, what, follows, errors);
+    });
 }
 
 /// Each follows at most one other, so a walk from each, ended where an earlier walk has been, finds every circle.
-fn along(all: &All<'_>, what: &str, next: impl Fn(usize) -> Option<(usize, Span)>, errors: &mut Vec<Diagnostic>) {
+fn along(all: &All<'_>, what: &str, follows: &Follows, errors: &mut Vec<Diagnostic>) {
+    let next = |at: usize| follows.binary_search_by_key(&at, |(from, _)| *from).ok().map(|found| follows[found].1);
     let mut walked_from = vec![usize::MAX; all.images.len() + all.buffers.len()];
-    for start in 0..walked_from.len() {
+    for (start, _) in follows {
         let mut path: Vec<(usize, (usize, Span))> = Vec::new();
-        let mut at = start;
+        let mut at = *start;
         while walked_from[at] == usize::MAX {
-            walked_from[at] = start;
+            walked_from[at] = *start;
             let Some(to) = next(at) else { break };
             path.push((at, to));
             at = to.0;
         }
-        let circle = path.iter().position(|(from, _)| *from == at && walked_from[at] == start);
+        let circle = path.iter().position(|(from, _)| *from == at && walked_from[at] == *start);
         if let Some(first) = circle {
             report(all, what, &path[first..], errors);
         }

@@ -31,7 +31,7 @@ pub(super) struct Evaluation<'a> {
     pub(super) surroundings: &'a Surroundings<'a>,
     pub(super) fragments: &'a Fragments<Body>,
     pub(super) views: Views<'a>,
-    pub(super) flat: Flat<'a>,
+    pub(super) flat: Flat,
     /// Fragments that are being put in, by number, and where.
     pub(super) path: Vec<(usize, Name)>,
     /// Mistakes in fragments that were reported: place and message.

@@ -2,17 +2,17 @@
 
 use crate::language::model::{Buffer, Image, Instance, Pass};
 use crate::language::scope::Properties;
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Images, buffers, passes and instances that were evaluated so far; `None` where a mistake was reported. Those that the file
-/// says as they are stay where they were read.
+/// says as they are belong to the document, too.
 #[derive(Default)]
-pub(super) struct Flat<'a> {
-    pub(super) images: Vec<Option<Cow<'a, Image>>>,
+pub(super) struct Flat {
+    pub(super) images: Vec<Option<Arc<Image>>>,
     /// Properties of images.
     pub(super) properties: Vec<Option<Properties>>,
     pub(super) buffers: Vec<Option<Buffer>>,
-    pub(super) passes: Vec<Option<Cow<'a, Pass>>>,
+    pub(super) passes: Vec<Option<Arc<Pass>>>,
     pub(super) instances: Vec<Instance>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Lengths {
     instances: usize,
 }
 
-impl Flat<'_> {
+impl Flat {
     /// Lists of images and buffers of which only the number is known.
     pub(super) fn nothing_known(images: u32, buffers: u32) -> Self {
         let mut flat = Flat::default();

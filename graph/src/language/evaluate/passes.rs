@@ -5,7 +5,7 @@ use crate::language::entries::body::{Entry, Item};
 use crate::language::model::Pass;
 use crate::language::scope::FieldValueTuple;
 use crate::ron::Reader;
-use std::borrow::Cow;
+use std::sync::Arc;
 
 impl<'a> Evaluation<'a> {
     /// Everything at one level: images and buffers, then passes.
@@ -27,16 +27,14 @@ impl<'a> Evaluation<'a> {
             let number = entry.repeat.is_list().then_some(number);
             match entry.value.get(reader)? {
                 Item::Pass(pass) => {
-                    if let Some(pass) = pass.constant().filter(|pass| pass.view == view && level.has_own_names(number))
-                    {
-                        self.flat.passes.push(Some(Cow::Borrowed(pass)));
-                        continue;
+                    let mut pass = pass.evaluate(&mut self.evaluator(reader, level, view, number));
+                    let as_said = |pass: &Arc<Pass>| pass.view == view && level.has_own_names(number);
+                    if let Some(pass) = pass.as_mut().filter(|pass| !as_said(pass)) {
+                        let pass = Arc::make_mut(pass);
+                        pass.name = level.full(&pass.name, number);
+                        (pass.view, pass.instance) = (view, level.instance);
                     }
-                    let pass = pass.evaluate(&mut self.evaluator(reader, level, view, number));
-                    self.flat.passes.push(pass.map(|pass| {
-                        let name = level.full(&pass.name, number);
-                        Cow::Owned(Pass { name, view, instance: level.instance, ..pass })
-                    }));
+                    self.flat.passes.push(pass);
                 }
                 Item::Use(fields) if reader.errors.len() == before => self.put_in(reader, level, view, number, fields),
                 Item::Use(_) | Item::Anchor => {}

@@ -9,7 +9,6 @@ use crate::language::inputs::Surroundings;
 use crate::language::model::Pipeline;
 use crate::language::scope::DecidedValue;
 use crate::ron::Reader;
-use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// Evaluates a pipeline for values of its settings. `None` if errors were reported, and for a check.
@@ -44,9 +43,9 @@ pub(crate) fn evaluate<'a>(
     }
     Some(Pipeline {
         views: all.views.into_list()?,
-        images: flat.images.into_iter().map(|image| image.map(Cow::into_owned)).collect::<Option<_>>()?,
+        images: flat.images.into_iter().collect::<Option<_>>()?,
         buffers: flat.buffers.into_iter().collect::<Option<_>>()?,
-        passes: flat.passes.into_iter().map(|pass| pass.map(Cow::into_owned)).collect::<Option<_>>()?,
+        passes: flat.passes.into_iter().collect::<Option<_>>()?,
         depth: depth?.flatten(),
         color: color?,
         depth_format: depth_format?,

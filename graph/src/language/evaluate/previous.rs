@@ -4,13 +4,13 @@ use crate::base::Diagnostic;
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Draw, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
 use crate::ron::{Name, Spanned};
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Reports every part of an earlier frame that isn't kept, and every one that a pass would write.
 pub(crate) fn check(
-    images: &[Option<Cow<'_, Image>>],
+    images: &[Option<Arc<Image>>],
     buffers: &[Option<Buffer>],
-    passes: &[Option<Cow<'_, Pass>>],
+    passes: &[Option<Arc<Pass>>],
     errors: &mut Vec<Diagnostic>,
 ) {
     for pass in passes.iter().flatten() {
@@ -47,7 +47,7 @@ fn read(pass: &Pass) -> impl Iterator<Item = Part> {
 }
 
 fn kept(
-    images: &[Option<Cow<'_, Image>>],
+    images: &[Option<Arc<Image>>],
     buffers: &[Option<Buffer>],
     of: ResourceRef,
     previous: Spanned<u32>,
@@ -93,7 +93,7 @@ fn kept(
 
 /// The name and lifetime of an image or buffer, if it could be read.
 fn declared<'a>(
-    images: &'a [Option<Cow<'a, Image>>],
+    images: &'a [Option<Arc<Image>>],
     buffers: &'a [Option<Buffer>],
     of: Resource,
 ) -> Option<(&'a Name, &'a Spanned<Lifetime>)> {

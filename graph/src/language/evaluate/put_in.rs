@@ -10,7 +10,7 @@ use crate::language::entries::uses::{Argument, UseEntry};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
 use crate::language::scope::{DecidedValue, FieldValueTuple};
 use crate::ron::{Name, Reader};
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Uses of fragments stand at most this deep in each other.
 const MOST_NESTED: usize = 32;
@@ -92,7 +92,7 @@ impl<'a> Evaluation<'a> {
         }
         if is_off {
             self.flat.truncate(start);
-            self.flat.passes.push(Some(Cow::Owned(pass)));
+            self.flat.passes.push(Some(Arc::new(pass)));
         }
     }
 

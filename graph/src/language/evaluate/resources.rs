@@ -5,8 +5,8 @@ use super::properties;
 use crate::language::model::{Buffer, Image};
 use crate::language::scope::{Elements, FieldValueTuple};
 use crate::ron::Reader;
-use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 impl<'a> Evaluation<'a> {
     /// Gives images and buffers their indices, then evaluates them. A number of repetitions that depends on images waits until
@@ -72,24 +72,20 @@ impl<'a> Evaluation<'a> {
             let image = entry.filter(|_| right).and_then(|entry| {
                 let image = entry.value.get(reader)?;
                 let mut evaluator = self.evaluator(reader, level, view, number);
-                let as_said = image.constant().filter(|image| image.view == view && level.has_own_names(number));
-                let image = match as_said {
-                    Some(image) => Cow::Borrowed(image),
-                    None => Cow::Owned(image.evaluate(&mut evaluator)?),
-                };
+                let image = image.evaluate(&mut evaluator)?;
                 let known = properties::of(&image, &self.flat.properties, evaluator.scope.surroundings.extent);
                 let known = known.map_err(|wrong| evaluator.fault(wrong)).ok();
                 Some((image, known))
             });
-            let (image, known) = image.unzip();
+            let (mut image, known) = image.unzip();
+            let as_said = |image: &Arc<Image>| image.view == view && level.has_own_names(number);
+            if let Some(image) = image.as_mut().filter(|image| !as_said(image)) {
+                let image = Arc::make_mut(image);
+                image.name = level.full(&image.name, number);
+                (image.view, image.instance) = (view, level.instance);
+            }
             self.flat.properties.push(known.flatten());
-            self.flat.images.push(image.map(|image| match image {
-                Cow::Borrowed(_) => image,
-                Cow::Owned(image) => {
-                    let name = level.full(&image.name, number);
-                    Cow::Owned(Image { name, view, instance: level.instance, ..image })
-                }
-            }));
+            self.flat.images.push(image);
             // The other elements have the same mistake.
             right = reader.errors.len() == before;
         }

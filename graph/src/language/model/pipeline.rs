@@ -19,11 +19,11 @@ pub struct Pipeline {
     /// into this list.
     pub views: Vec<View>,
     /// Images; an [`ImageIndex`](crate::frame::ImageIndex) is an index into this list.
-    pub images: Vec<Image>,
+    pub images: Vec<Arc<Image>>,
     /// Buffers; a [`BufferIndex`](crate::frame::BufferIndex) is an index into this list.
     pub buffers: Vec<Buffer>,
     /// Passes in the order that gives them meaning.
-    pub passes: Vec<Pass>,
+    pub passes: Vec<Arc<Pass>>,
     /// How several samples of depth become one value, for images without `resolve`; `None`: the depth is drawn again for
     /// passes that sample it.
     pub depth: Option<Resolves>,

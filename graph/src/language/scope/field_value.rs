@@ -31,11 +31,6 @@ impl<T: Kept> FieldValue<T> {
         FieldValue::Computed(Arc::new(compute))
     }
 
-    /// The value, if the file says it.
-    pub(crate) const fn constant(&self) -> Option<&T> {
-        if let FieldValue::Constant(value) = self { Some(value) } else { None }
-    }
-
     /// A value that is computed from this one, if there is one.
     pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<FieldValue<U>> {
         match self {
