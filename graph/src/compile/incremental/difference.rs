@@ -1,10 +1,11 @@
 //! The difference between two frames.
 
+use crate::base::Span;
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, Sampled, StencilState, Storage,
-    View, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, ParamValue, Pass, Sampled,
+    StencilState, Storage, View, Work,
 };
-use crate::vulkan::{FillValue, Subresources};
+use crate::vulkan::{FillValue, Sampler, Subresources};
 use std::sync::Arc;
 
 /// How much two frames differ.
@@ -32,14 +33,20 @@ fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
     Arc::ptr_eq(old, new) || old == new
 }
 
-/// Whether two parts of images are the same. Four numbers in an array take one comparison.
+/// Whether two accesses to images are the same. Four numbers in an array, in the order in which they stand in memory, take
+/// one comparison.
 #[inline]
-fn same_range(old: Subresources, new: Subresources) -> bool {
-    let numbers = |range: Subresources| {
-        let Subresources { aspects: _, base_mip, mips, base_layer, layers } = range;
-        [base_mip, mips, base_layer, layers]
+fn same_access(
+    (old, old_range, old_ago, old_span): (ImageIndex, Subresources, u32, Span),
+    (new, new_range, new_ago, new_span): (ImageIndex, Subresources, u32, Span),
+) -> bool {
+    let numbers = |image: ImageIndex, range: Subresources, frames_ago: u32, span: Span| {
+        let Subresources { aspects, base_mip, mips, base_layer, layers } = range;
+        let [file, start, end] = span.numbers();
+        ([image.0, aspects.bits(), base_mip, mips], [base_layer, layers, frames_ago, file], [start, end])
     };
-    (numbers(old) == numbers(new)) & (old.aspects == new.aspects)
+    let (old, new) = (numbers(old, old_range, old_ago, old_span), numbers(new, new_range, new_ago, new_span));
+    (old.0 == new.0) & (old.1 == new.1) & (old.2 == new.2)
 }
 
 /// Whether all members of two lists are the same.
@@ -103,8 +110,8 @@ fn image(old: &Image, new: &Image) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && (&old.resolve, &old.chosen) == (resolve, chosen)
-        && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
-        && (old.rotation, old.eyes) == (*rotation, *eyes)
+        && (old.format == *format) & (old.shape == *shape) & (old.rotation == *rotation) & (old.eyes == *eyes)
+        && (old.mips == *mips) & (old.layers == *layers) & (old.samples == *samples)
         && old.allocated.is_some() == allocated.is_some()
         && same_lifetime(&old.lifetime, lifetime);
     if same { unless((old.extent, old.allocated) == (*extent, *allocated), Sizes) } else { Structure }
@@ -149,7 +156,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
-        && (old.side_effect, old.alpha_to_coverage) == (*side_effect, *alpha_to_coverage)
+        && (old.side_effect == *side_effect) & (old.alpha_to_coverage == *alpha_to_coverage)
         && old.no_depth_only == *no_depth_only
         && (&old.no_rotation, &old.inserted) == (no_rotation, inserted)
         && same_lists(&old.sampled, sampled, same_sampled)
@@ -171,19 +178,22 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
     // Most are the same, so comparing all at once takes fewer branches.
-    let same_image = (old.image == *image) & (old.frames_ago == *frames_ago) & (old.span == *span);
-    let same_way = (old.eye == *eye) & (old.face == *face) & (old.own_pixel == *own_pixel) & (old.stages == *stages);
-    (same_image & same_way & same_range(old.range, *range))
-        && old.sampler == *sampler
+    let same_access =
+        same_access((old.image, old.range, old.frames_ago, old.span), (*image, *range, *frames_ago, *span));
+    let bytes = |Sampler { filter, mips, address }: Sampler, own_pixel| {
+        [filter as u8, mips as u8, address as u8, u8::from(own_pixel)]
+    };
+    let same_way = (bytes(old.sampler, old.own_pixel) == bytes(*sampler, *own_pixel)) & (old.stages == *stages);
+    (same_access & same_way & (old.eye == *eye) & (old.face == *face))
         && old.texture == *texture
         && same_name(&old.binding, binding)
 }
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
     let Storage { binding, image, range, span, read, write, stages } = new;
-    let same_image = (old.image == *image) & (old.span == *span) & same_range(old.range, *range);
+    let same_access = same_access((old.image, old.range, 0, old.span), (*image, *range, 0, *span));
     let same_way = (old.read == *read) & (old.write == *write) & (old.stages == *stages);
-    (same_image & same_way) && same_name(&old.binding, binding)
+    (same_access & same_way) && same_name(&old.binding, binding)
 }
 
 fn works(old: &Work, new: &Work) -> Difference {

@@ -56,7 +56,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
 
 /// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
 pub(super) fn still_holds(frame: &Frame) -> bool {
-    let sizes = frame.images.iter().all(|image| image_problem(image).is_none());
+    let sizes = frame.images.iter().all(|image| size_problem(image).is_none());
     let views = || !frame.views.iter().any(has_no_texels);
     sizes && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
 }
@@ -166,27 +166,19 @@ fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
 }
 
 fn image_problem(image: &Image) -> Option<String> {
-    let [width, height, depth] = image.extent;
-    let largest = width.max(height).max(depth);
-    let levels = largest.checked_ilog2().map_or(0, |log| log + 1);
-    let short = image.allocated.is_some_and(|[wide, high]| wide < width || high < height);
-    let changes = image.allocated.is_some();
-    if image.extent.contains(&0) {
-        Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
-    } else if !(1..=levels).contains(&image.mips) {
-        Some(format!("has {} mip levels; its size allows 1 to {levels}", image.mips))
-    } else if short {
-        Some(format!("is {width}×{height}, and has no room for that"))
-    } else if changes && (image.shape != Shape::D2 || image.mips > 1 || image.lifetime != Lifetime::Transient) {
+    let [width, height, _] = image.extent;
+    if let Some(problem) = size_problem(image) {
+        Some(problem)
+    } else if image.allocated.is_some()
+        && (image.shape != Shape::D2 || image.mips > 1 || image.lifetime != Lifetime::Transient)
+    {
         Some("changes its size, so it is transient, two-dimensional and has one mip level".to_owned())
     } else if image.layers == 0 {
         Some("has no layers".to_owned())
     } else if !SAMPLE_COUNTS.contains(&image.samples) {
         Some(format!("has {} samples; 1, 2, 4, 8 or 16 are possible", image.samples))
-    } else if image.samples > 1 && (image.mips > 1 || image.shape != Shape::D2 || depth > 1) {
+    } else if image.samples > 1 && (image.mips > 1 || image.shape != Shape::D2) {
         Some("is multisampled and has mip levels or depth".to_owned())
-    } else if depth > 1 && image.shape != Shape::D3 {
-        Some("has depth and is not three-dimensional".to_owned())
     } else if image.shape == Shape::D3 && image.layers > 1 {
         Some("is three-dimensional and has layers".to_owned())
     } else if image.shape == Shape::D3 && image.format.is_depth() {
@@ -197,9 +189,32 @@ fn image_problem(image: &Image) -> Option<String> {
         Some(format!("can't be resolved as it says: it is {}", image.format))
     } else if matches!(image.lifetime, Lifetime::File(_)) && (image.layers > 1 || image.shape == Shape::Cube) {
         Some("comes from a file and has layers".to_owned())
-    } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
-        Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
+    } else if image.shape == Shape::Cube && !image.layers.is_multiple_of(6) {
+        Some(not_a_cube(width, height, image.layers))
     } else {
         None
     }
+}
+
+/// What is wrong with the size of an image, or with what else the size decides about.
+fn size_problem(image: &Image) -> Option<String> {
+    let [width, height, depth] = image.extent;
+    let levels = width.max(height).max(depth).checked_ilog2().map_or(0, |log| log + 1);
+    if image.extent.contains(&0) {
+        Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
+    } else if !(1..=levels).contains(&image.mips) {
+        Some(format!("has {} mip levels; its size allows 1 to {levels}", image.mips))
+    } else if image.allocated.is_some_and(|[wide, high]| wide < width || high < height) {
+        Some(format!("is {width}×{height}, and has no room for that"))
+    } else if depth > 1 && image.shape != Shape::D3 {
+        Some("has depth and is not three-dimensional".to_owned())
+    } else if image.shape == Shape::Cube && width != height {
+        Some(not_a_cube(width, height, image.layers))
+    } else {
+        None
+    }
+}
+
+fn not_a_cube(width: u32, height: u32, layers: u32) -> String {
+    format!("is a cube of {width}×{height} with {layers} layers; cubes are square and have 6")
 }
