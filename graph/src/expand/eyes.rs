@@ -15,6 +15,7 @@ use crate::language::{
 use crate::ron::{Name, Spanned};
 use at_once::Apart;
 use std::collections::HashSet;
+use std::iter::successors;
 use std::sync::Arc;
 
 /// The eyes that a pass runs for.
@@ -144,14 +145,16 @@ fn own(pipeline: &Pipeline) -> Vec<bool> {
     let mut known: Vec<Option<bool>> =
         pipeline.images.iter().map(|image| image.per_eye.map(|per_eye| per_eye.value)).collect();
     for at in 0..known.len() {
-        let mut chain = vec![at];
-        let mut found = known[at];
         // No image follows itself: that was refused before.
-        while let (None, Some(next)) = (found, chain.last().and_then(|last| follows(*last))) {
-            chain.push(next.0 as usize);
-            found = known[next.0 as usize];
+        let followed = |at: &usize| follows(*at).map(|next| next.0 as usize);
+        let chain = || successors(Some(at), followed);
+        let found = chain().find_map(|at| known[at]).unwrap_or(false);
+        for at in chain() {
+            if known[at].is_some() {
+                break;
+            }
+            known[at] = Some(found);
         }
-        chain.into_iter().for_each(|at| known[at] = known[at].or(Some(found.unwrap_or(false))));
     }
     known.into_iter().map(Option::unwrap_or_default).collect()
 }

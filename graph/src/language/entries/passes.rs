@@ -22,7 +22,7 @@ impl Context<'_> {
         let parts = match self.pass_parts(fields, name.clone()) {
             Some(FieldValue::Constant(pass)) if is_always_on => {
                 bindings_differ(self.reader, &pass);
-                return FieldValue::Constant(Arc::new(pass));
+                return FieldValue::Constant(pass);
             }
             parts => parts,
         };
@@ -44,17 +44,19 @@ impl Context<'_> {
             if idle {
                 return Some(Arc::new(Pass { off, otherwise: stand_ins, ..Pass::idle(name) }));
             }
-            let pass = Pass { off, otherwise: stand_ins, ..pass? };
+            let mut pass = pass?;
+            let parts = Arc::make_mut(&mut pass);
+            (parts.off, parts.otherwise) = (off, stand_ins);
             bindings_differ(evaluator.reader, &pass);
             if let Some(Some(otherwise)) = &otherwise {
                 stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
             }
-            Some(Arc::new(pass))
+            Some(pass)
         })
     }
 
     /// The work, bindings and targets of a pass. Each field is evaluated, even where another couldn't be read.
-    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Option<FieldValue<Pass>> {
+    fn pass_parts(&mut self, fields: &PassFields<'_>, name: Option<Name>) -> Option<FieldValue<Arc<Pass>>> {
         let work = self.work(fields, PassWords(name.as_ref()));
         let sample = optional(fields.sample, |leaf| self.sampled(leaf));
         let storage = optional(fields.storage, |leaf| self.storage(leaf));
@@ -78,7 +80,7 @@ impl Context<'_> {
                 targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
             }
             let (sample, left_out) = sample?.unwrap_or_default();
-            Some(Pass {
+            Some(Arc::new(Pass {
                 name: name.clone()?,
                 off: None,
                 work: work?,
@@ -96,7 +98,7 @@ impl Context<'_> {
                 otherwise: Vec::new(),
                 view: ViewIndex::default(),
                 instance: None,
-            })
+            }))
         })
     }
 }
