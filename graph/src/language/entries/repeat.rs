@@ -15,17 +15,20 @@ pub(crate) const REPEAT: Form = Form::Tuple(&[Form::Plain(Plain::Name), Form::Wh
 pub(crate) enum Repeat {
     /// Once, under its own name.
     Once,
-    /// As often as `count` says, the index counting from 0.
-    Times {
-        /// The name of the index.
-        index: Name,
-        /// Where the number stands.
-        span: Span,
-        /// The number.
-        count: Diagnosed<FieldValue<u32>>,
-    },
+    /// As often as a number says.
+    Times(Box<Times>),
     /// The field couldn't be read, which was reported.
     Broken,
+}
+
+/// As often as `count` says, the index counting from 0.
+pub(crate) struct Times {
+    /// The name of the index.
+    index: Name,
+    /// Where the number stands.
+    pub(crate) span: Span,
+    /// The number.
+    pub(crate) count: Diagnosed<FieldValue<u32>>,
 }
 
 impl Repeat {
@@ -42,7 +45,7 @@ impl Repeat {
         let (span, most) = (count.span(), i64::from(MOST_THINGS));
         let read =
             |reader: &mut Reader| Context { reader, scope: *scope }.whole(count, "number of repetitions", 0..=most);
-        Repeat::Times { index, span, count: Diagnosed::read(reader, read) }
+        Repeat::Times(Box::new(Times { index, span, count: Diagnosed::read(reader, read) }))
     }
 
     /// Whether it makes a list.
@@ -52,6 +55,6 @@ impl Repeat {
 
     /// The name of the index, if there is one.
     pub(crate) const fn index(&self) -> Option<&Name> {
-        if let Repeat::Times { index, .. } = self { Some(index) } else { None }
+        if let Repeat::Times(times) = self { Some(&times.index) } else { None }
     }
 }

@@ -5,7 +5,7 @@ use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::entries::body::Body;
 use crate::language::entries::fragments::Fragments;
-use crate::language::entries::repeat::{MOST_THINGS, Repeat};
+use crate::language::entries::repeat::{MOST_THINGS, Repeat, Times};
 use crate::language::entries::views::Views;
 use crate::language::inputs::Surroundings;
 use crate::language::scope::{DecidedValue, Elements, Evaluator, FieldValueTuple, LevelValues, ScopeValues};
@@ -166,7 +166,8 @@ impl<'a> Evaluation<'a> {
         let (count, span) = match repeat {
             None | Some(Repeat::Once) => (1, None),
             Some(Repeat::Broken) => return Count::Failed,
-            Some(Repeat::Times { count, span, .. }) => {
+            Some(Repeat::Times(times)) => {
+                let Times { count, span, .. } = &**times;
                 let before = reader.errors.len();
                 let count = count.get(reader);
                 let mut evaluator = self.evaluator(reader, level, view, None);
