@@ -104,6 +104,11 @@ pub(crate) enum Error {
     /// Ctrl-C.
     #[error("interrupted after {frames} of {wanted} frames: nothing was written")]
     Interrupted { frames: u32, wanted: u32 },
+    /// Ctrl-C while choices are measured.
+    #[error(
+        "interrupted after {measured} of {wanted} choices; those are kept, and the same command goes on with the others"
+    )]
+    InterruptedMeasuring { measured: usize, wanted: usize },
     /// Ctrl-C while a pipe is written.
     #[error("interrupted before all of `{}` was written", text::path(path))]
     InterruptedWriting { path: PathBuf },
@@ -206,7 +211,12 @@ impl Error {
     /// Whether the device may still be working for this process.
     #[must_use]
     pub(crate) fn leaves_the_device_at_work(&self) -> bool {
-        matches!(self, Error::Interrupted { .. } | Error::Vulkan(framewright_vulkan::Error::Timeout { .. }))
+        matches!(
+            self,
+            Error::Interrupted { .. }
+                | Error::InterruptedMeasuring { .. }
+                | Error::Vulkan(framewright_vulkan::Error::Timeout { .. })
+        )
     }
 
     /// The exit code of a command that this ended.
@@ -255,7 +265,9 @@ impl Error {
             | Error::AlreadyExists { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
-            Error::Interrupted { .. } | Error::InterruptedWriting { .. } => Exit::Interrupted,
+            Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
+                Exit::Interrupted
+            }
             Error::Write { .. }
             | Error::Cache { .. }
             | Error::Print(_)

@@ -42,8 +42,11 @@ struct Bench<'a> {
     device: Device,
     read: ReadFiles,
     /// By the settings, scene, size and stereo that they are of.
-    references: HashMap<String, Option<Rc<Reference>>>,
+    references: HashMap<String, Option<Kept>>,
 }
+
+/// A reference, and its picture within the folder.
+type Kept = (Rc<Reference>, Option<String>);
 
 /// Measures a sweep.
 ///
@@ -79,7 +82,10 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let words = Words { doing: "measuring", done: "measured", things: "choices" };
     let progress = Progress::new(missing.len(), words, Duration::from_secs(60));
     for batch in missing.chunks(AT_ONCE) {
-        let rows = bench.batch(&baseline, batch, &progress)?;
+        let rows = bench.batch(&baseline, batch, &progress).map_err(|error| match interrupt::asked() {
+            true => Error::InterruptedMeasuring { measured: results.rows.len(), wanted: choices.len() },
+            false => error,
+        })?;
         results.rows.extend(rows);
         results.rows.sort_by_key(|row| choices.iter().position(|choice| is_of(row, choice)));
         store::write(&arguments.output, &results)?;
@@ -238,7 +244,8 @@ impl Bench<'_> {
             Light::decode(contents).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })
         };
         let shown = light(&picture.contents, &picture.path)?;
-        let Some(reference) = self.reference(choice)? else { return Ok(measured) };
+        let Some((reference, file)) = self.reference(choice)? else { return Ok(measured) };
+        measured.reference = file;
         if reference.picture.extent != shown.extent {
             let reference = (self.arguments.reference.clone(), reference.picture.extent);
             return Err(Error::Sizes { reference, picture: (PathBuf::from(name("pictures", ending)), shown.extent) });
@@ -257,7 +264,7 @@ impl Bench<'_> {
     }
 
     /// The picture that a choice is held against.
-    fn reference(&mut self, choice: &Choice) -> Result<Option<Rc<Reference>>, Error> {
+    fn reference(&mut self, choice: &Choice) -> Result<Option<Kept>, Error> {
         let file = self.arguments.reference.clone();
         if file == Path::new(NONE) {
             return Ok(None);
@@ -267,7 +274,8 @@ impl Bench<'_> {
                 return Ok(known.clone());
             }
             let picture = inputs::picture(&file, &self.read)?;
-            let made = Some(Rc::new(Reference { of_half: picture.clone(), picture }));
+            let shown = self.shown("given", &picture)?;
+            let made = Some((Rc::new(Reference { of_half: picture.clone(), picture }), Some(shown)));
             self.references.insert(String::new(), made.clone());
             return Ok(made);
         }
@@ -280,21 +288,28 @@ impl Bench<'_> {
             return Ok(known.clone());
         }
         let made = reference::draw(&self.device, &planned, &mut self.pipeline, &choice.scene.scene, choice.size)?;
-        let made = made.map(Rc::new);
-        if let Some(reference) = &made {
-            self.keep(&key, &reference.picture)?;
-        }
+        let made = match made {
+            Some(reference) => {
+                self.keep(&key, &reference.picture)?;
+                let shown = self.shown(&key, &reference.picture)?;
+                Some((Rc::new(reference), Some(shown)))
+            }
+            None => None,
+        };
         self.references.insert(key, made.clone());
         Ok(made)
     }
 
+    /// Writes a reference as a display shows it, and answers with its path within the folder.
+    fn shown(&self, key: &str, picture: &Light) -> Result<String, Error> {
+        let file = FileFormat::Png.encode(&floats(picture, &bytes(picture)));
+        let file = file.map_err(|problem| Error::Picture { image: "reference".to_owned(), problem })?;
+        self.written(format!("pictures/reference_{key}.png"), &file)
+    }
+
     /// Writes a reference as OpenEXR.
     fn keep(&self, key: &str, picture: &Light) -> Result<(), Error> {
-        let texels = picture.texels.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 1.0]);
-        let bytes: Vec<u8> = texels.flat_map(f32::to_ne_bytes).collect();
-        let extent = picture.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
-        let picture = Picture { format: Format::R32G32B32A32_SFLOAT, encoding: None, extent, bytes: &bytes };
-        let file = FileFormat::OpenExr.encode(&picture);
+        let file = FileFormat::OpenExr.encode(&floats(picture, &bytes(picture)));
         let file = file.map_err(|problem| Error::Picture { image: "reference".to_owned(), problem })?;
         self.written(format!("pictures/reference_{key}.exr"), &file).map(drop)
     }
@@ -313,6 +328,17 @@ fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
         Err(error) if interrupt::asked() || matches!(error.exit(), Exit::Usage | Exit::Interrupted) => Err(error),
         Err(error) => Ok(Err(error.to_string().trim_end().to_owned())),
     }
+}
+
+/// Texels of 32-bit floating-point numbers.
+fn bytes(picture: &Light) -> Vec<u8> {
+    let texels = picture.texels.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 1.0]);
+    texels.flat_map(f32::to_ne_bytes).collect()
+}
+
+fn floats<'t>(picture: &Light, bytes: &'t [u8]) -> Picture<'t> {
+    let extent = picture.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
+    Picture { format: Format::R32G32B32A32_SFLOAT, encoding: None, extent, bytes }
 }
 
 /// All settings of a planned frame.

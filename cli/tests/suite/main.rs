@@ -20,6 +20,7 @@ mod included_files;
 mod interrupts;
 mod large;
 mod licences;
+mod measuring;
 mod never_overwritten;
 mod outputs;
 mod pictures;

@@ -1,0 +1,184 @@
+//! `measure`: sweeps, their costs and errors beside a converged reference, and what is kept of them (NU-1).
+
+use crate::testing::{Outcome, Place, Vulkan};
+use serde_json::Value;
+
+/// The part of the command line that all sweeps share, for the lavapipe of this machine.
+fn measure(place: &Place, more: &[&str]) -> Option<Outcome> {
+    let variables = Vulkan::LAVAPIPE.variables()?;
+    let arguments = ["measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "96x54", "--frames", "2"];
+    Some(place.run_with(&variables, &[&arguments[..], more].concat()))
+}
+
+fn results(place: &Place, folder: &str) -> Value {
+    let file = std::fs::read_to_string(place.path(folder).join("results.json")).expect("results");
+    serde_json::from_str(&file).expect("JSON")
+}
+
+/// The figures of the row with these choices.
+fn row<'r>(results: &'r Value, choice: &[(&str, &str)]) -> &'r Value {
+    let rows = results["rows"].as_array().expect("rows");
+    let found = rows.iter().find(|row| choice.iter().all(|(name, value)| row["choice"][name] == *value));
+    &found.unwrap_or_else(|| panic!("no row {choice:?}"))["outcome"]["measured"]
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn more_samples_cost_memory_and_come_nearer_to_the_reference() {
+    let place = Place::new();
+    let sweeps = ["--sweep", "msaa=1,4", "--sweep", "render_scale=0.5..2:3", "-o", "swept"];
+    let Some(out) = measure(&place, &sweeps) else { return };
+    let table = out.exits(0).out;
+    assert_eq!(table.lines().count(), 8, "{table}");
+    let results = results(&place, "swept");
+    assert_eq!(results["rows"].as_array().map(Vec::len), Some(6));
+    let at = |msaa: &str, scale: &str| row(&results, &[("msaa", msaa), ("render_scale", scale)]);
+    let flip = |row: &Value| number(&row["errors"]["flip"]["mean"]);
+    for msaa in ["1", "4"] {
+        let [small, whole, large] = ["0.5", "1.25", "2"].map(|scale| at(msaa, scale));
+        assert!(flip(small) > flip(whole) && flip(whole) > flip(large), "{small} {whole} {large}");
+        let bytes = |row: &Value| number(&row["cost"]["transient_bytes"]);
+        assert!(bytes(small) < bytes(whole) && bytes(whole) < bytes(large));
+        for row in [small, whole, large] {
+            // The error of the reference itself is below all that it is to show.
+            assert!(number(&row["reference_errors"]["flip"]["mean"]) < flip(row), "{row}");
+            let cost = &row["cost"];
+            assert!(number(&cost["gpu_milliseconds"]["median"]) > 0.0 && number(&cost["moved_bytes"]) > 0.0, "{row}");
+            let [low, median, high] = ["low", "median", "high"].map(|it| number(&cost["gpu_ratio"][it]));
+            assert!(0.0 < low && low <= median && median <= high, "{row}");
+            assert!(row["passes"].as_array().is_some_and(|passes| passes.len() >= 3), "{row}");
+            for file in ["picture", "reference", "heat_map"] {
+                let name = row[file].as_str().expect("a file");
+                assert!(place.path("swept").join(name).is_file(), "{name}");
+            }
+        }
+    }
+    assert!(flip(at("4", "1.25")) < flip(at("1", "1.25")));
+}
+
+#[test]
+fn a_sweep_goes_on_where_it_stopped_and_mixes_no_two() {
+    let place = Place::new();
+    let first = ["--sweep", "msaa=1,4", "--reference", "none", "-o", "swept"];
+    let Some(out) = measure(&place, &first) else { return };
+    out.exits(0);
+    let kept = results(&place, "swept");
+    assert!(row(&kept, &[("msaa", "1")])["errors"].is_null());
+    let again = measure(&place, &first).expect("lavapipe").exits(0);
+    assert!(again.err.contains("note: 2 choices are measured already"), "{}", again.err);
+    assert_eq!(results(&place, "swept"), kept);
+    // More choices: those that are there stay.
+    let more = ["--sweep", "msaa=1,2,4", "--reference", "none", "-o", "swept"];
+    measure(&place, &more).expect("lavapipe").exits(0);
+    let all = results(&place, "swept");
+    assert_eq!(row(&all, &[("msaa", "4")]), row(&kept, &[("msaa", "4")]));
+    assert_eq!(all["rows"].as_array().map(Vec::len), Some(3));
+    let other = [&more[..], &["--set", "blur=2"]].concat();
+    measure(&place, &other).expect("lavapipe").exits(2).mentions("holds results of another");
+    assert_eq!(results(&place, "swept"), all);
+}
+
+#[test]
+fn shards_together_are_the_sweep() {
+    let place = Place::new();
+    let choices = |folder: &str| -> Vec<String> {
+        let results = results(&place, folder);
+        results["rows"].as_array().expect("rows").iter().map(|row| row["choice"].to_string()).collect()
+    };
+    let sweep = ["--sweep", "msaa=1,4", "--sweep", "blur=0,1,2", "--reference", "none", "-o"];
+    let Some(out) = measure(&place, &[&sweep[..], &["all"]].concat()) else { return };
+    out.exits(0);
+    let mut parts = Vec::new();
+    for (number, folder) in [("1/2", "one"), ("2/2", "two")] {
+        measure(&place, &[&sweep[..], &[folder, "--shard", number]].concat()).expect("lavapipe").exits(0);
+        parts.extend(choices(folder));
+    }
+    let mut all = choices("all");
+    parts.sort_unstable();
+    all.sort_unstable();
+    assert_eq!(parts, all);
+}
+
+#[test]
+fn what_is_measured_is_what_run_draws() {
+    let place = Place::new();
+    let measured = ["--sweep", "msaa=4", "--set", "blur=1", "--reference", "none", "-o", "swept"];
+    let Some(out) = measure(&place, &measured) else { return };
+    out.exits(0);
+    let arguments = [
+        "run",
+        "image_quality",
+        "--scene",
+        "spheres_and_cubes",
+        "--size",
+        "96x54",
+        "--set",
+        "msaa=4",
+        "--set",
+        "blur=1",
+        "-o",
+        "run.png",
+    ];
+    place.run_with(&Vulkan::LAVAPIPE.variables().expect("lavapipe"), &arguments).exits(0);
+    let results = results(&place, "swept");
+    let picture = row(&results, &[("msaa", "4")])["picture"].as_str().expect("a picture");
+    let [ours, theirs] =
+        ["run.png", &format!("swept/{picture}")].map(|it| std::fs::read(place.path(it)).expect("read"));
+    assert!(ours == theirs, "the pictures differ");
+    // Beside itself it has no error, and its reference can be any file of its size.
+    let own = ["--sweep", "msaa=4", "--set", "blur=1", "--reference", "run.png", "-o", "own"];
+    measure(&place, &own).expect("lavapipe").exits(0);
+    let own = self::results(&place, "own");
+    assert_eq!(number(&row(&own, &[("msaa", "4")])["errors"]["rmse"]), 0.0);
+    let other = ["--sweep", "@size=48x48", "--reference", "run.png", "-o", "other"];
+    measure(&place, &other).expect("lavapipe").exits(1).mentions("only pictures of one size are compared");
+}
+
+#[test]
+fn a_choice_that_can_not_be_drawn_is_a_row() {
+    let place = Place::new();
+    let pipeline = r#"Pipeline(
+        version: 1,
+        settings: [(name: "own", value: Bool(default: false))],
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "clear", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (name: "own", when: "own", custom: "mine", color: ["screen"]),
+        ],
+        outputs: ["screen"],
+    )"#;
+    place.file("p.ron", pipeline);
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let arguments = ["measure", "p.ron", "--scene", "spheres_and_cubes", "--size", "8x8", "--frames", "1"];
+    let sweep = ["--sweep", "own=false,true", "--reference", "none", "-o", "swept"];
+    let out = place.run_with(&variables, &[&arguments[..], &sweep].concat()).exits(0).out;
+    assert!(out.contains("failed: "), "{out}");
+    let results = results(&place, "swept");
+    assert!(row(&results, &[("own", "false")]).is_object());
+    assert!(results["rows"][1]["outcome"]["failed"].is_string(), "{results}");
+}
+
+#[test]
+fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
+    let place = Place::new();
+    let wrong = |more: &[&str]| {
+        let arguments = ["measure", "image_quality", "--scene", "spheres_and_cubes", "-o", "swept"];
+        place.run(&[&arguments[..], more].concat()).exits(2)
+    };
+    wrong(&["--sweep", "sharpness=1,2"]).mentions("the pipeline has no setting `sharpness`; there are render_scale");
+    wrong(&["--sweep", "msaa=1,2", "--sweep", "msaa=4"]).mentions("`msaa` is swept twice");
+    wrong(&["--sweep", "msaa="]).mentions("expected NAME=A,B,C or NAME=LO..HI:STEPS");
+    wrong(&["--sweep", "render_scale=2..1:3"]).mentions("the range goes backwards: 2 is not below 1");
+    wrong(&["--sweep", "@size=0x9"]).mentions("@size: the width must be 1 to 16384 pixels");
+    wrong(&["--sweep", "@stereo=three"]).mentions("@stereo: expected auto");
+    wrong(&["--shard", "3/2"]).mentions("expected K/N");
+    let many = ["render_scale=0.5..4:1000", "white_point=1..100:1000", "blur=0,1,2,3,4,5"];
+    let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
+    wrong(&many).mentions("the sweep has 6000000 choices, and at most 10000 are measured");
+    let arguments = ["measure", "soft_focus", "--scene", "spheres_and_cubes", "-o", "swept"];
+    place.run(&arguments).exits(2).mentions("the pipeline has no preset `reference`");
+    assert!(!place.path("swept").exists());
+}
