@@ -34,7 +34,7 @@ struct DrawnObjects {
     vertices: Buffer,
     indices: Buffer,
     index_count: u32,
-    material_of: Vec<usize>,
+    runs: Vec<(usize, u32)>,
 }
 
 impl DrawnObjects {
@@ -51,7 +51,7 @@ impl DrawnObjects {
             vertices: buffer(BufferUsage::Vertex, &objects.vertices),
             indices: buffer(BufferUsage::Index, &objects.indices),
             index_count: objects.index_count,
-            material_of: objects.material_of.clone(),
+            runs: objects.runs.clone(),
         }
     }
 }
@@ -64,14 +64,14 @@ impl DrawSource for Source {
         recorder.bind_index_buffer(&objects.indices, IndexType::U32);
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
-        let mut bound = None;
-        for (object, material) in (0..).zip(&objects.material_of) {
-            if bound != Some(*material) {
-                recorder.bind_group(MATERIAL_SET, &objects.materials[*material]);
-                bound = Some(*material);
+        let mut object = 0;
+        for (material, count) in &objects.runs {
+            recorder.bind_group(MATERIAL_SET, &objects.materials[*material]);
+            for _ in 0..*count {
+                recorder.draw_indexed(0..objects.index_count, 0, object..object + 1);
+                object += 1;
             }
-            recorder.draw_indexed(0..objects.index_count, 0, object..object + 1);
         }
-        Ok(objects.material_of.len() as u32)
+        Ok(object)
     }
 }

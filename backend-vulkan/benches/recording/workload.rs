@@ -53,8 +53,8 @@ pub(crate) struct Objects {
     pub(crate) places: Vec<u8>,
     /// By material: its colour.
     pub(crate) materials: Vec<Vec<u8>>,
-    /// By object: its material.
-    pub(crate) material_of: Vec<usize>,
+    /// Each run of objects with one material: the material, and how many they are.
+    pub(crate) runs: Vec<(usize, u32)>,
 }
 
 impl Workload {
@@ -162,6 +162,7 @@ pub(crate) fn objects(count: u32) -> Workload {
         let at = [number % side, number / side].map(|at| at as f32 * step - 1.0);
         floats(&[at[0], at[1], 0.8 * step, 0.8 * step])
     };
+    let material_of: Vec<usize> = (0..count as usize).map(|number| number * 4 / count as usize).collect();
     let objects = Objects {
         vertices: floats(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
         indices: [0_u32, 1, 2, 2, 1, 3].iter().flat_map(|index| index.to_ne_bytes()).collect(),
@@ -171,7 +172,7 @@ pub(crate) fn objects(count: u32) -> Workload {
             .iter()
             .map(|color| floats(color))
             .collect(),
-        material_of: (0..count as usize).map(|number| number * 4 / count as usize).collect(),
+        runs: material_of.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u32)).collect(),
     };
     Workload { objects: Some(objects), ..builder.finish(shown) }
 }

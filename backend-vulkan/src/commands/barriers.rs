@@ -6,31 +6,6 @@ use ash::vk;
 use framewright_graph::plan::MemoryBarrier;
 use framewright_graph::vulkan::{State, Subresources};
 
-/// Barriers as Vulkan takes them, ready to be recorded as often as needed.
-pub(crate) struct Barriers {
-    memory: Vec<vk::MemoryBarrier2<'static>>,
-    images: Vec<vk::ImageMemoryBarrier2<'static>>,
-    /// The stages of the image barriers, where the validation layer needs them.
-    stages: Vec<vk::MemoryBarrier2<'static>>,
-}
-
-impl Barriers {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        memory: Vec<vk::MemoryBarrier2<'static>>,
-        images: Vec<vk::ImageMemoryBarrier2<'static>>,
-    ) -> Barriers {
-        let validated = gpu.instance.validation.is_some();
-        let stages = images.iter().filter(|_| validated).map(stages_of).collect();
-        Barriers { memory, images, stages }
-    }
-
-    /// Records them as [`barriers`] does.
-    pub(crate) fn record(&self, gpu: &Gpu, commands: vk::CommandBuffer) {
-        record(gpu, commands, &self.memory, &self.images, &self.stages);
-    }
-}
-
 /// Records memory barriers in one call, then image barriers in another: a layout change comes after what its own barrier
 /// and those of earlier calls make available. Nothing if there are none.
 pub(crate) fn barriers<const N: usize>(
@@ -39,33 +14,37 @@ pub(crate) fn barriers<const N: usize>(
     memory: &[vk::MemoryBarrier2<'_>],
     images: &[vk::ImageMemoryBarrier2<'_>; N],
 ) {
-    let stages = images.each_ref().map(stages_of);
-    record(gpu, commands, memory, images, if gpu.instance.validation.is_some() { &stages } else { &[] });
+    if !memory.is_empty() {
+        barrier_call(gpu, commands, memory, &[]);
+    }
+    if !images.is_empty() {
+        let stages = images.each_ref().map(stages_of);
+        barrier_call(gpu, commands, if gpu.instance.validation.is_some() { &stages } else { &[] }, images);
+    }
 }
 
-fn record(
+/// Records barriers in one call. An empty list is left out: to a pointer without entries drivers allocate a list without entries.
+pub(crate) fn barrier_call(
     gpu: &Gpu,
     commands: vk::CommandBuffer,
     memory: &[vk::MemoryBarrier2<'_>],
     images: &[vk::ImageMemoryBarrier2<'_>],
-    stages: &[vk::MemoryBarrier2<'_>],
 ) {
-    let record = |info: vk::DependencyInfo<'_>| {
-        // SAFETY: the command buffer is being recorded outside a scope, and the images live.
-        unsafe { gpu.raw.cmd_pipeline_barrier2(commands, &info) };
-    };
+    let mut info = vk::DependencyInfo::default();
     if !memory.is_empty() {
-        record(vk::DependencyInfo::default().memory_barriers(memory));
+        info = info.memory_barriers(memory);
     }
     if !images.is_empty() {
-        record(vk::DependencyInfo::default().memory_barriers(stages).image_memory_barriers(images));
+        info = info.image_memory_barriers(images);
     }
+    // SAFETY: the command buffer is being recorded outside a scope, and the images live.
+    unsafe { gpu.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
 /// The stages of an image barrier once more, as a memory barrier without accesses. It orders nothing that the image barrier
 /// doesn't order. Validation layers before 1.4.326 believe that an image barrier orders only what uses its own image, and report
 /// hazards where a chain of barriers leads through another image.
-fn stages_of(barrier: &vk::ImageMemoryBarrier2<'_>) -> vk::MemoryBarrier2<'static> {
+pub(crate) fn stages_of(barrier: &vk::ImageMemoryBarrier2<'_>) -> vk::MemoryBarrier2<'static> {
     if barrier.src_queue_family_index != barrier.dst_queue_family_index {
         // A change of owner orders one half on each queue.
         return vk::MemoryBarrier2::default();

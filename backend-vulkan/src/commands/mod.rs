@@ -1,18 +1,18 @@
 //! Commands: their recording and submission, barriers, copies, uploads and readback.
 
 mod barriers;
-mod command;
 mod readback;
 pub(crate) mod rotate_texels;
 mod submit;
 mod transfer;
+mod transfer_command;
 mod upload;
 
 pub use readback::Texels;
 
-pub(crate) use barriers::{Barriers, barriers, memory_barrier, memory_change, state_change};
-pub(crate) use command::Command;
+pub(crate) use barriers::{barrier_call, barriers, memory_barrier, memory_change, stages_of, state_change};
 pub(crate) use readback::{Readback, first_plane, mip_extent, plane_bytes};
 pub(crate) use submit::{CommandPool, Commands, Timeline, record};
 pub(crate) use transfer::{ImageSide, TransferSide, copy_between, fill};
+pub(crate) use transfer_command::TransferCommand;
 pub(crate) use upload::{UNUSED, WRITTEN, image_side, record_upload, staged, write_buffer, write_image};

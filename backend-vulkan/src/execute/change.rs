@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedWork, Refuse, check, passes};
+use crate::prepare::{PreparedStep, Refuse, check, passes};
 use ash::vk;
 use framewright_graph::plan::{Plan, Work};
 use std::sync::Arc;
@@ -47,7 +47,7 @@ impl Executor {
             self.prepared.steps[step].sets()[pass].take(filled);
         }
         for ChangedPipeline { step, pass, pipeline } in pipelines {
-            if let PreparedWork::Render(made) = &mut self.prepared.steps[step].work {
+            if let PreparedStep::Render(made) = &mut self.prepared.steps[step] {
                 made[pass].pipeline = Some(pipeline);
             }
         }
@@ -61,7 +61,7 @@ impl Executor {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
             let (Work::Render(old), Work::Render(new)) = (&old.work, &new.work) else { continue };
-            let PreparedWork::Render(made) = &self.prepared.steps[step].work else { continue };
+            let PreparedStep::Render(made) = &self.prepared.steps[step] else { continue };
             if old.extent == new.extent {
                 continue;
             }
@@ -78,7 +78,7 @@ impl Executor {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
             let made = &mut self.prepared.steps[step];
-            if let (Work::Dispatch(new), PreparedWork::Dispatch(made)) = (&new.work, &made.work) {
+            if let (Work::Dispatch(new), PreparedStep::Dispatch(made)) = (&new.work, &*made) {
                 made.groups(&self.gpu, new)?;
             }
             let passes = passes(&old.work).iter().zip(passes(&new.work)).zip(made.sets()).enumerate();

@@ -155,7 +155,7 @@ impl Executor {
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
         let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
-        self.frames.submit(&frame, &self.prepared.steps, source, &extras)?;
+        self.frames.submit(&frame, &self.prepared, source, &extras)?;
         Ok(number)
     }
 

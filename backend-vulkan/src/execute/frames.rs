@@ -6,7 +6,7 @@ use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
 use crate::gpu::{Gpu, PendingWork};
-use crate::prepare::{Batch, Frame, PreparedStep, batches};
+use crate::prepare::{Batch, Frame, PreparedPlan, batches};
 use crate::record::{CommandState, DrawSource, FrameReport, Recorded, Recording, Timing, report};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
@@ -102,19 +102,19 @@ impl Frames {
     pub(crate) fn submit(
         &mut self,
         frame: &Frame<'_>,
-        steps: &[PreparedStep],
+        prepared: &PreparedPlan,
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
         let at = self.slot_of(frame.number);
         let slot = &mut self.slots[at];
         // Resources of the slot's frame before are no longer in use.
-        slot.recorded.clear();
+        slot.recorded.begin();
         slot.frame = None;
-        if slot.outputs.is_empty() {
+        if slot.outputs.len() < extras.readbacks.len() {
             slot.outputs = extras.readbacks.iter().map(|it| it.make(frame)).collect::<Result<_, _>>()?;
         }
-        slot.record(&self.batches, frame, steps, source, extras)?;
+        slot.record(&self.batches, frame, prepared, source, extras)?;
         for number in 0..self.batches.len() {
             if let Err((result, submitted)) = self.submit_batch(at, number, frame.number) {
                 if number > 0 || submitted {
@@ -264,7 +264,7 @@ impl FrameSlot {
         &mut self,
         batches: &[Batch],
         frame: &Frame<'_>,
-        steps: &[PreparedStep],
+        prepared: &PreparedPlan,
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
@@ -276,7 +276,7 @@ impl FrameSlot {
             timing.begin_frame();
         }
         let (timing, recorded) = (self.timing.as_mut(), &mut self.recorded);
-        let mut recording = Recording { frame, source, timing, recorded, state: CommandState::default() };
+        let mut recording = Recording { frame, prepared, source, timing, recorded, state: CommandState::default() };
         for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
             record(frame.gpu, *buffer, |commands| {
                 recording.begin_batch(commands, batch.queue);
@@ -284,7 +284,7 @@ impl FrameSlot {
                     for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
                         import.record(frame, commands);
                     }
-                    recording.step(commands, &frame.plan.steps[step], &steps[step])?;
+                    recording.step(commands, step)?;
                     let readbacks = extras.readbacks.iter().zip(&self.outputs);
                     for (readback, into) in readbacks.filter(|(it, _)| it.after.0 as usize == step) {
                         readback.record(frame, commands, into);
@@ -293,7 +293,7 @@ impl FrameSlot {
                 Ok(())
             })?;
         }
-        self.recorded.took = begun.elapsed();
+        self.recorded.end(begun.elapsed());
         Ok(())
     }
 }

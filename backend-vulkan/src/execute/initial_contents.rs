@@ -2,7 +2,7 @@
 
 use crate::base::{Error, convert};
 use crate::commands::{
-    Barriers, TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
+    TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
 };
 use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
@@ -121,8 +121,8 @@ impl OwnershipTransfers<'_> {
                 acquired.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
             }
         }
-        for images in [released, acquired] {
-            Barriers::new(self.gpu, Vec::new(), images).record(self.gpu, commands);
+        for image in released.into_iter().chain(acquired) {
+            barriers(self.gpu, commands, &[], &[image]);
         }
     }
 

@@ -16,16 +16,21 @@ impl Gpu {
         }
     }
 
-    /// Records `work` under a label.
-    pub(crate) fn labelled<T>(&self, commands: vk::CommandBuffer, name: &CStr, work: impl FnOnce() -> T) -> T {
-        let Some(labels) = &self.labels else { return work() };
-        let label = vk::DebugUtilsLabelEXT::default().label_name(name);
-        // SAFETY: the command buffer is being recorded.
-        unsafe { labels.cmd_begin_debug_utils_label(commands, &label) };
-        let result = work();
-        // SAFETY: the command buffer is still being recorded, and the label was begun.
-        unsafe { labels.cmd_end_debug_utils_label(commands) };
-        result
+    /// Begins a label.
+    pub(crate) fn begin_label(&self, commands: vk::CommandBuffer, name: &CStr) {
+        if let Some(labels) = &self.labels {
+            let label = vk::DebugUtilsLabelEXT::default().label_name(name);
+            // SAFETY: the command buffer is being recorded.
+            unsafe { labels.cmd_begin_debug_utils_label(commands, &label) };
+        }
+    }
+
+    /// Ends the label that was begun last.
+    pub(crate) fn end_label(&self, commands: vk::CommandBuffer) {
+        if let Some(labels) = &self.labels {
+            // SAFETY: the command buffer is being recorded, and a label was begun.
+            unsafe { labels.cmd_end_debug_utils_label(commands) };
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::vulkan::Rotation;
 
 /// The picture that a pass draws into.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DrawTarget {
     /// Width and height, those of the turned picture; of two eyes one's.
     pub(crate) extent: [u32; 2],

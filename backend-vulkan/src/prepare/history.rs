@@ -96,11 +96,6 @@ impl<T> RingCache<T> {
         RingCache { period: period.max(1), made: Vec::new() }
     }
 
-    /// The objects that were made for frame `frame`.
-    pub(crate) fn at(&self, frame: u64) -> Option<&T> {
-        self.made.get(self.slot(frame))?.as_ref()
-    }
-
     /// The objects for frame `frame`, which are made unless they are there.
     pub(crate) fn prepare(&mut self, frame: u64, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
         let slot = self.slot(frame);
@@ -112,11 +107,6 @@ impl<T> RingCache<T> {
             Some(made) => made,
             None => made.insert(make()?),
         })
-    }
-
-    /// After how many frames, one after the other, everything is made.
-    pub(crate) fn period(&self) -> u64 {
-        self.period
     }
 
     /// Forgets everything: other images or buffers stand for the Plan's now. Nothing of it may be in use.

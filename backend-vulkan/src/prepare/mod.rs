@@ -1,9 +1,10 @@
-//! A Plan turned into what recording walks: images and buffers, views, descriptor sets, pipelines, and Vulkan's own structures for
-//! every command.
+//! A Plan turned into what recording walks: images and buffers, views, descriptor sets, pipelines, and a list of commands with
+//! Vulkan's own structures.
 
 mod batches;
 mod check;
 mod check_steps;
+mod command_list;
 mod descriptions;
 mod draw_target;
 mod frame;
@@ -22,15 +23,18 @@ mod variant;
 
 pub(crate) use batches::{Batch, batches};
 pub(crate) use check::{Refuse, check};
+pub(crate) use command_list::{
+    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand,
+    WorkgroupCount,
+};
 pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, name_and_role, part};
 pub(crate) use draw_target::{DrawTarget, scissor, viewport};
 pub(crate) use frame::Frame;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
-pub(crate) use pass::{DispatchCommands, DrawCommands, PassState, PreparedDispatch, PreparedDraw, WorkgroupCount};
+pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
 pub(crate) use prepared::PreparedPlan;
-pub(crate) use scope::ScopeCommands;
-pub(crate) use step::{PreparedStep, PreparedWork, WorkCommands};
+pub(crate) use step::PreparedStep;
 pub(crate) use textures::{StagedTexture, stage_textures};
 pub(crate) use uses::{ResourceUses, passes};
 pub(crate) use variant::view_mask;

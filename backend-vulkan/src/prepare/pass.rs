@@ -1,10 +1,13 @@
-//! A pass's pipeline, the template of its descriptor set, and what it records.
+//! A pass's pipeline, the template of its descriptor set, and its command.
 
+use super::command_list::{
+    Bindings, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, Run, WorkgroupCount,
+};
 use super::frame::Frame;
 use super::pass_set::PassSets;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, c_string};
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -15,12 +18,9 @@ use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
-use std::ffi::CString;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
-    /// The label that debuggers show.
-    pub(crate) label: CString,
     pub(crate) draw: Draw,
     pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
@@ -34,20 +34,6 @@ pub(crate) struct PreparedDraw {
     vertices: Vec<BufferId>,
     indices: Option<BufferId>,
     indirect: Option<BufferId>,
-}
-
-/// The commands of a pass of a rendering scope in a frame.
-pub(crate) struct DrawCommands {
-    /// `None`: the shader reads nothing of the pass's own.
-    pub(crate) set: Option<vk::DescriptorSet>,
-    /// Push constants: which parts of images are in use.
-    pub(crate) parts: Vec<u8>,
-    /// The pass's own vertex buffers, and where each begins.
-    pub(crate) vertices: Vec<vk::Buffer>,
-    pub(crate) offsets: Vec<vk::DeviceSize>,
-    pub(crate) indices: Option<vk::Buffer>,
-    /// Holds the counts of an indirect draw.
-    pub(crate) counts: Option<vk::Buffer>,
 }
 
 /// State of the pass's pipeline that a recorder must know.
@@ -78,23 +64,6 @@ pub(crate) struct PreparedDispatch {
     size: [u32; 3],
 }
 
-/// The commands of a dispatch in a frame.
-pub(crate) struct DispatchCommands {
-    /// As in [`DrawCommands`].
-    pub(crate) set: Option<vk::DescriptorSet>,
-    /// As in [`DrawCommands`].
-    pub(crate) parts: Vec<u8>,
-    pub(crate) groups: WorkgroupCount<vk::Buffer>,
-}
-
-/// The number of workgroups.
-pub(crate) enum WorkgroupCount<B> {
-    /// A known number, along each axis.
-    Direct([u32; 3]),
-    /// The number that the buffer holds at the offset.
-    Indirect(B, u64),
-}
-
 impl PreparedDraw {
     /// The pipeline for a scope of another size; `None` if the one that it has serves for all sizes.
     pub(crate) fn resized(&self, gpu: &Gpu, name: &str, extent: [u32; 2]) -> Result<Option<vk::Pipeline>, Error> {
@@ -103,29 +72,45 @@ impl PreparedDraw {
         gpu.pipeline(name, PipelineDescriptor { turned, ..descriptor.clone() }).map(Some)
     }
 
-    /// The commands of the pass in a frame.
-    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
+    /// The command of the pass in a frame; its number in the scope and that of its target are `numbers`.
+    pub(super) fn command(
+        &mut self,
+        list: &mut CommandList,
+        frame: &Frame<'_>,
+        plan: &plan::Pass,
+        (pass, target): (u32, u32),
+    ) -> Result<DrawCommand, Error> {
         let buffer = |id: BufferId| frame.buffer(id).raw;
-        Ok(DrawCommands {
-            set: self.sets.prepare(frame)?,
-            parts: parts(frame.plan, pass),
-            vertices: self.vertices.iter().copied().map(buffer).collect(),
-            offsets: vec![0; self.vertices.len()],
-            indices: self.indices.map(buffer),
-            counts: self.indirect.map(buffer),
-        })
+        let own = |counts| {
+            let vertices = self.vertices.iter().copied().map(buffer).collect();
+            let offsets = vec![0; self.vertices.len()];
+            DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices: self.indices.map(buffer), counts }))
+        };
+        let vertices = match (self.draw, self.indirect) {
+            (Draw::FullScreen, _) if !self.state.reads_supplied() => DrawnVertices::FullScreen,
+            (Draw::Vertices { count, instances }, _) => own(DrawCounts::Direct(count, instances)),
+            (Draw::Indirect, Some(counts)) => own(DrawCounts::Indirect(buffer(counts))),
+            _ => DrawnVertices::Source,
+        };
+        let bindings = bindings(list, frame, plan, &mut self.sets, self.state.layout)?;
+        Ok(DrawCommand { pipeline: self.pipeline, bindings, pass, target, vertices })
     }
 }
 
 impl PreparedDispatch {
-    /// The commands of the dispatch in a frame.
-    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DispatchCommands, Error> {
+    /// The command of the dispatch in a frame.
+    pub(super) fn command(
+        &mut self,
+        list: &mut CommandList,
+        frame: &Frame<'_>,
+        pass: &plan::Pass,
+    ) -> Result<DispatchCommand, Error> {
         let groups = match self.groups(frame.gpu, pass)? {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
-        let set = self.sets.prepare(frame)?;
-        Ok(DispatchCommands { set, parts: parts(frame.plan, pass), groups })
+        let bindings = bindings(list, frame, pass, &mut self.sets, self.layout)?;
+        Ok(DispatchCommand { pipeline: self.pipeline, bindings, groups })
     }
 
     /// How many workgroups it takes.
@@ -150,9 +135,17 @@ impl PreparedDispatch {
     }
 }
 
-/// Push constants of the pass's shaders: the parts of images that are in use.
-fn parts(plan: &Plan, pass: &plan::Pass) -> Vec<u8> {
-    plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten().collect()
+/// What the pipeline of a pass reads of the pass's own in a frame.
+fn bindings(
+    list: &mut CommandList,
+    frame: &Frame<'_>,
+    pass: &plan::Pass,
+    sets: &mut PassSets,
+    layout: vk::PipelineLayout,
+) -> Result<Bindings, Error> {
+    let set = sets.prepare(frame)?.unwrap_or_default();
+    let parts = frame.plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten();
+    Ok(Bindings { layout, set, parts: Run::add(&mut list.parts, parts) })
 }
 
 /// The buffers of a pass that have this role.
@@ -208,7 +201,6 @@ pub(super) fn prepare_draw(
         _ => None,
     };
     let nothing = |sets| PreparedDraw {
-        label: c_string(&pass.name),
         draw,
         sets,
         pipeline: None,
@@ -226,14 +218,16 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let brought = shaders.brought_along(draw);
+    let own = matches!(draw, Draw::Vertices { .. } | Draw::Indirect);
+    // The draw source isn't asked for vertices of the pass's own.
+    let brought = if own { DrawInterface::default() } else { shaders.brought_along(draw) };
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(gpu, &brought).map_err(mismatch)?;
     check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();
+    let own_vertices = own && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
     } else {

@@ -11,10 +11,11 @@
 //! Neither makes any write available that the Plan doesn't. So a poisoned frame shows the same picture exactly if nobody
 //! reads what was not written, and if the Plan's barriers order memory that changes hands.
 
+use super::command_list::{Command, CommandList};
 use super::frame::Frame;
 use super::uses::passes;
 use crate::base::{Clear, convert};
-use crate::commands::{Barriers, Command, ImageSide, TransferSide, memory_barrier};
+use crate::commands::{ImageSide, TransferCommand, TransferSide, memory_barrier};
 use ash::vk;
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
@@ -26,8 +27,8 @@ const CLEAR_LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
 /// The word that poisons a buffer.
 const WORD: u32 = 0xDEAD_BEEF;
 
-/// The barriers of the step number `index` with the poison between their scopes.
-pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) -> Vec<Command> {
+/// Adds the barriers of the step number `index` with the poison between their scopes.
+pub(super) fn push_poisoned_barriers(list: &mut CommandList, frame: &Frame<'_>, index: usize, step: &Step) {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
     let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
     let memory = step.memory_barriers.iter().map(|barrier| {
@@ -53,22 +54,24 @@ pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) ->
         let recorded = frame.image_barrier(barrier);
         recorded.src_stage_mask(CLEAR_STAGE).src_access_mask(CLEAR_ACCESS).old_layout(CLEAR_LAYOUT)
     });
-    let barriers = |memory, images| Command::Barriers(Barriers::new(frame.gpu, memory, images));
-    let mut commands = vec![barriers(memory.collect(), before.collect())];
-    commands.extend(images.iter().map(|barrier| {
+    list.push_barriers(frame.gpu, memory, before);
+    for barrier in &images {
         let (image, range, extent) = (frame.image(barrier.image).raw, barrier.range, vk::Extent3D::default());
         let place = TransferSide::Image(ImageSide { image, range, extent, layout: CLEAR_LAYOUT });
-        Command::Fill(place, pattern(frame.plan.image(barrier.image).format))
-    }));
+        push_fill(list, place, pattern(frame.plan.image(barrier.image).format));
+    }
     let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
     // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
-    commands.push(barriers(first_uses.iter().map(until_filled).collect(), Vec::new()));
-    commands.extend(buffers.iter().map(|buffer| {
+    list.push_barriers(frame.gpu, first_uses.iter().map(until_filled), []);
+    for buffer in &buffers {
         let place = TransferSide::Buffer { buffer: frame.buffer(buffer.id).raw, bytes: buffer.bytes };
-        Command::Fill(place, Clear::Word(WORD))
-    }));
-    commands.push(barriers(first_uses.iter().map(until_used).collect(), after.collect()));
-    commands
+        push_fill(list, place, Clear::Word(WORD));
+    }
+    list.push_barriers(frame.gpu, first_uses.iter().map(until_used), after);
+}
+
+fn push_fill(list: &mut CommandList, place: TransferSide, value: Clear) {
+    list.push(Command::Transfer(Box::new(TransferCommand::Fill(place, value))));
 }
 
 /// Whether the barrier begins an image's life in the frame.

@@ -1,8 +1,10 @@
 //! From a Plan to the objects that executing it needs, and to what its steps record.
 
+use super::command_list::CommandList;
 use super::frame::Frame;
+use super::pass_set::PassSets;
 use super::physical::PhysicalResources;
-use super::step::PreparedStep;
+use super::step::{PreparedStep, period};
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::shaders::ShaderLibrary;
@@ -14,9 +16,8 @@ pub(crate) struct PreparedPlan {
     pub(crate) physical: PhysicalResources,
     /// By step.
     pub(crate) steps: Vec<PreparedStep>,
+    pub(crate) list: CommandList,
     poison: bool,
-    /// After how many frames every step has found all its images and buffers.
-    period: u64,
     /// The frame from which on all is prepared anew; `None`: the next one.
     first: Option<u64>,
 }
@@ -32,10 +33,10 @@ impl PreparedPlan {
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
         let frame = Frame { gpu, plan, physical: &physical, number: 0 };
-        let steps = plan.steps.iter().enumerate().map(|step| PreparedStep::new(&frame, step, shaders));
+        let steps = plan.steps.iter().map(|step| PreparedStep::new(&frame, step, shaders));
         let steps = steps.collect::<Result<Vec<PreparedStep>, _>>()?;
-        let period = steps.iter().map(|step| step.commands.period()).max().unwrap_or(1);
-        let mut prepared = PreparedPlan { physical, steps, poison, period, first: None };
+        let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
+        let mut prepared = PreparedPlan { physical, steps, list, poison, first: None };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
@@ -43,23 +44,26 @@ impl PreparedPlan {
     /// Makes what frame `number` needs and no frame before it needed. Frames follow each other without gaps.
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
-        if number - first >= self.period {
+        if number - first >= self.list.period {
             return Ok(());
         }
         let frame = Frame { gpu, plan, physical: &self.physical, number };
-        let mut steps = plan.steps.iter().enumerate().zip(&mut self.steps);
-        steps.try_for_each(|(step, made)| made.prepare(&frame, step, self.poison))
+        let (list, poison) = (&mut self.list, self.poison);
+        let mut steps = plan.steps.iter().zip(&mut self.steps).enumerate();
+        steps.try_for_each(|(index, (step, made))| {
+            list.prepare(index, number, |list| made.push_commands(list, &frame, (index, step), poison))
+        })
     }
 
-    /// Forgets all sets and what is recorded, since another image or buffer was imported. Nothing may be in flight.
+    /// Forgets all sets and commands, since another image or buffer was imported. Nothing may be in flight.
     pub(crate) fn forget(&mut self) {
-        self.first = None;
-        self.steps.iter_mut().for_each(PreparedStep::forget);
+        self.forget_commands();
+        self.steps.iter_mut().flat_map(PreparedStep::sets).for_each(PassSets::forget);
     }
 
-    /// Forgets what the steps record, since the Plan has other values.
+    /// Forgets all commands, since the Plan has other values.
     pub(crate) fn forget_commands(&mut self) {
         self.first = None;
-        self.steps.iter_mut().for_each(|step| step.commands.forget());
+        self.list.forget();
     }
 }

@@ -1,12 +1,13 @@
 //! The commands of a rendering scope.
 
+use super::command_list::{Command, CommandList, Run, ScopeCommand};
 use super::descriptions::part;
 use super::draw_target::DrawTarget;
 use super::frame::Frame;
-use super::pass::{DrawCommands, PreparedDraw, prepare_draw};
+use super::pass::{PreparedDraw, prepare_draw};
 use super::variant::view_mask;
 use crate::base::{Error, convert};
-use crate::gpu::LocalRead;
+use crate::gpu::{LocalRead, c_string};
 use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
@@ -14,18 +15,6 @@ use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{Attachment, ImageId, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Subresources};
-
-/// The commands of a rendering scope in a frame.
-pub(crate) struct ScopeCommands {
-    pub(crate) color: Vec<vk::RenderingAttachmentInfo<'static>>,
-    pub(crate) depth: Option<vk::RenderingAttachmentInfo<'static>>,
-    pub(crate) stencil: Option<vk::RenderingAttachmentInfo<'static>>,
-    pub(crate) area: vk::Rect2D,
-    pub(crate) layers: u32,
-    pub(crate) view_mask: u32,
-    pub(crate) target: DrawTarget,
-    pub(crate) passes: Vec<DrawCommands>,
-}
 
 /// The objects of a rendering scope's passes.
 pub(super) fn prepare_scope(
@@ -46,30 +35,48 @@ pub(super) fn prepare_scope(
     Ok(passes)
 }
 
-impl ScopeCommands {
-    /// The commands in a frame of a scope with the passes `made`.
-    pub(super) fn new(
-        frame: &Frame<'_>,
-        scope: &RenderScope,
-        made: &mut [PreparedDraw],
-    ) -> Result<ScopeCommands, Error> {
-        let plan = frame.plan;
-        let info = |planned: &Attachment| attachment(frame, planned);
-        let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
-        let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
-        let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
-        let passes = made.iter_mut().zip(&scope.passes).map(|(made, pass)| made.commands(frame, pass));
-        Ok(ScopeCommands {
-            color: or_unused(color.into_iter()),
-            depth: scope.depth.as_ref().map(info).transpose()?,
-            stencil: scope.stencil.as_ref().map(info).transpose()?,
-            area: vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } },
-            layers: EyeForm::layers(form, scope.layers),
-            view_mask: view_mask(plan, scope),
-            target: DrawTarget::new(scope.extent, rotation, form.map(|form| (plan.stereo, form))),
-            passes: passes.collect::<Result<_, _>>()?,
-        })
+/// Adds the commands in a frame of a scope with the passes `made`.
+pub(super) fn push_scope(
+    list: &mut CommandList,
+    frame: &Frame<'_>,
+    scope: &RenderScope,
+    made: &mut [PreparedDraw],
+) -> Result<(), Error> {
+    let plan = frame.plan;
+    let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
+    let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
+    let info = |planned: &Attachment| attachment(frame, planned);
+    let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
+    let (depth, stencil) = (scope.depth.as_ref().map(info).transpose()?, scope.stencil.as_ref().map(info).transpose()?);
+    let begin = ScopeCommand {
+        color: Run::add(&mut list.attachments, or_unused(color.into_iter())),
+        depth: Run::add(&mut list.attachments, depth),
+        stencil: Run::add(&mut list.attachments, stencil),
+        extent: vk::Extent2D { width, height },
+        layers: EyeForm::layers(form, scope.layers),
+        view_mask: view_mask(plan, scope),
+    };
+    list.push(Command::BeginScope(begin));
+    let target = list.target(DrawTarget::new(scope.extent, rotation, form.map(|form| (plan.stereo, form))));
+    for (number, (pass, made)) in (0..).zip(scope.passes.iter().zip(made)) {
+        list.push_labelled(
+            frame.gpu,
+            || c_string(&pass.name),
+            |list| {
+                if pass.local_barrier {
+                    list.push(Command::LocalBarrier);
+                }
+                if let Some(local) = &made.local {
+                    list.push(Command::SeeAttachments(Box::new(local.clone())));
+                }
+                let draw = made.command(list, frame, pass, (number, target))?;
+                list.push(Command::Draw(draw));
+                Ok(())
+            },
+        )?;
     }
+    list.push(Command::EndScope);
+    Ok(())
 }
 
 /// An attachment as Vulkan takes it. The images must live as long as it is used.

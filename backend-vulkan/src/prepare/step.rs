@@ -1,31 +1,22 @@
-//! A step turned into what recording walks.
+//! A step turned into objects, and into the commands that recording reads.
 
+use super::command_list::{Command, CommandList};
 use super::descriptions::name_and_role;
 use super::frame::Frame;
-use super::history::RingCache;
-use super::pass::{DispatchCommands, PreparedDispatch, PreparedDraw, prepare_dispatch};
+use super::pass::{PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
-use super::poison::poisoned_barriers;
-use super::scope::{ScopeCommands, prepare_scope};
+use super::poison::push_poisoned_barriers;
+use super::scope::{prepare_scope, push_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
-use crate::commands::{Barriers, Command, TransferSide, memory_barrier};
+use crate::commands::{TransferCommand, TransferSide, memory_barrier};
 use crate::gpu::c_string;
 use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
-use std::ffi::CString;
-
-/// A step, with its objects.
-pub(crate) struct PreparedStep {
-    /// The label that debuggers show.
-    pub(crate) label: CString,
-    pub(crate) work: PreparedWork,
-    pub(crate) commands: RingCache<StepCommands>,
-}
 
 /// The objects of a step's work.
-pub(crate) enum PreparedWork {
+pub(crate) enum PreparedStep {
     /// The objects of a rendering scope's passes.
     Render(Vec<PreparedDraw>),
     /// The objects of a dispatch.
@@ -34,116 +25,94 @@ pub(crate) enum PreparedWork {
     Plain,
 }
 
-/// The commands of a step in a frame, as Vulkan's own structures.
-pub(crate) struct StepCommands {
-    /// The barriers, and the step's work where that is a transfer.
-    pub(crate) before: Vec<Command>,
-    pub(crate) work: WorkCommands,
-    pub(crate) releases: Barriers,
-}
-
-/// The commands of a step's work.
-pub(crate) enum WorkCommands {
-    /// A rendering scope.
-    Render(Box<ScopeCommands>),
-    /// A dispatch.
-    Dispatch(DispatchCommands),
-    /// Other work, which records nothing here.
-    Plain,
-}
-
 impl PreparedStep {
-    /// The objects of the step number `index`, as far as they are the same in all frames.
-    pub(super) fn new(
-        frame: &Frame<'_>,
-        (index, step): (usize, &Step),
-        shaders: &mut ShaderLibrary,
-    ) -> Result<PreparedStep, Error> {
-        let work = match &step.work {
-            Work::Render(scope) => PreparedWork::Render(prepare_scope(frame, scope, shaders)?),
-            Work::Dispatch(pass) => PreparedWork::Dispatch(prepare_dispatch(frame, pass, shaders)?),
-            _ => PreparedWork::Plain,
-        };
-        let mut resources = Vec::new();
-        touched(step, &mut |resource| resources.push(resource));
-        let label = c_string(&format!("step {index}: {}", title(frame.plan, step)));
-        Ok(PreparedStep { label, work, commands: RingCache::new(frame.physical.period(resources)) })
+    /// The objects of a step, as far as they are the same in all frames.
+    pub(super) fn new(frame: &Frame<'_>, step: &Step, shaders: &mut ShaderLibrary) -> Result<PreparedStep, Error> {
+        Ok(match &step.work {
+            Work::Render(scope) => PreparedStep::Render(prepare_scope(frame, scope, shaders)?),
+            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(frame, pass, shaders)?),
+            _ => PreparedStep::Plain,
+        })
     }
 
-    /// Makes what the step number `index` records in a frame, unless it is there.
-    pub(super) fn prepare(
+    /// Adds what the step number `index` records in a frame.
+    pub(super) fn push_commands(
         &mut self,
+        list: &mut CommandList,
         frame: &Frame<'_>,
         (index, step): (usize, &Step),
         poison: bool,
     ) -> Result<(), Error> {
-        let PreparedStep { work, commands, .. } = self;
-        let make = || StepCommands::new(frame, (index, step), work, poison);
-        commands.prepare(frame.number, make).map(drop)
+        let label = || c_string(&format!("step {index}: {}", title(frame.plan, step)));
+        list.push_labelled(frame.gpu, label, |list| {
+            if poison {
+                push_poisoned_barriers(list, frame, index, step);
+            } else {
+                let memory = step.memory_barriers.iter().map(memory_barrier);
+                list.push_barriers(frame.gpu, memory, step.image_barriers.iter().map(|it| frame.image_barrier(it)));
+            }
+            match (&step.work, self) {
+                (Work::Render(scope), PreparedStep::Render(made)) => push_scope(list, frame, scope, made)?,
+                (Work::Dispatch(pass), PreparedStep::Dispatch(made)) => {
+                    let dispatch = made.command(list, frame, pass)?;
+                    list.push(Command::Dispatch(dispatch));
+                }
+                (Work::Custom(_), _) => list.push(Command::Custom),
+                (work, _) => {
+                    if let Some(transfer) = transfer(frame, work) {
+                        list.push(Command::Transfer(Box::new(transfer)));
+                    }
+                }
+            }
+            list.push_barriers(frame.gpu, [], step.releases.iter().map(|it| frame.image_barrier(it)));
+            Ok(())
+        })
+    }
+
+    /// The objects of its scope's passes.
+    pub(crate) fn draws(&self) -> &[PreparedDraw] {
+        match self {
+            PreparedStep::Render(passes) => passes,
+            PreparedStep::Dispatch(_) | PreparedStep::Plain => &[],
+        }
     }
 
     /// The sets of its passes.
     pub(crate) fn sets(&mut self) -> Vec<&mut PassSets> {
-        match &mut self.work {
-            PreparedWork::Render(passes) => passes.iter_mut().map(|pass| &mut pass.sets).collect(),
-            PreparedWork::Dispatch(pass) => vec![&mut pass.sets],
-            PreparedWork::Plain => Vec::new(),
+        match self {
+            PreparedStep::Render(passes) => passes.iter_mut().map(|pass| &mut pass.sets).collect(),
+            PreparedStep::Dispatch(pass) => vec![&mut pass.sets],
+            PreparedStep::Plain => Vec::new(),
         }
-    }
-
-    /// Forgets sets and what is recorded.
-    pub(super) fn forget(&mut self) {
-        self.commands.forget();
-        self.sets().into_iter().for_each(PassSets::forget);
     }
 }
 
-impl StepCommands {
-    fn new(
-        frame: &Frame<'_>,
-        (index, step): (usize, &Step),
-        made: &mut PreparedWork,
-        poison: bool,
-    ) -> Result<StepCommands, Error> {
-        let mut before = if poison {
-            poisoned_barriers(frame, index, step)
-        } else {
-            let memory = step.memory_barriers.iter().map(memory_barrier);
-            let images = step.image_barriers.iter().map(|it| frame.image_barrier(it));
-            vec![Command::Barriers(Barriers::new(frame.gpu, memory.collect(), images.collect()))]
-        };
-        before.extend(transfer(frame, &step.work));
-        let work = match (&step.work, made) {
-            (Work::Render(scope), PreparedWork::Render(made)) => {
-                WorkCommands::Render(Box::new(ScopeCommands::new(frame, scope, made)?))
-            }
-            (Work::Dispatch(pass), PreparedWork::Dispatch(made)) => WorkCommands::Dispatch(made.commands(frame, pass)?),
-            _ => WorkCommands::Plain,
-        };
-        let releases = step.releases.iter().map(|it| frame.image_barrier(it));
-        Ok(StepCommands { before, work, releases: Barriers::new(frame.gpu, Vec::new(), releases.collect()) })
-    }
+/// After how many frames a step records the same again.
+pub(super) fn period(frame: &Frame<'_>, step: &Step) -> u64 {
+    let mut resources = Vec::new();
+    touched(step, &mut |resource| resources.push(resource));
+    frame.physical.period(resources)
 }
 
 /// The transfer that a step is, if it is one.
-fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Command> {
+fn transfer(frame: &Frame<'_>, work: &Work) -> Option<TransferCommand> {
     let images = |it: &Transfer| match (frame.side(&it.source), frame.side(&it.target)) {
         (TransferSide::Image(source), TransferSide::Image(target)) => Some((source, target)),
         _ => None,
     };
     Some(match work {
-        Work::Resolve(it) => images(it).map(|(source, target)| Command::Resolve(source, target))?,
-        Work::Copy(it) => Command::Copy(frame.side(&it.source), frame.side(&it.target)),
+        Work::Resolve(it) => images(it).map(|(source, target)| TransferCommand::Resolve(source, target))?,
+        Work::Copy(it) => TransferCommand::Copy(frame.side(&it.source), frame.side(&it.target)),
         Work::Blit(it) => {
             let filter = convert::filter(it.filter.unwrap_or(Filter::Nearest));
-            images(it).map(|(source, target)| Command::Blit(source, target, filter))?
+            images(it).map(|(source, target)| TransferCommand::Blit(source, target, filter))?
         }
         Work::Fill(fill) => {
             let format = match fill.target.resource() {
                 Resource::Image(image) => Some(frame.plan.image(image).format),
                 Resource::Buffer(_) => None,
             };
-            Command::Fill(frame.side(&fill.target), convert::clear(format, fill.value))
+            TransferCommand::Fill(frame.side(&fill.target), convert::clear(format, fill.value))
         }
         Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => return None,
     })

@@ -1,5 +1,6 @@
 //! Recording of a prepared frame's commands.
 
+mod canvas;
 mod custom;
 mod draw_source;
 mod recorder;

@@ -1,15 +1,16 @@
 //! How a draw source records its draws.
 
-mod area;
-
-use super::state::CommandState;
-use crate::gpu::Gpu;
-use crate::prepare::{DrawTarget, PassState, PreparedDraw};
-use crate::resources::{BindGroup, Buffer};
+use super::canvas::Canvas;
+use super::step::bind_set;
+use crate::memory::RawBuffer;
+use crate::prepare::{PassState, PreparedDraw};
+use crate::resources::{BindGroup, Buffer, RawBindGroup};
 use ash::vk;
+use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The faces that are left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -45,74 +46,81 @@ pub enum IndexType {
 /// No method fails at once: the first misuse is kept, what follows is ignored, and [`crate::Executor::frame`] returns it
 /// as [`crate::Error::Recording`].
 pub struct Recorder<'f> {
-    gpu: &'f Gpu,
-    commands: vk::CommandBuffer,
-    state: &'f mut CommandState,
+    canvas: Canvas<'f>,
     kept: &'f mut HeldResources,
     pass: &'f PassState,
     has_pipeline: bool,
     plan: &'f plan::Pass,
-    target: DrawTarget,
     frame: u64,
     vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
-    /// The rectangles of viewport and scissor, where they aren't all of the picture and each eye's half has its own.
-    viewport: Option<[f64; 4]>,
-    scissor: Option<[f64; 4]>,
-    /// Whether the pass was looked through for bindings that its draws lack.
-    looked: bool,
+    /// Whether the pass was looked through for bindings that its draws lack, and nothing was misused.
+    ready: bool,
     misuse: Option<String>,
 }
 
 /// Resources of a frame's commands, kept until the device is done with them even if the draw source drops them.
 #[derive(Default)]
 pub(crate) struct HeldResources {
-    groups: Vec<BindGroup>,
-    buffers: Vec<Buffer>,
+    groups: Held<RawBindGroup>,
+    buffers: Held<RawBuffer>,
     /// By set from 1 on: whether the pass that is being recorded has all that it reads of it.
     bound: Vec<bool>,
 }
 
+/// Resources in the order in which a frame's commands use them. What a frame uses as the frame before did stays as it is, since
+/// to count references takes time.
+struct Held<T> {
+    list: Vec<Arc<T>>,
+    /// How many of them the frame has used so far.
+    used: usize,
+}
+
+impl<T> Default for Held<T> {
+    fn default() -> Held<T> {
+        Held { list: Vec::new(), used: 0 }
+    }
+}
+
+impl<T> Held<T> {
+    fn hold(&mut self, resource: &Arc<T>) {
+        match self.list.get_mut(self.used) {
+            Some(held) if Arc::ptr_eq(held, resource) => {}
+            Some(held) => *held = resource.clone(),
+            None => self.list.push(resource.clone()),
+        }
+        self.used += 1;
+    }
+}
+
 impl HeldResources {
-    /// Lets go of everything, and keeps the memory of the lists.
-    pub(super) fn clear(&mut self) {
-        self.groups.clear();
-        self.buffers.clear();
+    /// Begins a frame, which finds the resources of the one before. The device must be done with that.
+    pub(super) fn begin(&mut self) {
+        (self.groups.used, self.buffers.used) = (0, 0);
+    }
+
+    /// Lets go of what the frame before used and this one doesn't.
+    pub(super) fn end(&mut self) {
+        self.groups.list.truncate(self.groups.used);
+        self.buffers.list.truncate(self.buffers.used);
     }
 }
 
 impl<'f> Recorder<'f> {
-    pub(crate) fn new(
-        (gpu, commands): (&'f Gpu, vk::CommandBuffer),
-        (state, kept): (&'f mut CommandState, &'f mut HeldResources),
+    pub(super) fn new(
+        canvas: Canvas<'f>,
+        kept: &'f mut HeldResources,
         drawn: &'f PreparedDraw,
         plan: &'f plan::Pass,
-        target: DrawTarget,
         frame: u64,
+        begun: Result<(), String>,
     ) -> Recorder<'f> {
-        let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
+        let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
         kept.bound.clear();
         kept.bound.extend(pass.supplied.iter().map(|(_, needed)| !needed));
-        let (vertices, indices, misuse) = (None, None, None);
-        Recorder {
-            gpu,
-            commands,
-            state,
-            kept,
-            pass,
-            has_pipeline,
-            plan,
-            target,
-            frame,
-            vertices,
-            indices,
-            culled: 0,
-            viewport: None,
-            scissor: None,
-            looked: false,
-            misuse,
-        }
+        let (vertices, indices) = (None, None);
+        Recorder { canvas, kept, pass, has_pipeline, plan, frame, vertices, indices, culled: 0, ready: false, misuse }
     }
 
     /// The pass's name.
@@ -153,27 +161,27 @@ impl<'f> Recorder<'f> {
     /// the format `UNDEFINED`.
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
-        self.state.lose_track();
-        self.commands
+        self.canvas.state.lose_track();
+        self.canvas.commands
     }
 
     /// Width and height of the picture that is drawn, upright.
     #[must_use]
     pub fn extent(&self) -> [u32; 2] {
-        self.target.upright()
+        self.canvas.target.upright()
     }
 
     /// The rotation of the picture in the attachments. Shaders that support rotation turn their own positions
     /// (`include/rotation.glsl`). Code that draws by [`Recorder::raw`] with a pipeline of its own must turn them itself.
     #[must_use]
     pub fn rotation(&self) -> Rotation {
-        self.target.rotation
+        self.canvas.target.rotation
     }
 
     /// Width and height of what is drawn into: of the turned picture.
     #[must_use]
     pub fn target_extent(&self) -> [u32; 2] {
-        self.target.extent
+        self.canvas.target.extent
     }
 
     /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
@@ -184,7 +192,7 @@ impl<'f> Recorder<'f> {
 
     /// Binds a group to the set number `set`, from 1 on.
     pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
-        if !group.0.set.is_of(self.gpu) {
+        if !group.0.set.is_of(self.canvas.gpu) {
             return self.misused(|| "the bind group belongs to another device".to_owned());
         }
         let index = (set as usize).wrapping_sub(1);
@@ -197,14 +205,9 @@ impl<'f> Recorder<'f> {
             }
             Some(_) => {
                 self.kept.bound[index] = true;
-                self.kept.groups.push(group.clone());
-                let sets = [group.0.set.raw];
-                // SAFETY: the set has the layout that the pipeline's layout has at this number.
-                unsafe {
-                    let graphics = vk::PipelineBindPoint::GRAPHICS;
-                    let (device, layout) = (&self.gpu.raw, self.pass.layout);
-                    device.cmd_bind_descriptor_sets(self.commands, graphics, layout, set, &sets, &[]);
-                }
+                self.kept.groups.hold(&group.0);
+                let (gpu, commands, layout) = (self.canvas.gpu, self.canvas.commands, self.pass.layout);
+                bind_set(gpu, commands, vk::PipelineBindPoint::GRAPHICS, layout, set, group.0.set.raw);
             }
         }
     }
@@ -216,7 +219,7 @@ impl<'f> Recorder<'f> {
         }
         self.vertices = Some(buffer.bytes());
         // SAFETY: the command buffer is being recorded, and the buffer was made for vertices.
-        unsafe { self.gpu.raw.cmd_bind_vertex_buffers(self.commands, 0, &[buffer.0.raw], &[0]) };
+        unsafe { self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, 0, &[buffer.0.raw], &[0]) };
     }
 
     /// Binds the indices.
@@ -230,34 +233,48 @@ impl<'f> Recorder<'f> {
         };
         self.indices = Some(buffer.bytes() / bytes);
         // SAFETY: the command buffer is being recorded, and the buffer was made for indices.
-        unsafe { self.gpu.raw.cmd_bind_index_buffer(self.commands, buffer.0.raw, 0, ty) };
+        unsafe { self.canvas.gpu.raw.cmd_bind_index_buffer(self.canvas.commands, buffer.0.raw, 0, ty) };
     }
 
     /// Says which faces are left out from now on.
     pub fn set_cull_mode(&mut self, mode: CullMode) {
-        if !self.state.needs_cull_mode(mode) {
-            return;
-        }
-        let mode = match mode {
-            CullMode::None => vk::CullModeFlags::NONE,
-            CullMode::Front => vk::CullModeFlags::FRONT,
-            CullMode::Back => vk::CullModeFlags::BACK,
-        };
-        // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
-        unsafe { self.gpu.raw.cmd_set_cull_mode(self.commands, mode) };
+        self.canvas.set_cull_mode(mode);
     }
 
     /// Says which side is the front from now on, after the projection, which flips y.
     pub fn set_front_face(&mut self, face: FrontFace) {
-        if !self.state.needs_front_face(face) {
-            return;
+        self.canvas.set_front_face(face);
+    }
+
+    /// How the pass draws for both eyes at once. Each draw of the recorder's own then draws for both eyes. Code that draws
+    /// by [`Recorder::raw`] must do so itself. `None`: the pass draws for one eye, or into images that both eyes share.
+    /// Width, height, viewport and scissor are those of one eye's picture.
+    #[must_use]
+    pub fn both_eyes(&self) -> Option<(Stereo, EyeForm)> {
+        self.canvas.target.eyes
+    }
+
+    /// Says to which rectangle of the upright picture clip space is stretched from now on: its left and upper edge, then its
+    /// width and height, in texels. At first it is all of the picture. Where instances draw into both eyes' halves it must be all
+    /// of it.
+    pub fn set_viewport(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+        let rectangle = [x, y, width, height];
+        if !rectangle.into_iter().all(f64::is_finite) || width <= 0.0 || height <= 0.0 {
+            return self.misused(|| format!("a viewport of {width}×{height} at {x}, {y}"));
         }
-        let face = match face {
-            FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
-            FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
-        };
-        // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
-        unsafe { self.gpu.raw.cmd_set_front_face(self.commands, face) };
+        let set = self.canvas.set_viewport(rectangle);
+        self.note(set);
+    }
+
+    /// Says in which rectangle of the upright picture texels may change from now on: its left and upper edge, then its width
+    /// and height, in texels. What lies outside the picture is left out. At first it is all of the picture. Where instances draw
+    /// into both eyes' halves it must be all of it.
+    pub fn set_scissor(&mut self, corner: [u32; 2], size: [u32; 2]) {
+        let upright = self.extent();
+        let begin = [0, 1].map(|axis| corner[axis].min(upright[axis]));
+        let end = [0, 1].map(|axis| corner[axis].saturating_add(size[axis]).min(upright[axis]));
+        let set = self.canvas.set_scissor([begin[0], begin[1], end[0] - begin[0], end[1] - begin[1]].map(f64::from));
+        self.note(set);
     }
 
     /// Draws triangles of consecutive vertices. `instances` begins at what shaders see as the first `gl_InstanceIndex`.
@@ -269,79 +286,55 @@ impl<'f> Recorder<'f> {
         }
         if self.may_draw() {
             let count = vertices.end.saturating_sub(vertices.start);
-            self.for_eyes(instances, |device, commands, first, instances| {
+            let drawn = self.canvas.for_eyes(instances, |device, commands, first, instances| {
                 // SAFETY: everything that the pipeline reads is bound and large enough.
                 unsafe { device.cmd_draw(commands, count, instances, vertices.start, first) };
             });
+            self.note(drawn);
         }
     }
 
     /// Draws triangles of indexed vertices; `base_vertex` is added to each index.
     pub fn draw_indexed(&mut self, indices: Range<u32>, base_vertex: i32, instances: Range<u32>) {
-        match self.indices {
-            None => return self.misused(|| "an indexed draw without index buffer".to_owned()),
-            Some(held) if held < u64::from(indices.end) => {
-                return self.misused(|| format!("indices {indices:?} lie beyond the index buffer, which holds {held}"));
-            }
-            Some(_) => {}
+        if self.indices.is_none_or(|held| held < u64::from(indices.end)) {
+            return self.misused_indices(&indices);
         }
         if self.may_draw() {
             let count = indices.end.saturating_sub(indices.start);
-            self.for_eyes(instances, |device, commands, first, instances| {
+            let drawn = self.canvas.for_eyes(instances, |device, commands, first, instances| {
                 // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
                 // index beyond the vertices reads no foreign memory.
                 unsafe { device.cmd_draw_indexed(commands, count, instances, indices.start, base_vertex, first) };
             });
+            self.note(drawn);
         }
     }
 
-    /// Draws the vertices, or the indices, of the pass's own buffers, which were bound and are large enough.
-    pub(crate) fn draw_own(&mut self, count: u32, instances: u32, indexed: bool) {
-        if self.may_draw() {
-            self.for_eyes(0..instances, |device, commands, first, instances| {
-                // SAFETY: everything that the pipeline reads is bound, and with robustBufferAccess an index beyond the vertices
-                // reads no foreign memory.
-                unsafe {
-                    if indexed {
-                        device.cmd_draw_indexed(commands, count, instances, 0, 0, first);
-                    } else {
-                        device.cmd_draw(commands, count, instances, 0, first);
-                    }
-                }
-            });
-        }
-    }
-
-    /// Draws as often as `counts` says.
-    pub(crate) fn draw_indirect(&mut self, counts: vk::Buffer, indexed: bool) {
-        if self.may_draw() {
-            // SAFETY: as above; the buffer holds one command.
-            unsafe {
-                if indexed {
-                    self.gpu.raw.cmd_draw_indexed_indirect(self.commands, counts, 0, 1, 20);
-                } else {
-                    self.gpu.raw.cmd_draw_indirect(self.commands, counts, 0, 1, 16);
-                }
-            }
-        }
+    #[cold]
+    fn misused_indices(&mut self, indices: &Range<u32>) {
+        let held = self.indices;
+        self.misused(|| match held {
+            None => "an indexed draw without index buffer".to_owned(),
+            Some(held) => format!("indices {indices:?} lie beyond the index buffer, which holds {held}"),
+        });
     }
 
     /// Whether the buffer may be bound so; if it may, it is kept.
     fn may_bind(&mut self, buffer: &Buffer, usage: vk::BufferUsageFlags) -> bool {
-        let may = buffer.0.usage.contains(usage) && buffer.0.is_of(self.gpu);
+        let may = buffer.0.usage.contains(usage) && buffer.0.is_of(self.canvas.gpu);
         if may {
-            self.kept.buffers.push(buffer.clone());
+            self.kept.buffers.hold(&buffer.0);
         }
         may
     }
 
     /// Whether everything that the pipeline reads is bound. What is bound once is bound for the rest of the pass.
     fn may_draw(&mut self) -> bool {
-        if !self.looked {
+        if !self.ready {
             self.look_for_missing();
-            self.looked = true;
+            self.ready = self.misuse.is_none();
         }
-        self.misuse.is_none()
+        self.ready
     }
 
     /// A draw is misuse as long as something is missing.
@@ -359,7 +352,15 @@ impl<'f> Recorder<'f> {
     }
 
     fn misused(&mut self, what: impl FnOnce() -> String) {
+        self.ready = false;
         self.misuse.get_or_insert_with(what);
+    }
+
+    /// Keeps what was misused, if anything was.
+    fn note(&mut self, result: Result<(), String>) {
+        if let Err(what) = result {
+            self.misused(|| what);
+        }
     }
 
     /// How many objects were left out, or the first misuse if there was any.

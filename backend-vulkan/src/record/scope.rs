@@ -1,114 +1,109 @@
 //! Rendering scopes and their draws.
 
-use super::recorder::{CullMode, FrontFace, Recorder};
-use super::step::{Recording, tell_parts};
+use super::canvas::Canvas;
+use super::recorder::Recorder;
+use super::step::{Recording, bind};
 use super::timing::Counts;
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead};
-use crate::prepare::{DrawCommands, DrawTarget, PreparedDraw, ScopeCommands};
+use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand, passes};
 use ash::vk;
-use framewright_graph::frame::Draw;
-use framewright_graph::plan::{Pass, RenderScope};
+
+/// Begins a rendering scope.
+pub(super) fn begin(gpu: &Gpu, commands: vk::CommandBuffer, list: &CommandList, scope: &ScopeCommand) {
+    let mut rendering = vk::RenderingInfo::default()
+        .render_area(scope.extent.into())
+        .layer_count(scope.layers)
+        .view_mask(scope.view_mask)
+        .color_attachments(scope.color.of(&list.attachments));
+    if let [depth] = scope.depth.of(&list.attachments) {
+        rendering = rendering.depth_attachment(depth);
+    }
+    if let [stencil] = scope.stencil.of(&list.attachments) {
+        rendering = rendering.stencil_attachment(stencil);
+    }
+    // SAFETY: the command buffer is being recorded outside a scope; views and formats are those that the pipelines were made
+    // for.
+    unsafe { gpu.raw.cmd_begin_rendering(commands, &rendering) };
+}
 
 impl Recording<'_> {
-    /// Records a rendering scope.
-    pub(super) fn render(
+    /// Records a pass of the scope of a step.
+    pub(super) fn draw(
         &mut self,
         commands: vk::CommandBuffer,
-        plan: &RenderScope,
-        made: &[PreparedDraw],
-        scope: &ScopeCommands,
-    ) -> Result<(), Error> {
-        let gpu = self.frame.gpu;
-        let mut rendering = vk::RenderingInfo::default()
-            .render_area(scope.area)
-            .layer_count(scope.layers)
-            .view_mask(scope.view_mask)
-            .color_attachments(&scope.color);
-        if let Some(depth) = &scope.depth {
-            rendering = rendering.depth_attachment(depth);
-        }
-        if let Some(stencil) = &scope.stencil {
-            rendering = rendering.stencil_attachment(stencil);
-        }
-        // SAFETY: the command buffer is being recorded outside a scope; views and formats are those that the pipelines
-        // were made for.
-        unsafe { gpu.raw.cmd_begin_rendering(commands, &rendering) };
-        for ((plan, made), pass) in plan.passes.iter().zip(made).zip(&scope.passes) {
-            let drawn = gpu.labelled(commands, &made.label, || {
-                if plan.local_barrier {
-                    local_barrier(gpu, commands);
-                }
-                if let Some(local) = &made.local {
-                    see_attachments(gpu, commands, local);
-                }
-                self.draw(commands, plan, made, pass, scope.target)
-            });
-            self.end_pass(commands, drawn?);
-        }
-        // SAFETY: the scope was begun above.
-        unsafe { gpu.raw.cmd_end_rendering(commands) };
-        Ok(())
-    }
-
-    fn draw(
-        &mut self,
-        commands: vk::CommandBuffer,
-        plan: &Pass,
-        made: &PreparedDraw,
-        pass: &DrawCommands,
-        target: DrawTarget,
+        step: usize,
+        draw: &DrawCommand,
     ) -> Result<Counts, Error> {
-        let gpu = self.frame.gpu;
+        let (gpu, list) = (self.frame.gpu, &self.prepared.list);
+        let (mut draws, mut culled) = (1, 0);
         self.state.begin_pass();
-        if let Some(pipeline) = made.pipeline {
-            // SAFETY: the command buffer is being recorded within a scope that the pipeline was made for, and the set has
-            // the layout's first set layout.
-            unsafe {
-                let graphics = vk::PipelineBindPoint::GRAPHICS;
-                if self.state.needs_graphics(pipeline) {
-                    gpu.raw.cmd_bind_pipeline(commands, graphics, pipeline);
-                }
-                if let Some(set) = pass.set {
-                    gpu.raw.cmd_bind_descriptor_sets(commands, graphics, made.state.layout, 0, &[set], &[]);
-                }
+        if let Some(pipeline) = draw.pipeline {
+            let graphics = vk::PipelineBindPoint::GRAPHICS;
+            if self.state.needs_graphics(pipeline) {
+                // SAFETY: the command buffer is being recorded within a scope that the pipeline was made for.
+                unsafe { gpu.raw.cmd_bind_pipeline(commands, graphics, pipeline) };
             }
-            tell_parts(gpu, commands, made.state.layout, &pass.parts);
+            bind(gpu, commands, graphics, list, &draw.bindings);
         }
-        let (state, kept) = (&mut self.state, &mut self.recorded.kept);
-        let mut recorder = Recorder::new((gpu, commands), (state, kept), made, plan, target, self.frame.number);
-        recorder.see_all();
-        recorder.set_cull_mode(CullMode::None);
-        recorder.set_front_face(FrontFace::CounterClockwise);
-        let draws = match made.draw {
-            Draw::FullScreen if !made.state.reads_supplied() => {
-                recorder.draw(0..3, 0..1);
-                1
-            }
-            Draw::Vertices { count, instances } => {
-                bind_own_buffers(gpu, commands, pass);
-                recorder.draw_own(count, instances, pass.indices.is_some());
-                1
-            }
-            Draw::Indirect => {
-                bind_own_buffers(gpu, commands, pass);
-                if let Some(counts) = pass.counts {
-                    recorder.draw_indirect(counts, pass.indices.is_some());
-                }
-                1
-            }
-            Draw::FullScreen | Draw::Objects(_) | Draw::Casters(_) | Draw::Sky | Draw::Custom => {
-                self.source.record(made.draw, &mut recorder)?
+        let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize]);
+        let begun = canvas.begin();
+        let planned = || &passes(&self.frame.plan.steps[step].work)[draw.pass as usize];
+        let drawn = match &draw.vertices {
+            DrawnVertices::FullScreen => begun.and_then(|()| {
+                canvas.for_eyes(0..1, |device, commands, first, count| {
+                    // SAFETY: everything that the pipeline reads is bound.
+                    unsafe { device.cmd_draw(commands, 3, count, 0, first) };
+                })
+            }),
+            DrawnVertices::Own(own) => begun.and_then(|()| draw_own(&mut canvas, own)),
+            DrawnVertices::Source => {
+                let made = &self.prepared.steps[step].draws()[draw.pass as usize];
+                let kept = &mut self.recorded.kept;
+                let mut recorder = Recorder::new(canvas, kept, made, planned(), self.frame.number, begun);
+                draws = self.source.record(made.draw, &mut recorder)?;
+                recorder.finish().map(|objects| culled = objects)
             }
         };
-        let culled = recorder.finish().map_err(|what| Error::Recording { pass: plan.name.to_string(), what })?;
+        drawn.map_err(|what| Error::Recording { pass: planned().name.to_string(), what })?;
         Ok(Counts { draws, culled })
     }
 }
 
+/// Draws the vertices of the pass's own.
+fn draw_own(canvas: &mut Canvas<'_>, own: &OwnDraw) -> Result<(), String> {
+    let (device, commands) = (&canvas.gpu.raw, canvas.commands);
+    // SAFETY: the command buffer is being recorded, the Plan's usages were checked by the checker, everything that the pipeline
+    // reads is bound, and with robustBufferAccess an index beyond the vertices reads no foreign memory. A buffer of counts holds
+    // one command.
+    unsafe {
+        if !own.vertices.is_empty() {
+            device.cmd_bind_vertex_buffers(commands, 0, &own.vertices, &own.offsets);
+        }
+        if let Some(indices) = own.indices {
+            device.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
+        }
+        let indexed = own.indices.is_some();
+        match own.counts {
+            DrawCounts::Direct(count, instances) => {
+                return canvas.for_eyes(0..instances, |device, commands, first, instances| {
+                    if indexed {
+                        device.cmd_draw_indexed(commands, count, instances, 0, 0, first);
+                    } else {
+                        device.cmd_draw(commands, count, instances, 0, first);
+                    }
+                });
+            }
+            DrawCounts::Indirect(counts) if indexed => device.cmd_draw_indexed_indirect(commands, counts, 0, 1, 20),
+            DrawCounts::Indirect(counts) => device.cmd_draw_indirect(commands, counts, 0, 1, 16),
+        }
+    }
+    Ok(())
+}
+
 /// Makes what the scope drew so far visible to fragment shaders at their own position; what they read so far may be drawn
 /// over behind it, since colour output comes later than they do.
-fn local_barrier(gpu: &Gpu, commands: vk::CommandBuffer) {
+pub(super) fn local_barrier(gpu: &Gpu, commands: vk::CommandBuffer) {
     let barrier = [vk::MemoryBarrier2::default()
         .src_stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)
         .src_access_mask(vk::AccessFlags2::COLOR_ATTACHMENT_WRITE)
@@ -120,7 +115,7 @@ fn local_barrier(gpu: &Gpu, commands: vk::CommandBuffer) {
 }
 
 /// Sets what locations and input attachments the scope's colour attachments are to the pass.
-fn see_attachments(gpu: &Gpu, commands: vk::CommandBuffer, local: &LocalRead) {
+pub(super) fn see_attachments(gpu: &Gpu, commands: vk::CommandBuffer, local: &LocalRead) {
     let Some(extension) = &gpu.local_read else { return };
     let locations = vk::RenderingAttachmentLocationInfoKHR::default().color_attachment_locations(&local.locations);
     let inputs = vk::RenderingInputAttachmentIndexInfoKHR::default().color_attachment_input_indices(&local.inputs);
@@ -128,18 +123,5 @@ fn see_attachments(gpu: &Gpu, commands: vk::CommandBuffer, local: &LocalRead) {
     unsafe {
         (extension.fp().cmd_set_rendering_attachment_locations_khr)(commands, &locations);
         (extension.fp().cmd_set_rendering_input_attachment_indices_khr)(commands, &inputs);
-    }
-}
-
-/// Binds the vertex and index buffers that the Plan gives the pass.
-fn bind_own_buffers(gpu: &Gpu, commands: vk::CommandBuffer, pass: &DrawCommands) {
-    // SAFETY: the command buffer is being recorded, and the Plan's usages were checked by the checker.
-    unsafe {
-        if !pass.vertices.is_empty() {
-            gpu.raw.cmd_bind_vertex_buffers(commands, 0, &pass.vertices, &pass.offsets);
-        }
-        if let Some(indices) = pass.indices {
-            gpu.raw.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
-        }
     }
 }

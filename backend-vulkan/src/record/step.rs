@@ -1,4 +1,4 @@
-//! A Plan's steps as commands: what was prepared for each is walked, and nothing is allocated.
+//! A Plan's steps as commands: the list of what was prepared is walked, and nothing is allocated.
 
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
@@ -6,18 +6,18 @@ use super::recorder::HeldResources;
 use super::state::CommandState;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
+use crate::commands::barrier_call;
 use crate::gpu::Gpu;
 use crate::pipeline::PARTS_STAGES;
-use crate::prepare::{
-    DispatchCommands, Frame, PreparedDispatch, PreparedStep, PreparedWork, WorkCommands, WorkgroupCount,
-};
+use crate::prepare::{Bindings, Command, CommandList, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
 use ash::vk;
-use framewright_graph::plan::{Pass, Queue, Step, Work};
+use framewright_graph::plan::{Pass, Queue};
 use std::time::Duration;
 
 /// The recording of a frame.
 pub(crate) struct Recording<'r> {
     pub(crate) frame: &'r Frame<'r>,
+    pub(crate) prepared: &'r PreparedPlan,
     pub(crate) source: &'r mut dyn DrawSource,
     /// If the frame is timed.
     pub(crate) timing: Option<&'r mut Timing>,
@@ -37,10 +37,16 @@ pub(crate) struct Recorded {
 }
 
 impl Recorded {
-    /// Makes it empty for the next frame, which finds the memory of this one. The device must be done with the frame.
-    pub(crate) fn clear(&mut self) {
+    /// Begins another frame, which finds the memory of this one. The device must be done with the frame.
+    pub(crate) fn begin(&mut self) {
         self.counts.clear();
-        self.kept.clear();
+        self.kept.begin();
+    }
+
+    /// Ends the frame, which took so long.
+    pub(crate) fn end(&mut self, took: Duration) {
+        self.kept.end();
+        self.took = took;
     }
 }
 
@@ -54,34 +60,44 @@ impl Recording<'_> {
     }
 
     /// Records a step.
-    pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: &Step, made: &PreparedStep) -> Result<(), Error> {
-        let gpu = self.frame.gpu;
+    pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
+        let (gpu, list) = (self.frame.gpu, &self.prepared.list);
         let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
-        let prepared = made.commands.at(self.frame.number).ok_or_else(unprepared)?;
-        gpu.labelled(commands, &made.label, || {
-            prepared.before.iter().for_each(|it| it.record(gpu, commands));
-            match (&step.work, &made.work, &prepared.work) {
-                (Work::Render(plan), PreparedWork::Render(made), WorkCommands::Render(scope)) => {
-                    self.render(commands, plan, made, scope)?;
+        for command in list.step(step, self.frame.number).ok_or_else(unprepared)? {
+            match command {
+                Command::BeginLabel(label) => gpu.begin_label(commands, label),
+                Command::EndLabel => gpu.end_label(commands),
+                Command::Barriers(memory, images) => {
+                    barrier_call(gpu, commands, memory.of(&list.memory), images.of(&list.images));
                 }
-                (Work::Dispatch(_), PreparedWork::Dispatch(made), WorkCommands::Dispatch(pass)) => {
-                    self.dispatch(commands, made, pass);
+                Command::Transfer(transfer) => transfer.record(gpu, commands),
+                Command::BeginScope(scope) => super::scope::begin(gpu, commands, list, scope),
+                Command::LocalBarrier => super::scope::local_barrier(gpu, commands),
+                Command::SeeAttachments(local) => super::scope::see_attachments(gpu, commands, local),
+                Command::Draw(draw) => {
+                    let counts = self.draw(commands, step, draw)?;
+                    self.end_pass(commands, counts);
+                }
+                // SAFETY: the scope was begun by a command before.
+                Command::EndScope => unsafe { gpu.raw.cmd_end_rendering(commands) },
+                Command::Dispatch(dispatch) => {
+                    self.dispatch(commands, dispatch);
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
-                (Work::Custom(pass), ..) => {
-                    let draws = self.custom(commands, pass)?;
-                    self.end_pass(commands, Counts { draws, culled: 0 });
+                Command::Custom => {
+                    for pass in passes(&self.frame.plan.steps[step].work) {
+                        let draws = self.custom(commands, pass)?;
+                        self.end_pass(commands, Counts { draws, culled: 0 });
+                    }
                 }
-                _ => {}
             }
-            prepared.releases.record(gpu, commands);
-            self.stamp(commands);
-            Ok(())
-        })
+        }
+        self.stamp(commands);
+        Ok(())
     }
 
     /// Notes what was recorded for a pass, and when it ends.
-    pub(super) fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
+    fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
         self.recorded.counts.push(counts);
         self.stamp(commands);
     }
@@ -100,22 +116,17 @@ impl Recording<'_> {
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
 
-    fn dispatch(&mut self, commands: vk::CommandBuffer, made: &PreparedDispatch, pass: &DispatchCommands) {
+    fn dispatch(&mut self, commands: vk::CommandBuffer, dispatch: &DispatchCommand) {
         let gpu = self.frame.gpu;
         self.state.begin_pass();
-        tell_parts(gpu, commands, made.layout, &pass.parts);
-        let device = &gpu.raw;
-        // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
-        // and the buffer behind them were checked.
+        let (device, compute) = (&gpu.raw, vk::PipelineBindPoint::COMPUTE);
+        // SAFETY: the command buffer is being recorded outside a scope, and counts and the buffer behind them were checked.
         unsafe {
-            let compute = vk::PipelineBindPoint::COMPUTE;
-            if self.state.needs_compute(made.pipeline) {
-                device.cmd_bind_pipeline(commands, compute, made.pipeline);
+            if self.state.needs_compute(dispatch.pipeline) {
+                device.cmd_bind_pipeline(commands, compute, dispatch.pipeline);
             }
-            if let Some(set) = pass.set {
-                device.cmd_bind_descriptor_sets(commands, compute, made.layout, 0, &[set], &[]);
-            }
-            match pass.groups {
+            bind(gpu, commands, compute, &self.prepared.list, &dispatch.bindings);
+            match dispatch.groups {
                 WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
                 WorkgroupCount::Indirect(buffer, offset) => device.cmd_dispatch_indirect(commands, buffer, offset),
             }
@@ -123,11 +134,36 @@ impl Recording<'_> {
     }
 }
 
-/// Tells a pass's shaders which parts of images are in use.
-pub(super) fn tell_parts(gpu: &Gpu, commands: vk::CommandBuffer, layout: vk::PipelineLayout, parts: &[u8]) {
-    if !parts.is_empty() {
+/// Binds a pass's own set, and tells its shaders which parts of images are in use.
+pub(super) fn bind(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    point: vk::PipelineBindPoint,
+    list: &CommandList,
+    bindings: &Bindings,
+) {
+    if bindings.set != vk::DescriptorSet::null() {
+        bind_set(gpu, commands, point, bindings.layout, 0, bindings.set);
+    }
+    if !bindings.parts.is_empty() {
+        let parts = bindings.parts.of(&list.parts);
         // SAFETY: the command buffer is being recorded, every layout has this range, and no more parts than fit were let
         // through.
-        unsafe { gpu.raw.cmd_push_constants(commands, layout, PARTS_STAGES, 0, parts) };
+        unsafe { gpu.raw.cmd_push_constants(commands, bindings.layout, PARTS_STAGES, 0, parts) };
     }
+}
+
+/// Binds a set to a number, where the layout has the set's own layout.
+pub(super) fn bind_set(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    point: vk::PipelineBindPoint,
+    layout: vk::PipelineLayout,
+    number: u32,
+    set: vk::DescriptorSet,
+) {
+    let bind = gpu.raw.fp_v1_0().cmd_bind_descriptor_sets;
+    // SAFETY: the command buffer is being recorded, and the set has the layout that the pipeline layout has at this number. A list
+    // of offsets without entries would be allocated by drivers: there is none.
+    unsafe { bind(commands, point, layout, number, 1, &raw const set, 0, std::ptr::null()) };
 }

@@ -6,4 +6,4 @@ mod texture;
 pub use bind_group::{BindGroup, Resource};
 pub use texture::{Buffer, BufferUsage, Texture};
 
-pub(crate) use bind_group::supplied_layouts;
+pub(crate) use bind_group::{RawBindGroup, supplied_layouts};

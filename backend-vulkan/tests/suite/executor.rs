@@ -241,6 +241,19 @@ fn a_report_names_every_pass_with_its_draws_and_time() {
 }
 
 #[test]
+fn a_report_without_timestamps_says_no_time() {
+    let Some(device) = testing::device() else { return };
+    let mut executor =
+        Executor::new(device, &plan(device), &mut library(), &ExecutorOptions::default()).expect("an executor");
+    let frame = executor.frame(&mut Nothing).expect("a frame");
+    let report = executor.report(frame).expect("its report");
+    let passes = report.steps.iter().flat_map(|step| &step.passes);
+    let times = report.steps.iter().map(|step| step.milliseconds).chain(passes.map(|pass| pass.milliseconds));
+    assert_eq!(times.chain([report.milliseconds]).fold(0.0, f64::max), 0.0);
+    assert_eq!(report.steps.iter().map(|step| step.passes.len()).sum::<usize>(), 2);
+}
+
+#[test]
 fn a_draw_source_draws_where_its_vertices_and_instances_say() {
     let Some(device) = testing::open() else { return };
     let messages = device.messages();

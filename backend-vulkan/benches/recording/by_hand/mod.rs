@@ -15,7 +15,7 @@ mod passes;
 use crate::workload::{MATERIAL_SET, Workload};
 use ash::vk;
 use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Plan, Resource, Role, Work};
-use framewright_graph::vulkan::{Layout, Subresources};
+use framewright_graph::vulkan::{Layout, Stages, Subresources};
 use framewright_vulkan::Device;
 use memory::Images;
 use objects::ObjectBuffers;
@@ -29,6 +29,8 @@ pub(crate) struct ByHand {
     commands: vk::CommandBuffer,
     timeline: vk::Semaphore,
     submitted: u64,
+    /// What the program that reads the output does before the next frame.
+    output_read: vk::MemoryBarrier2<'static>,
     steps: Vec<Step>,
     objects: Option<ObjectBuffers>,
     images: Images,
@@ -91,9 +93,14 @@ impl ByHand {
         let objects = workload.objects.as_ref().map(|objects| ObjectBuffers::new(device, objects, &mut made));
         let steps = steps(device, workload, plan, &images, objects.as_ref(), &mut made);
         let Resource::Image(output) = plan.outputs[0].resource else { panic!("the output is an image") };
-        let (Role::Persistent { after, .. } | Role::External { after, .. }) = &plan.image(output).role else {
-            panic!("the output outlives the frame")
-        };
+        let Role::External { before, after } = &plan.image(output).role else { panic!("the output is external") };
+        assert_eq!(before.layout, Layout::Undefined, "each frame draws the output anew");
+        let next = if before.stages.is_empty() { Stages::ALL_COMMANDS } else { before.stages };
+        let output_read = vk::MemoryBarrier2::default()
+            .src_stage_mask(convert::stages(after.stages))
+            .src_access_mask(convert::accesses(after.accesses))
+            .dst_stage_mask(convert::stages(next))
+            .dst_access_mask(convert::accesses(before.accesses));
         let mut ty = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
         // SAFETY: the device has a queue of this family, which the executor uses on this thread alone; it lives as long as this.
         let (queue, pool, commands, timeline) = unsafe {
@@ -112,6 +119,7 @@ impl ByHand {
             commands,
             timeline,
             submitted: 0,
+            output_read,
             steps,
             objects,
             images,
@@ -153,6 +161,8 @@ impl ByHand {
         unsafe {
             raw.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty()).expect("a pool that is reset");
             raw.begin_command_buffer(commands, &begin).expect("a command buffer that begins");
+            let info = vk::DependencyInfo::default().memory_barriers(std::slice::from_ref(&self.output_read));
+            raw.cmd_pipeline_barrier2(commands, &info);
             for step in &self.steps {
                 if !step.memory.is_empty() {
                     let info = vk::DependencyInfo::default().memory_barriers(&step.memory);
@@ -164,8 +174,10 @@ impl ByHand {
                 }
                 match &step.work {
                     StepWork::Render { color, depth, area, new_size, passes } => {
-                        let mut rendering =
-                            vk::RenderingInfo::default().render_area(*area).layer_count(1).color_attachments(color);
+                        let mut rendering = vk::RenderingInfo::default().render_area(*area).layer_count(1);
+                        if !color.is_empty() {
+                            rendering = rendering.color_attachments(color);
+                        }
                         if let Some(depth) = depth {
                             rendering = rendering.depth_attachment(depth);
                         }
@@ -287,9 +299,23 @@ fn bind(raw: &ash::Device, commands: vk::CommandBuffer, point: vk::PipelineBindP
             raw.cmd_bind_pipeline(commands, point, pipeline);
         }
         if let Some(set) = pass.set {
-            raw.cmd_bind_descriptor_sets(commands, point, pass.layout, 0, &[set], &[]);
+            bind_set(raw, commands, point, pass.layout, 0, set);
         }
     }
+}
+
+/// Binds a set. Without dynamic offsets there is no list of them: for an empty one this driver would allocate.
+fn bind_set(
+    raw: &ash::Device,
+    commands: vk::CommandBuffer,
+    point: vk::PipelineBindPoint,
+    layout: vk::PipelineLayout,
+    number: u32,
+    set: vk::DescriptorSet,
+) {
+    let bind = raw.fp_v1_0().cmd_bind_descriptor_sets;
+    // SAFETY: the command buffer is being recorded, and the set is made for the layout.
+    unsafe { bind(commands, point, layout, number, 1, &raw const set, 0, std::ptr::null()) };
 }
 
 /// The commands of a Plan's steps.

@@ -1,7 +1,7 @@
 //! Objects, drawn one by one.
 
 use super::memory::HostBuffer;
-use super::{MATERIAL_SET, Made};
+use super::{MATERIAL_SET, Made, bind_set};
 use crate::workload::{FRAME_SET, Objects};
 use ash::vk;
 use framewright_vulkan::Device;
@@ -46,14 +46,13 @@ impl ObjectBuffers {
         };
         let frame = set(0, &objects.places);
         let materials: Vec<_> = objects.materials.iter().map(|color| set(1, color)).collect();
-        let runs = objects.material_of.chunk_by(|a, b| a == b);
         ObjectBuffers {
             vertices: HostBuffer::with(device, &objects.vertices, Usage::VERTEX_BUFFER),
             indices: HostBuffer::with(device, &objects.indices, Usage::INDEX_BUFFER),
             index_count: objects.index_count,
             set_layouts,
             frame,
-            runs: runs.map(|run| (materials[run[0]], run.len() as u32)).collect(),
+            runs: objects.runs.iter().map(|(material, count)| (materials[*material], *count)).collect(),
             _kept: kept,
         }
     }
@@ -62,12 +61,12 @@ impl ObjectBuffers {
         let graphics = vk::PipelineBindPoint::GRAPHICS;
         // SAFETY: the command buffer is being recorded in a scope, with the pipeline of the objects.
         unsafe {
-            raw.cmd_bind_descriptor_sets(commands, graphics, layout, FRAME_SET, &[self.frame], &[]);
+            bind_set(raw, commands, graphics, layout, FRAME_SET, self.frame);
             raw.cmd_bind_vertex_buffers(commands, 0, &[self.vertices.raw], &[0]);
             raw.cmd_bind_index_buffer(commands, self.indices.raw, 0, vk::IndexType::UINT32);
             let mut object = 0;
             for (material, count) in &self.runs {
-                raw.cmd_bind_descriptor_sets(commands, graphics, layout, MATERIAL_SET, &[*material], &[]);
+                bind_set(raw, commands, graphics, layout, MATERIAL_SET, *material);
                 for _ in 0..*count {
                     raw.cmd_draw_indexed(commands, self.index_count, 1, 0, 0, object);
                     object += 1;

@@ -9,7 +9,7 @@
 //! | PR-3 | `recorded::viewports_and_scissors_are_those_of_the_upright_picture`, `pictures` | `objects.vert`: `rotate_clip` left out |
 //! | PR-3 | `shaders::texels_are_fetched_exactly_where_they_are`, `pictures` | `full_screen.vert`: `rotate_clip` left out |
 //! | PR-4 | `shaders::images_that_do_not_leave_the_frame_are_drawn_upright` | `prepare/pass.rs`: the rotation of any image |
-//! | PR-5 | `recorded::viewports_and_scissors_are_those_of_the_upright_picture`, `cli/tests/suite/rotation.rs` | `recorder/area.rs`: `set_scissor` with x and y exchanged |
+//! | PR-5 | `recorded::viewports_and_scissors_are_those_of_the_upright_picture`, `cli/tests/suite/rotation.rs` | `recorder.rs`: `set_scissor` with x and y exchanged |
 //! | PR-6 | `shaders::derivatives_and_places_of_the_helpers_are_upright` | `rotation.glsl`: another sign in `ddx` |
 //! | PR-6 | `shaders::a_shader_that_breaks_is_reported_at_its_pass` | `shaders/rotation.rs`: no derivative is sideways |
 //! | PR-6 | `shaders::no_shipped_shader_breaks` | `objects.vert`: `rotate_clip` left out |

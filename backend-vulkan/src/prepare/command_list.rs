@@ -1,0 +1,270 @@
+//! The commands of a Plan's frames, which recording reads one after the other. Each holds what it needs, or says where that lies
+//! in a list of its kind. So recording a frame looks at little memory, and almost only forwards.
+
+use super::draw_target::DrawTarget;
+use crate::base::Error;
+use crate::commands::{TransferCommand, stages_of};
+use crate::gpu::{Gpu, LocalRead};
+use ash::vk;
+use std::ffi::CString;
+
+/// The commands of a Plan's frames, as Vulkan's own structures.
+pub(crate) struct CommandList {
+    commands: Vec<Command>,
+    pub(crate) memory: Vec<vk::MemoryBarrier2<'static>>,
+    pub(crate) images: Vec<vk::ImageMemoryBarrier2<'static>>,
+    pub(crate) attachments: Vec<vk::RenderingAttachmentInfo<'static>>,
+    pub(crate) targets: Vec<DrawTarget>,
+    /// Push constants: which parts of images are in use.
+    pub(crate) parts: Vec<u8>,
+    /// After how many frames, one after the other, everything is made.
+    pub(super) period: u64,
+    steps: Vec<StepFrames>,
+    /// The commands of each step in each frame of its period, once they are made.
+    made: Vec<Option<Run>>,
+}
+
+/// Where in [`CommandList::made`] the frames of a step are.
+struct StepFrames {
+    first: usize,
+    /// After how many frames the step records the same again.
+    period: u64,
+}
+
+/// Consecutive entries of a list.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Run {
+    first: u32,
+    end: u32,
+}
+
+/// One or a few of Vulkan's commands.
+pub(crate) enum Command {
+    /// Begins a label that debuggers show.
+    BeginLabel(CString),
+    /// Ends the label that was begun last.
+    EndLabel,
+    /// One call with memory barriers and image barriers.
+    Barriers(Run, Run),
+    /// A copy, resolve, blit or fill.
+    Transfer(Box<TransferCommand>),
+    /// Begins a rendering scope.
+    BeginScope(ScopeCommand),
+    /// Makes what the scope drew so far visible to its fragment shaders at their own position.
+    LocalBarrier,
+    /// Sets what locations and input attachments the scope's colour attachments are to the next passes.
+    SeeAttachments(Box<LocalRead>),
+    /// A pass of the scope.
+    Draw(DrawCommand),
+    /// Ends the rendering scope.
+    EndScope,
+    /// A dispatch.
+    Dispatch(DispatchCommand),
+    /// The step's custom pass.
+    Custom,
+}
+
+/// The begin of a rendering scope.
+pub(crate) struct ScopeCommand {
+    /// The colour attachments, then those of depth and stencil.
+    pub(crate) color: Run,
+    pub(crate) depth: Run,
+    pub(crate) stencil: Run,
+    pub(crate) extent: vk::Extent2D,
+    pub(crate) layers: u32,
+    pub(crate) view_mask: u32,
+}
+
+/// A pass of a rendering scope.
+pub(crate) struct DrawCommand {
+    /// `None`: a custom draw whose program brings its own pipeline.
+    pub(crate) pipeline: Option<vk::Pipeline>,
+    pub(crate) bindings: Bindings,
+    /// Its number in the scope.
+    pub(crate) pass: u32,
+    /// Its number in [`CommandList::targets`].
+    pub(crate) target: u32,
+    pub(crate) vertices: DrawnVertices,
+}
+
+/// What a pass's pipeline reads of the pass's own.
+#[derive(Clone, Copy)]
+pub(crate) struct Bindings {
+    pub(crate) layout: vk::PipelineLayout,
+    /// Null: the shader reads nothing of the pass's own.
+    pub(crate) set: vk::DescriptorSet,
+    /// Push constants, in [`CommandList::parts`].
+    pub(crate) parts: Run,
+}
+
+/// What a pass draws.
+pub(crate) enum DrawnVertices {
+    /// One triangle over the whole picture.
+    FullScreen,
+    /// What the Plan says.
+    Own(Box<OwnDraw>),
+    /// What the draw source brings along.
+    Source,
+}
+
+/// A draw of vertices of the pass's own.
+pub(crate) struct OwnDraw {
+    /// The pass's own vertex buffers, and where each begins.
+    pub(crate) vertices: Vec<vk::Buffer>,
+    pub(crate) offsets: Vec<vk::DeviceSize>,
+    pub(crate) indices: Option<vk::Buffer>,
+    pub(crate) counts: DrawCounts,
+}
+
+/// How much is drawn.
+pub(crate) enum DrawCounts {
+    /// So many vertices or indices, and instances.
+    Direct(u32, u32),
+    /// What the buffer holds.
+    Indirect(vk::Buffer),
+}
+
+/// A dispatch.
+pub(crate) struct DispatchCommand {
+    pub(crate) pipeline: vk::Pipeline,
+    pub(crate) bindings: Bindings,
+    pub(crate) groups: WorkgroupCount<vk::Buffer>,
+}
+
+/// The number of workgroups.
+pub(crate) enum WorkgroupCount<B> {
+    /// A known number, along each axis.
+    Direct([u32; 3]),
+    /// The number that the buffer holds at the offset.
+    Indirect(B, u64),
+}
+
+impl Run {
+    /// Adds `entries` to the end of `list`.
+    pub(super) fn add<T>(list: &mut Vec<T>, entries: impl IntoIterator<Item = T>) -> Run {
+        let first = number(list.len());
+        list.extend(entries);
+        Run { first, end: number(list.len()) }
+    }
+
+    /// Its entries in the list that it was added to.
+    pub(crate) fn of<T>(self, list: &[T]) -> &[T] {
+        &list[self.first as usize..self.end as usize]
+    }
+
+    /// Whether there are none.
+    pub(crate) fn is_empty(self) -> bool {
+        self.first == self.end
+    }
+}
+
+impl CommandList {
+    /// No commands yet, for steps that record the same again after so many frames.
+    pub(super) fn new(periods: impl Iterator<Item = u64>) -> CommandList {
+        let mut frames = 0;
+        let steps = periods.map(|period| {
+            let first = frames;
+            frames += usize::try_from(period).unwrap_or(usize::MAX);
+            StepFrames { first, period }
+        });
+        let steps: Vec<_> = steps.collect();
+        CommandList {
+            commands: Vec::new(),
+            memory: Vec::new(),
+            images: Vec::new(),
+            attachments: Vec::new(),
+            targets: Vec::new(),
+            parts: Vec::new(),
+            period: steps.iter().map(|step| step.period).max().unwrap_or(1),
+            steps,
+            made: vec![None; frames],
+        }
+    }
+
+    /// The commands of a step in a frame, if they are made.
+    pub(crate) fn step(&self, step: usize, frame: u64) -> Option<&[Command]> {
+        self.made[self.place(step, frame)].map(|run| run.of(&self.commands))
+    }
+
+    /// Makes the commands of a step in a frame, unless they are there.
+    pub(super) fn prepare(
+        &mut self,
+        step: usize,
+        frame: u64,
+        make: impl FnOnce(&mut CommandList) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let place = self.place(step, frame);
+        if self.made[place].is_none() {
+            let first = number(self.commands.len());
+            make(self)?;
+            self.made[place] = Some(Run { first, end: number(self.commands.len()) });
+        }
+        Ok(())
+    }
+
+    /// Forgets all commands.
+    pub(super) fn forget(&mut self) {
+        *self = CommandList::new(std::mem::take(&mut self.steps).into_iter().map(|step| step.period));
+    }
+
+    /// Adds a command.
+    pub(super) fn push(&mut self, command: Command) {
+        self.commands.push(command);
+    }
+
+    /// Adds memory barriers in one call, then image barriers in another, as [`crate::commands::barriers`] records them.
+    pub(super) fn push_barriers(
+        &mut self,
+        gpu: &Gpu,
+        memory: impl IntoIterator<Item = vk::MemoryBarrier2<'static>>,
+        images: impl IntoIterator<Item = vk::ImageMemoryBarrier2<'static>>,
+    ) {
+        let memory = Run::add(&mut self.memory, memory);
+        if !memory.is_empty() {
+            self.push(Command::Barriers(memory, Run::default()));
+        }
+        let images = Run::add(&mut self.images, images);
+        if !images.is_empty() {
+            let validated = gpu.instance.validation.is_some();
+            let stages = images.of(&self.images).iter().filter(|_| validated).map(stages_of);
+            let stages = Run::add(&mut self.memory, stages);
+            self.push(Command::Barriers(stages, images));
+        }
+    }
+
+    /// Adds what `content` adds, under a label where a tool shows it.
+    pub(super) fn push_labelled(
+        &mut self,
+        gpu: &Gpu,
+        label: impl FnOnce() -> CString,
+        content: impl FnOnce(&mut CommandList) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let labels = gpu.labels.is_some();
+        if labels {
+            self.push(Command::BeginLabel(label()));
+        }
+        content(self)?;
+        if labels {
+            self.push(Command::EndLabel);
+        }
+        Ok(())
+    }
+
+    /// The number of a target, which the scope before may have added.
+    pub(super) fn target(&mut self, target: DrawTarget) -> u32 {
+        if self.targets.last() != Some(&target) {
+            self.targets.push(target);
+        }
+        number(self.targets.len() - 1)
+    }
+
+    fn place(&self, step: usize, frame: u64) -> usize {
+        let StepFrames { first, period } = self.steps[step];
+        first + usize::try_from(frame % period).unwrap_or(0)
+    }
+}
+
+/// A number in a list, which memory ends far below 2^32.
+fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}
