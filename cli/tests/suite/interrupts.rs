@@ -164,3 +164,33 @@ fn ctrl_c_ends_the_wait_for_the_reader_of_a_pipe() {
     says(&mut child, "note: waiting");
     assert_eq!(ended_by(Signal::SIGTERM, child).code, None);
 }
+
+#[test]
+fn ctrl_c_ends_a_sweep_and_keeps_what_is_measured() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let words = [
+        "measure",
+        "image_quality",
+        "--scene",
+        "spheres_and_cubes",
+        "--size",
+        "96x54",
+        "--sweep",
+        "white_point=1..100:24",
+        "--frames",
+        "150",
+        "--reference",
+        "none",
+        "-o",
+        "swept",
+    ];
+    let child = start(&place, &variables, &words);
+    let file = place.path("swept/results.json");
+    until(|| file.exists(), "some are measured");
+    interrupted(child).exits(130).mentions("those are kept, and the same command goes on with the others");
+    let results: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&file).expect("read")).expect("whole");
+    let rows = results["rows"].as_array().map_or(0, Vec::len);
+    assert!((8..24).contains(&rows), "{rows} rows");
+}

@@ -157,7 +157,8 @@ fn a_choice_that_can_not_be_drawn_is_a_row() {
     let out = place.run_with(&variables, &[&arguments[..], &sweep].concat()).exits(0).out;
     assert!(out.contains("failed: "), "{out}");
     let results = results(&place, "swept");
-    assert!(row(&results, &[("own", "false")]).is_object());
+    // 8×8 texels of 4 bytes are stored, and nothing is loaded.
+    assert_eq!(row(&results, &[("own", "false")])["cost"]["moved_bytes"], 256);
     assert!(results["rows"][1]["outcome"]["failed"].is_string(), "{results}");
 }
 
