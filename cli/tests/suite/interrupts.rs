@@ -179,7 +179,7 @@ fn ctrl_c_ends_a_sweep_and_keeps_what_is_measured() {
         "--sweep",
         "white_point=1..100:24",
         "--frames",
-        "150",
+        "30",
         "--reference",
         "none",
         "-o",

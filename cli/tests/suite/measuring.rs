@@ -179,7 +179,7 @@ fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
     let many = ["render_scale=0.5..4:1000", "white_point=1..100:1000", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
     wrong(&many).mentions("the sweep has 6000000 choices, and at most 10000 are measured");
-    let arguments = ["measure", "soft_focus", "--scene", "spheres_and_cubes", "-o", "swept"];
+    let arguments = ["measure", "auto_exposure", "--scene", "spheres_and_cubes", "-o", "swept"];
     place.run(&arguments).exits(2).mentions("the pipeline has no preset `reference`");
     assert!(!place.path("swept").exists());
 }
