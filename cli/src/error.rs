@@ -1,6 +1,7 @@
 //! The errors that end a command early.
 
 use crate::command_line::options;
+use crate::measure::{JoiningProblem, StoreProblem};
 use crate::picture::{DecodingError, EncodingError};
 use crate::system::{Exit, links, text};
 use framewright_graph::base;
@@ -88,7 +89,29 @@ pub(crate) enum Error {
         "`{}` holds results of another pipeline, device, baseline or number of frames: name another folder",
         text::path(folder)
     )]
+    OtherSweep { folder: PathBuf },
+    /// A file of results that is none.
+    #[error("`{}` {}", text::path(path), text::escape_lines(&problem.to_string()))]
+    Results { path: PathBuf, problem: StoreProblem },
+    /// Results that can't be joined.
+    #[error("{0}")]
+    Joining(#[from] JoiningProblem),
+    /// A picture of results lies elsewhere.
+    #[error(
+        "the picture `{}` lies outside of `{}`: a link leads there, and is not followed",
+        text::path(path),
+        text::path(folder)
+    )]
+    OutsideResults { path: PathBuf, folder: PathBuf },
+    /// A folder holds results that would be lost.
+    #[error(
+        "`{}` holds other results, which would be lost\nhelp: join them too, and write to a new folder",
+        text::path(folder)
+    )]
     OtherResults { folder: PathBuf },
+    /// A result that has no CSV form.
+    #[error("the result has no CSV form: {0}")]
+    Csv(#[from] csv::Error),
     /// A picture that its kind of file can't hold.
     #[error(
         "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
@@ -232,6 +255,10 @@ impl Error {
             | Error::NotFloats { .. }
             | Error::NoLight { .. }
             | Error::Sizes { .. }
+            | Error::Results { .. }
+            | Error::Joining(_)
+            | Error::OutsideResults { .. }
+            | Error::Csv(_)
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }
@@ -260,8 +287,9 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::Sweep { .. }
-            | Error::OtherResults { .. }
+            | Error::OtherSweep { .. }
             | Error::ReadAndWritten { .. }
+            | Error::OtherResults { .. }
             | Error::AlreadyExists { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,

@@ -1,7 +1,9 @@
 //! The command line: what can be said, and what each word means.
 
+use crate::command_line::choosing::ChooseArguments;
 use crate::command_line::comparing::CompareArguments;
 use crate::command_line::measuring::MeasureArguments;
+use crate::command_line::merging::MergeArguments;
 use crate::command_line::values::{
     Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
 };
@@ -46,6 +48,10 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Measure a sweep over settings: time, memory and error of each choice beside a converged reference.
     Measure(MeasureArguments),
+    /// Print the best settings under a budget, of those that were measured. Needs no GPU.
+    Choose(ChooseArguments),
+    /// Join the results of several sweeps in one folder. Needs no GPU.
+    Merge(MergeArguments),
     /// Write a pipeline to begin with.
     New(NewArguments),
     /// Print the language of pipeline files as a JSON Schema (draft 2020-12), or a file as the JSON that the schema describes.

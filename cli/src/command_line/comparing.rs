@@ -18,7 +18,7 @@ pub(crate) struct CompareArguments {
     /// Metric to print; without this all are. Repeatable.
     #[arg(long, value_name = "METRIC", value_enum)]
     pub(crate) metric: Vec<Metric>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Limits; beyond one, or if a pixel isn't finite, the command ends with 1")]
     pub(crate) limits: ErrorLimits,
     /// File for a picture of FLIP: black where no difference is seen, bright where much is.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
@@ -34,7 +34,6 @@ pub(crate) struct CompareArguments {
 
 /// Limits of errors.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Limits; beyond one, or if a pixel isn't finite, the command ends with 1")]
 pub(crate) struct ErrorLimits {
     /// Most that FLIP's mean may be: 0 is no visible difference, 1 the largest.
     #[arg(long, value_name = "X", value_parser = number)]

@@ -1,7 +1,9 @@
 //! The command line: its arguments, and the options that messages name.
 
 pub(crate) mod args;
+pub(crate) mod choosing;
 pub(crate) mod comparing;
 pub(crate) mod measuring;
+pub(crate) mod merging;
 pub(crate) mod options;
 pub(crate) mod values;

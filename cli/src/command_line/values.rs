@@ -143,6 +143,11 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a number, such as 0.02".to_owned())
 }
 
+/// Reads a number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0, such as 4.5".to_owned())
+}
+
 /// Reads the name of a PNG file.
 pub(crate) fn png(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);

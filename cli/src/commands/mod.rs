@@ -2,10 +2,12 @@
 
 mod cache;
 mod check;
+mod choose;
 mod compare;
 mod devices;
 mod facts;
 mod inspect;
+mod merge;
 mod new;
 mod run;
 mod schema;
@@ -27,6 +29,8 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Measure(arguments) => measure::measure(arguments),
+        Command::Choose(arguments) => choose::choose(arguments),
+        Command::Merge(arguments) => merge::merge(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Devices(arguments) => devices::devices(arguments),

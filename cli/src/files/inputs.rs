@@ -37,6 +37,11 @@ impl FileRole {
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
     /// A picture.
     const PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture that is compared" };
+    /// The results of a sweep.
+    pub(crate) const RESULTS: FileRole =
+        FileRole { name: "file of results", recorded: "a file of results that is read" };
+    /// A picture of the results of a sweep.
+    const MEASURED_PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture of results that are read" };
     /// Any of the files that `schema` takes.
     pub(crate) const ANY: FileRole = FileRole { name: "file", recorded: "the file itself" };
 }
@@ -156,6 +161,14 @@ pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
 pub(crate) fn picture(path: &Path, read: &ReadFiles) -> Result<Light, Error> {
     let file = bytes(FileRole::PICTURE, path, LARGEST_PICTURE, read)?;
     Light::decode(&file).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })
+}
+
+/// Reads the bytes of a picture that belongs to results.
+///
+/// # Errors
+/// If it can't be read, or is too large.
+pub(crate) fn measured_picture(path: &Path, read: &ReadFiles) -> Result<Vec<u8>, Error> {
+    bytes(FileRole::MEASURED_PICTURE, path, LARGEST_PICTURE, read)
 }
 
 /// Reads a text file of at most `limit` bytes.

@@ -1,17 +1,30 @@
 //! Measured sweeps over settings: what each choice costs, and what it buys.
 //!
 //! ```text
-//! sweeps ─► choices (subjects) ─► run: batches in turns, reference, errors ─► results ─► store
+//! sweeps ─► choices (subjects) ─► run: batches in turns, reference, errors ─► results ─► store: file, table, page, plot
+//!                                                                                └─► choosing, joining
 //! ```
 
+pub(crate) mod choosing;
+mod csv;
 mod digest;
+mod front;
+mod joining;
 mod moved_bytes;
+mod naming;
+mod page;
+pub(crate) mod pictures;
+mod plausible;
+mod plot;
 mod reference;
 pub(crate) mod results;
 mod run;
+pub(crate) mod settings_file;
 mod spread;
-mod store;
+pub(crate) mod store;
 mod subjects;
 pub(crate) mod sweep;
 
+pub(crate) use joining::{JoiningProblem, Part, joined};
 pub(crate) use run::measure;
+pub(crate) use store::StoreProblem;

@@ -128,7 +128,7 @@ impl Bench<'_> {
         let results = store::read(folder, &self.read)?;
         match results.subject == subject {
             true => Ok(results),
-            false => Err(Error::OtherResults { folder: folder.clone() }),
+            false => Err(Error::OtherSweep { folder: folder.clone() }),
         }
     }
 

@@ -1,7 +1,7 @@
 //! One number for each pixel, and separable filters over it.
 
 /// One number for each pixel of an image, in rows from the top.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Plane {
     pub(super) extent: [usize; 2],
     pub(super) values: Vec<f64>,

@@ -1,0 +1,48 @@
+//! The command line of `framewright choose`.
+
+use super::args::AnswerFormat;
+use super::comparing::ErrorLimits;
+use super::values::positive;
+use crate::measure::choosing::{Limit, Quantity};
+use crate::metric::Metric;
+use clap::{ArgGroup, Args};
+use std::path::PathBuf;
+
+/// `framewright choose`.
+#[derive(Debug, Args)]
+#[command(group(ArgGroup::new("limit").required(true).multiple(true).args([
+    "max_ms", "max_mib", "max_flip", "max_rmse", "max_error", "max_relative_mse", "min_psnr", "min_ssim",
+])))]
+pub(crate) struct ChooseArguments {
+    /// Folders of results, as `merge` joins them.
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Most milliseconds that a frame may take on the device: the median of its times. With this or `--max-mib` the settings of
+    /// least error are chosen, without them the fastest.
+    #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
+    pub(crate) max_ms: Option<f64>,
+    /// Most MiB of transient memory.
+    #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
+    pub(crate) max_mib: Option<f64>,
+    #[command(flatten, next_help_heading = HEADING)]
+    pub(crate) errors: ErrorLimits,
+    /// Settings file to write.
+    #[arg(short, long, value_name = "SETTINGS.ron")]
+    pub(crate) output: Option<PathBuf>,
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: AnswerFormat,
+}
+
+const HEADING: &str = "Limits, of which at least one is stated";
+
+impl ChooseArguments {
+    /// The limits that are stated.
+    #[must_use]
+    pub(crate) fn limits(&self) -> Vec<Limit> {
+        let costs = [(Quantity::Milliseconds, self.max_ms), (Quantity::Mebibytes, self.max_mib)];
+        let errors = Metric::ALL.map(|metric| (Quantity::Error(metric), self.errors.of(metric)));
+        let limits = costs.into_iter().chain(errors);
+        limits.filter_map(|(quantity, value)| Some(Limit { quantity, value: value? })).collect()
+    }
+}

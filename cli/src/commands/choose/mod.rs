@@ -1,0 +1,55 @@
+//! `framewright choose`: the best settings under a budget, of those that were measured.
+
+mod answer;
+mod settings;
+
+use crate::command_line::args::AnswerFormat;
+use crate::command_line::choosing::ChooseArguments;
+use crate::error::Error;
+use crate::files::outputs;
+use crate::measure::choosing::{Candidates, Chosen};
+use crate::measure::pictures::Pictures;
+use crate::measure::results::Results;
+use crate::measure::{Part, joined, store};
+use crate::system::{Exit, text};
+use answer::Answer;
+use framewright_graph::base::ReadFiles;
+use std::path::PathBuf;
+
+/// Prints the best settings, and writes them.
+///
+/// # Errors
+/// If results can't be read or joined, or the settings file can't be written.
+pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    outputs::prepare(arguments.output.as_deref().into_iter(), &read)?;
+    // The command line asks for at least one folder.
+    let Some(results) = all(&arguments.folders, &read)? else { return Ok(Exit::Fine) };
+    let (candidates, limits) = (Candidates::of(&results), arguments.limits());
+    let chosen = candidates.choose(&limits);
+    if let (Chosen::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
+        let contents = settings::file(&results, &best.settings, &read)?;
+        outputs::write(&[(file, contents.as_bytes())], &read)?;
+    }
+    let answer = Answer { results: &results, candidates: &candidates, limits: &limits, chosen: &chosen };
+    let shown = match arguments.format {
+        AnswerFormat::Human => answer.words(arguments.output.as_deref()),
+        AnswerFormat::Json => text::json(&answer.json())?,
+    };
+    text::print(&shown).map_err(Error::Print)?;
+    Ok(if matches!(chosen, Chosen::Best { .. }) { Exit::Fine } else { Exit::Found })
+}
+
+/// The results of all folders.
+fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> {
+    let mut parts = Vec::with_capacity(folders.len());
+    for folder in folders {
+        let mut results = store::read(folder, read)?;
+        // Rows of several folders are one if their pictures are.
+        if folders.len() > 1 {
+            Pictures::default().rename(folder, &mut results, read)?;
+        }
+        parts.push(Part { folder: folder.clone(), results });
+    }
+    Ok(joined(parts)?)
+}

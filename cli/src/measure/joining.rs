@@ -1,0 +1,111 @@
+//! Joins results of several folders. The order of the folders doesn't matter, and a row that is there twice counts once.
+
+use super::results::{Outcome, Results, Row, Subject};
+use crate::system::text;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Results, and the folder that they are from.
+#[derive(Debug)]
+pub(crate) struct Part {
+    pub(crate) folder: PathBuf,
+    pub(crate) results: Results,
+}
+
+/// Results that can't be joined.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum JoiningProblem {
+    /// They are of different things.
+    #[error("`{}` and `{}` hold results of different things, which can't be compared: `{field}` is {} in one and {} in the other", text::path(&folders[0]), text::path(&folders[1]), text::escape(&values[0]), text::escape(&values[1]))]
+    Subject { folders: Box<[PathBuf; 2]>, field: &'static str, values: [String; 2] },
+    /// A scene changed.
+    #[error("the scene `{}` changed between the results in `{}` and those in `{}`: their figures can't be compared", text::escape(scene), text::path(&folders[0]), text::path(&folders[1]))]
+    Scene { folders: Box<[PathBuf; 2]>, scene: String },
+    /// One row was measured twice.
+    #[error("`{}` and `{}` hold the same row with different figures ({field}): {}\nhelp: remove it from one of them, or leave one of them out", text::path(&folders[0]), text::path(&folders[1]), text::escape(row))]
+    Row { folders: Box<[PathBuf; 2]>, row: String, field: &'static str },
+}
+
+/// What a row is found by. Its order is that of joined rows.
+type Key = (String, [u32; 2], String, BTreeMap<String, String>);
+
+fn key(row: &Row) -> Key {
+    (row.scene.clone(), row.size, row.stereo.clone(), row.choice.clone())
+}
+
+/// Joins results; `None` of none.
+///
+/// # Errors
+/// If they are of different things, or hold the same row with different figures.
+pub(crate) fn joined(parts: Vec<Part>) -> Result<Option<Results>, JoiningProblem> {
+    let mut parts = parts.into_iter();
+    let Some(first) = parts.next() else { return Ok(None) };
+    let mut rows: BTreeMap<Key, (PathBuf, Row)> = BTreeMap::new();
+    let mut scenes: BTreeMap<String, (PathBuf, String)> = BTreeMap::new();
+    let Part { folder, results: Results { format_version, subject, rows: of_first } } = first;
+    put(&mut rows, &mut scenes, &folder, of_first)?;
+    for part in parts {
+        if let Some((field, values)) = difference(&subject, &part.results.subject) {
+            return Err(JoiningProblem::Subject { folders: Box::new([folder, part.folder]), field, values });
+        }
+        put(&mut rows, &mut scenes, &part.folder, part.results.rows)?;
+    }
+    Ok(Some(Results { format_version, subject, rows: rows.into_values().map(|(_, row)| row).collect() }))
+}
+
+fn put(
+    rows: &mut BTreeMap<Key, (PathBuf, Row)>,
+    scenes: &mut BTreeMap<String, (PathBuf, String)>,
+    folder: &Path,
+    added: Vec<Row>,
+) -> Result<(), JoiningProblem> {
+    for row in added {
+        let scene = scenes.entry(row.scene.clone());
+        let (of, digest) = scene.or_insert_with(|| (folder.to_owned(), row.scene_digest.clone()));
+        if *digest != row.scene_digest {
+            let folders = Box::new([of.clone(), folder.to_owned()]);
+            return Err(JoiningProblem::Scene { folders, scene: row.scene });
+        }
+        match rows.get(&key(&row)) {
+            Some((of, other)) if *other != row => {
+                let folders = Box::new([of.clone(), folder.to_owned()]);
+                return Err(JoiningProblem::Row { folders, row: row.name(), field: differing(other, &row) });
+            }
+            Some(_) => {}
+            None => drop(rows.insert(key(&row), (folder.to_owned(), row))),
+        }
+    }
+    Ok(())
+}
+
+/// The first field in which two subjects differ, and both values.
+fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
+    let fields = |subject: &Subject| {
+        let Subject { pipeline, pipeline_digest, device, driver, frames, baseline } = subject;
+        let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        [
+            ("pipeline_digest", format!("`{pipeline_digest}`")),
+            ("pipeline", format!("`{pipeline}`")),
+            ("device", format!("`{device}`")),
+            ("driver", format!("`{driver}`")),
+            ("frames", frames.to_string()),
+            ("baseline", format!("`{}`", baseline.join(" "))),
+        ]
+    };
+    let pairs = fields(a).into_iter().zip(fields(b));
+    let mut different = pairs.filter(|(a, b)| a != b).map(|(a, b)| (a.0, [a.1, b.1]));
+    different.next()
+}
+
+/// The first field in which two rows of one key differ.
+fn differing(a: &Row, b: &Row) -> &'static str {
+    match (&a.outcome, &b.outcome) {
+        _ if a.settings != b.settings => "settings",
+        (Outcome::Measured(a), Outcome::Measured(b)) if a.cost != b.cost => "cost",
+        (Outcome::Measured(a), Outcome::Measured(b)) if a.errors != b.errors => "errors",
+        (Outcome::Measured(a), Outcome::Measured(b)) if a.reference_errors != b.reference_errors => "reference_errors",
+        (Outcome::Measured(a), Outcome::Measured(b)) if a.passes != b.passes => "passes",
+        (Outcome::Measured(_), Outcome::Measured(_)) => "pictures",
+        _ => "outcome",
+    }
+}

@@ -1,0 +1,66 @@
+//! Names of what results hold, for people and as keys.
+
+use super::results::{Measured, Results, Row};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The surroundings of a row: rows of one group differ in settings alone, and can be compared.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Group {
+    pub(crate) scene: String,
+    pub(crate) size: [u32; 2],
+    pub(crate) stereo: String,
+}
+
+impl Group {
+    /// Its name for people.
+    #[must_use]
+    pub(crate) fn name(&self) -> String {
+        let [width, height] = self.size;
+        match &*self.stereo {
+            "off" => format!("{} at {width}x{height}", self.scene),
+            stereo => format!("{} at {width}x{height}, {stereo}", self.scene),
+        }
+    }
+}
+
+impl Row {
+    /// Its surroundings.
+    #[must_use]
+    pub(crate) fn group(&self) -> Group {
+        Group { scene: self.scene.clone(), size: self.size, stereo: self.stereo.clone() }
+    }
+
+    /// Its name for people: the choice, and where it was measured.
+    #[must_use]
+    pub(crate) fn name(&self) -> String {
+        let settings = self.choice.iter().filter(|(name, _)| !name.starts_with('@'));
+        format!("{} of {}", assignments(settings), self.group().name())
+    }
+}
+
+impl Measured {
+    /// The pictures that it names, as paths within the folder.
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = (&'static str, &String)> {
+        let named = [("picture", &self.picture), ("reference", &self.reference), ("heat_map", &self.heat_map)];
+        named.into_iter().filter_map(|(name, path)| Some((name, path.as_ref()?)))
+    }
+}
+
+impl Results {
+    /// The settings that the sweep varied.
+    pub(crate) fn swept(&self) -> BTreeSet<&str> {
+        let names = self.rows.iter().flat_map(|row| row.choice.keys());
+        names.map(|name| &**name).filter(|name| !name.starts_with('@')).collect()
+    }
+
+    /// The values that some settings have for the swept ones, for people.
+    pub(crate) fn shown(&self, settings: &BTreeMap<String, String>) -> String {
+        let swept = self.swept();
+        assignments(settings.iter().filter(|(name, _)| swept.contains(&***name)))
+    }
+}
+
+fn assignments<'a>(settings: impl Iterator<Item = (&'a String, &'a String)>) -> String {
+    let all: Vec<String> = settings.map(|(name, value)| format!("{name}={value}")).collect();
+    if all.is_empty() { "the settings that were not swept".to_owned() } else { all.join(" ") }
+}
