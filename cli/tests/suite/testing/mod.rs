@@ -1,5 +1,7 @@
 //! Runs the built `framewright` as a user would, and tells what came of it.
 
+pub(crate) mod results;
+
 use framewright_graph::device::Profile;
 use framewright_tests::drivers::{CURRENT_LAYER, DISTRIBUTION_LAYERS, Driver};
 use std::ffi::OsStr;

@@ -1,0 +1,316 @@
+//! `choose`: the best settings under a budget, of those that were measured (NU-3).
+
+use crate::testing::results::{Numbers, Row, results, write};
+use crate::testing::{Outcome, Place};
+use serde_json::{Value, json};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// A limit of the command line.
+#[derive(Debug, Clone, Copy)]
+struct Limit {
+    option: &'static str,
+    value: f64,
+}
+
+/// Settings, and their worst figures by the option that limits them.
+#[derive(Debug, Clone)]
+struct Candidate {
+    settings: Value,
+    figures: BTreeMap<&'static str, f64>,
+}
+
+const OPTIONS: [&str; 5] = ["--max-ms", "--max-mib", "--max-flip", "--max-rmse", "--min-ssim"];
+
+/// The figure of a row that an option limits.
+fn figure(row: &Value, option: &str) -> f64 {
+    let measured = &row["outcome"]["measured"];
+    let number = match option {
+        "--max-ms" => measured["cost"]["gpu_milliseconds"]["median"].as_f64(),
+        "--max-mib" => measured["cost"]["transient_bytes"].as_f64().map(|bytes| bytes / 1048576.0),
+        "--max-flip" => measured["errors"]["flip"]["mean"].as_f64(),
+        "--max-rmse" => measured["errors"]["rmse"].as_f64(),
+        _ => measured["errors"]["ssim"].as_f64(),
+    };
+    number.expect("a number")
+}
+
+/// All settings that can be chosen, from the file itself.
+fn candidates(results: &Value) -> Vec<Candidate> {
+    let rows = results["rows"].as_array().expect("rows");
+    let mut all: Vec<Value> = rows.iter().map(|row| row["settings"].clone()).collect();
+    all.sort_by_key(Value::to_string);
+    all.dedup();
+    let of = |settings: Value| {
+        let own: Vec<&Value> = rows.iter().filter(|row| row["settings"] == settings).collect();
+        let is_good = |row: &&Value| {
+            let errors = &row["outcome"]["measured"]["errors"];
+            errors.is_object() && errors["non_finite"] == json!([0, 0])
+        };
+        if !own.iter().all(is_good) {
+            return None;
+        }
+        let worst = |option: &'static str| {
+            let figures = own.iter().map(|row| figure(row, option));
+            let worst = if option.starts_with("--min") { f64::min } else { f64::max };
+            (option, figures.reduce(worst).expect("a row"))
+        };
+        Some(Candidate { settings: settings.clone(), figures: OPTIONS.map(worst).into() })
+    };
+    all.into_iter().filter_map(of).collect()
+}
+
+fn overshoot(candidate: &Candidate, limit: &Limit) -> f64 {
+    let beyond = candidate.figures[limit.option] - limit.value;
+    let beyond = if limit.option.starts_with("--min") { -beyond } else { beyond };
+    beyond / limit.value.abs()
+}
+
+/// Whether `a` is preferred to `b`, by the rule of the documents.
+fn prefer(a: &Candidate, b: &Candidate, limits: &[Limit]) -> Ordering {
+    let has_cost = limits.iter().any(|limit| ["--max-ms", "--max-mib"].contains(&limit.option));
+    let order = match has_cost {
+        true => ["--max-flip", "--max-ms", "--max-mib"],
+        false => ["--max-ms", "--max-mib", "--max-flip"],
+    };
+    let different = order.iter().map(|option| a.figures[option].total_cmp(&b.figures[option]));
+    different.into_iter().find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+}
+
+/// All that hold some limits and that no other one which holds them is preferred to.
+fn best<'a>(all: &'a [Candidate], limits: &[Limit], among: &[Limit]) -> Vec<&'a Candidate> {
+    let fits = |candidate: &&Candidate| among.iter().all(|limit| overshoot(candidate, limit) <= 0.0);
+    let fitting: Vec<&Candidate> = all.iter().filter(fits).collect();
+    let unbeaten = |one: &&&Candidate| !fitting.iter().any(|other| prefer(other, one, limits).is_lt());
+    fitting.iter().filter(unbeaten).copied().collect()
+}
+
+/// Those whose largest overshoot is least.
+fn nearest<'a>(all: &[&'a Candidate], limits: &[Limit]) -> Vec<&'a Candidate> {
+    let largest =
+        |candidate: &Candidate| limits.iter().map(|limit| overshoot(candidate, limit)).fold(f64::MIN, f64::max);
+    let least = all.iter().map(|one| largest(one)).fold(f64::MAX, f64::min);
+    all.iter().filter(|one| largest(one) <= least).copied().collect()
+}
+
+/// Whether an entry of the answer is one of those that an exhaustive search allows, or both have none.
+#[track_caller]
+fn agrees(entry: &Value, allowed: &[&Candidate], what: &str, context: &dyn std::fmt::Debug) {
+    match entry {
+        Value::Null => assert!(allowed.is_empty(), "no {what}, and there is {allowed:?}: {context:?}"),
+        entry => {
+            let found = allowed.iter().find(|one| one.settings == entry["settings"]);
+            let Some(found) = found else { panic!("{what} is {entry}, not of {allowed:?}: {context:?}") };
+            assert_eq!(entry["gpu_milliseconds"].as_f64(), Some(found.figures["--max-ms"]), "{what}");
+            assert_eq!(entry["errors"]["flip"].as_f64(), Some(found.figures["--max-flip"]), "{what}");
+        }
+    }
+}
+
+fn choose(place: &Place, limits: &[Limit], others: &[&str]) -> Outcome {
+    let mut arguments: Vec<String> = vec!["choose".to_owned(), ".".to_owned()];
+    arguments.extend(limits.iter().flat_map(|limit| [limit.option.to_owned(), limit.value.to_string()]));
+    arguments.extend(others.iter().map(|it| (*it).to_owned()));
+    place.run(&arguments)
+}
+
+/// Random results: few values, so that many figures are equal; several scenes; rows that fail, lack a reference or have
+/// pixels that aren't finite.
+fn random(numbers: &mut Numbers) -> Value {
+    let [values, scenes, few] = [1 + numbers.below(4), 1 + numbers.below(3), 2 + numbers.below(8)];
+    let mut rows = Vec::new();
+    for (msaa, scale) in (0..values).flat_map(|msaa| (0..values).map(move |scale| (msaa, scale))) {
+        for scene in 0..scenes {
+            let mut step = || 1.0 + numbers.below(few) as f64;
+            let mut row = Row::new(&[("msaa", &(1 << msaa).to_string()), ("scale", &format!("{}.5", scale))])
+                .scene(&format!("scene{scene}.ron"))
+                .costs(step() / 4.0, step() as u64 * 3 << 18)
+                .errors(step() / 64.0, step() / 32.0, 1.0 - step() / 128.0);
+            row = match numbers.below(16) {
+                0 => row.failed("no device has that"),
+                1 => row.not_finite(3),
+                2 => row.without_reference(),
+                3 => continue,
+                _ => row,
+            };
+            rows.push(row.value());
+        }
+    }
+    results(rows)
+}
+
+#[test]
+fn the_choice_is_what_an_exhaustive_search_finds() {
+    let mut numbers = Numbers(7);
+    let (mut chosen, mut missed, mut bound) = (0, 0, 0);
+    for _ in 0..300 {
+        let place = Place::new();
+        let results = random(&mut numbers);
+        write(&place, ".", &results);
+        let all = candidates(&results);
+        let mut limits = Vec::new();
+        while limits.is_empty() {
+            for option in OPTIONS {
+                if numbers.below(3) == 0 {
+                    let part = (1 + numbers.below(9)) as f64;
+                    let value = match option {
+                        "--max-ms" => part / 4.0,
+                        "--max-mib" => part * 0.75,
+                        "--max-flip" => part / 64.0,
+                        "--max-rmse" => part / 32.0,
+                        _ => 1.0 - part / 128.0,
+                    };
+                    limits.push(Limit { option, value });
+                }
+            }
+        }
+        let outcome = choose(&place, &limits, &["--format", "json"]);
+        let answer: Value = serde_json::from_str(&outcome.out).unwrap_or_else(|_| panic!("{}", outcome.err));
+        let best_of_all = best(&all, &limits, &limits);
+        agrees(&answer["chosen"], &best_of_all, "the choice", &limits);
+        assert_eq!(outcome.code, Some(i32::from(best_of_all.is_empty())));
+        let Some(winner) = best_of_all.first() else {
+            missed += 1;
+            agrees(&answer["nearest_miss"], &nearest(&all.iter().collect::<Vec<_>>(), &limits), "the miss", &limits);
+            continue;
+        };
+        chosen += 1;
+        let better: Vec<&Candidate> = all.iter().filter(|one| prefer(one, winner, &limits).is_lt()).collect();
+        agrees(&answer["next_better"], &nearest(&better, &limits), "the next better", &limits);
+        let by_option = |entry: &Value| limits.iter().position(|limit| entry["option"] == limit.option);
+        for entry in answer["limits"].as_array().expect("limits") {
+            let at = by_option(entry).expect("a stated one");
+            let others: Vec<Limit> =
+                limits.iter().enumerate().filter(|(other, _)| *other != at).map(|it| *it.1).collect();
+            let mut without = best(&all, &limits, &others);
+            without.retain(|one| prefer(one, winner, &limits).is_lt());
+            bound += usize::from(!without.is_empty());
+            agrees(&entry["without"], &without, "the choice without a limit", &limits);
+        }
+    }
+    assert!(chosen > 100 && missed > 80 && bound > 20, "{chosen} chosen, {missed} missed, {bound} limits bound");
+}
+
+/// Three settings of one scene, and what each costs and buys.
+fn three() -> Value {
+    let row = |msaa: &str, ms: f64, flip: f64| Row::new(&[("msaa", msaa)]).costs(ms, 4 << 20).errors(flip, flip, 0.9);
+    results([row("1", 1.0, 0.08), row("4", 2.0, 0.03), row("8", 3.0, 0.02)].map(Row::value).into())
+}
+
+#[test]
+fn the_answer_says_which_limit_binds_and_what_the_next_better_settings_cost() {
+    let place = Place::new();
+    write(&place, ".", &three());
+    let limits = [Limit { option: "--max-ms", value: 2.5 }, Limit { option: "--max-mib", value: 64.0 }];
+    let out = choose(&place, &limits, &[]).exits(0).out;
+    for said in [
+        "best: msaa=4\n  2.000 ms, 4.0 MiB transient",
+        "measured with scene.ron at 64x64\n",
+        "--max-ms 2.5: 2.000 ms; binds: without it msaa=8: 3.000 ms, 4.0 MiB transient, flip 0.02000\n",
+        "--max-mib 64: 4.0 MiB; doesn't bind\n",
+        "next better: msaa=8: 3.000 ms, 4.0 MiB transient, flip 0.02000; misses --max-ms 2.5 by 20.0 % (3.000 ms)\n",
+    ] {
+        assert!(out.contains(said), "`{said}` is not in\n{out}");
+    }
+    let out = choose(&place, &[Limit { option: "--max-flip", value: 0.05 }], &[]).exits(0).out;
+    assert!(out.starts_with("best: msaa=4\n") && out.contains("binds: without it msaa=1"), "{out}");
+    let limits = [Limit { option: "--max-ms", value: 2.5 }, Limit { option: "--max-flip", value: 0.021 }];
+    let out = choose(&place, &limits, &["-o", "settings.ron"]).exits(1).out;
+    assert!(out.contains("nothing that was measured holds all limits\nnearest miss: msaa=8\n"), "{out}");
+    assert!(out.contains("misses --max-ms 2.5 by 20.0 % (3.000 ms)"), "{out}");
+    assert!(!place.path("settings.ron").exists());
+    let out = choose(&place, &[Limit { option: "--max-ms", value: 9.0 }], &[]).exits(0).out;
+    assert!(out.starts_with("best: msaa=8\n") && out.contains("nothing better was measured"), "{out}");
+}
+
+#[test]
+fn settings_must_hold_with_every_scene_in_which_they_were_measured() {
+    let place = Place::new();
+    let row = |msaa: &str, scene: &str, ms: f64| {
+        Row::new(&[("msaa", msaa), ("@scene", scene)]).scene(scene).costs(ms, 4 << 20).errors(0.1 / ms, 0.1, 0.9)
+    };
+    let rows =
+        [row("1", "easy.ron", 1.0), row("1", "hard.ron", 2.0), row("4", "easy.ron", 2.5), row("4", "hard.ron", 5.0)];
+    write(&place, ".", &results(rows.map(Row::value).into()));
+    let out = choose(&place, &[Limit { option: "--max-ms", value: 3.0 }], &[]).exits(0).out;
+    assert!(out.starts_with("best: msaa=1\n  2.000 ms"), "{out}");
+    assert!(out.contains("the worst figures of easy.ron at 64x64; hard.ron at 64x64"), "{out}");
+    // Settings that were measured with one scene alone are told.
+    let rows = [row("1", "easy.ron", 1.0), row("1", "hard.ron", 2.0), row("4", "easy.ron", 2.5)];
+    write(&place, ".", &results(rows.map(Row::value).into()));
+    let out = choose(&place, &[Limit { option: "--max-ms", value: 3.0 }], &[]).exits(0).out;
+    assert!(out.contains("measured with easy.ron at 64x64; not measured with 1 of 2"), "{out}");
+}
+
+#[test]
+fn rows_that_failed_or_are_not_finite_never_win() {
+    let place = Place::new();
+    let row = |msaa: &str| Row::new(&[("msaa", msaa)]).costs(1.0, 4 << 20).errors(0.0, 0.0, 1.0);
+    let good = Row::new(&[("msaa", "8")]).costs(3.0, 4 << 20).errors(0.1, 0.1, 0.9);
+    let bad = [row("1").failed("no"), row("2").not_finite(1), row("4").without_reference()];
+    write(&place, ".", &results(bad.clone().into_iter().chain([good]).map(Row::value).collect()));
+    let limit = [Limit { option: "--max-ms", value: 9.0 }];
+    let out = choose(&place, &limit, &[]).exits(0).out;
+    assert!(out.starts_with("best: msaa=8\n"), "{out}");
+    assert!(out.contains("left out: 1 that can't be drawn\nleft out: 1 with pixels that aren't finite\n"), "{out}");
+    write(&place, ".", &results(bad.map(Row::value).into()));
+    let out = choose(&place, &limit, &[]).exits(1).out;
+    assert!(
+        out.starts_with("nothing that was measured can be chosen\n") && out.contains("without a reference"),
+        "{out}"
+    );
+}
+
+#[test]
+fn the_settings_file_is_one_that_run_takes() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        "Pipeline(version: 1, settings: [(name: \"msaa\", value: OneOf(default: 1, of: [1, 4])), \
+         (name: \"look\", value: OneOf(default: \"1\", of: [\"1\", \"old film\"])), \
+         (name: \"on\", value: Bool(default: false)), (name: \"scale\", value: Number(default: 1.0, min: 0.5, max: 2.0))], \
+         images: [(name: \"screen\", format: Output, size: Output)], \
+         passes: [(name: \"all\", draw: FullScreen(\"vignette\"), when: \"on\", color: [\"screen\"])], outputs: [\"screen\"])",
+    );
+    for look in ["1", "old film"] {
+        let all = [("msaa", "4"), ("look", look), ("on", "true"), ("scale", "1.5")];
+        let mut value = results(vec![Row::new(&all).costs(1.0, 1 << 20).errors(0.1, 0.1, 0.9).value()]);
+        value["subject"]["pipeline"] = json!("p.ron");
+        write(&place, ".", &value);
+        let limit = [Limit { option: "--max-ms", value: 2.0 }];
+        let outcome = choose(&place, &limit, &["-o", "settings.ron"]).exits(0);
+        assert!(outcome.out.ends_with("written to settings.ron\n") && outcome.err.is_empty(), "{outcome:?}");
+        let text = std::fs::read_to_string(place.path("settings.ron")).expect("written");
+        for set in ["\"msaa\": 4,", "\"on\": true,", "\"scale\": 1.5,"] {
+            assert!(text.contains(set), "{text}");
+        }
+        // A setting that the file gives no allowed value would be named.
+        let outcome = place.run(&["check", "p.ron", "--settings", "settings.ron"]);
+        assert!(!outcome.err.contains("settings.ron"), "{}", outcome.err);
+    }
+    // What the pipeline refuses is told.
+    let mut value = results(vec![Row::new(&[("msaa", "16")]).costs(1.0, 1 << 20).errors(0.1, 0.1, 0.9).value()]);
+    value["subject"]["pipeline"] = json!("p.ron");
+    write(&place, ".", &value);
+    let limit = [Limit { option: "--max-ms", value: 2.0 }];
+    choose(&place, &limit, &["-o", "settings.ron"]).exits(0).mentions("`p.ron` as it is here refuses these settings");
+    place.file("p.ron", "no pipeline");
+    choose(&place, &limit, &["-o", "settings.ron"])
+        .exits(0)
+        .mentions("the settings were not checked with the pipeline");
+}
+
+#[test]
+fn a_budget_is_stated_and_no_results_are_lost() {
+    let place = Place::new();
+    let file = write(&place, ".", &three());
+    choose(&place, &[], &[]).exits(2);
+    for wrong in [["--max-ms", "0"], ["--max-ms", "-1"], ["--max-mib", "NaN"], ["--max-flip", "x"]] {
+        choose(&place, &[], &wrong).exits(2);
+    }
+    let before = std::fs::read(&file).expect("read");
+    let said = choose(&place, &[], &["--max-ms", "9", "-o", "results.json"]).exits(2);
+    said.mentions("`results.json` is a file of results that is read, which would be lost");
+    assert_eq!(std::fs::read(&file).expect("read"), before);
+    choose(&place, &[], &["--max-ms", "9", "-o", "missing/settings.ron"]).exits(3);
+}
