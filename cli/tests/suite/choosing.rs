@@ -124,7 +124,7 @@ fn random(numbers: &mut Numbers) -> Value {
             let mut step = || 1.0 + numbers.below(few) as f64;
             let mut row = Row::new(&[("msaa", &(1 << msaa).to_string()), ("scale", &format!("{}.5", scale))])
                 .scene(&format!("scene{scene}.ron"))
-                .costs(step() / 4.0, step() as u64 * 3 << 18)
+                .costs(step() / 4.0, (step() as u64 * 3) << 18)
                 .errors(step() / 64.0, step() / 32.0, 1.0 - step() / 128.0);
             row = match numbers.below(16) {
                 0 => row.failed("no device has that"),

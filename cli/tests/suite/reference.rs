@@ -47,8 +47,8 @@ fn every_whole_file_of_the_reference_is_fine() {
 }
 
 /// The commands.
-const COMMANDS: [&str; 10] =
-    ["check", "inspect", "run", "facts", "compare", "measure", "new", "schema", "devices", "cache"];
+const COMMANDS: [&str; 12] =
+    ["check", "inspect", "run", "facts", "compare", "measure", "choose", "merge", "new", "schema", "devices", "cache"];
 
 /// The options of all commands, as their helps list them.
 fn options() -> BTreeSet<String> {
