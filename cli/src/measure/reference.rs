@@ -21,7 +21,7 @@ const LEAST_FRAMES: u16 = 16;
 #[derive(Debug)]
 pub(crate) struct Reference {
     pub(crate) picture: Light,
-    /// Half as many samples: its distance from the whole bounds the error that the whole has itself.
+    /// Half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
     pub(crate) of_half: Light,
 }
 

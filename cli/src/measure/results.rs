@@ -71,7 +71,7 @@ pub(crate) struct Measured {
     pub(crate) cost: Cost,
     /// The errors beside the reference; `None` if there was none.
     pub(crate) errors: Option<Errors>,
-    /// The reference's own errors beside one of half as many samples: the true ones are smaller.
+    /// The reference's own errors beside one of half as many samples: an estimate of what it is wrong by itself.
     pub(crate) reference_errors: Option<Errors>,
     /// By pass, in the order of execution.
     pub(crate) passes: Vec<PassCost>,

@@ -179,7 +179,7 @@ function detail() {
     list.push(["not finite", `${picture} pixels of the picture, ${reference} of the reference; they are no part of the figures`]);
   }
   const floor = picked.measured?.reference_errors;
-  if (floor) list.push(["reference's own error", `FLIP ${shown(floor.flip.mean)}, RMSE ${shown(floor.rmse)} at most`]);
+  if (floor) list.push(["reference's own error", `FLIP ${shown(floor.flip.mean)}, RMSE ${shown(floor.rmse)} estimated`]);
   for (const pass of picked.measured?.passes ?? []) list.push([pass.name, `${shown(pass.gpu_milliseconds.median)} ms`]);
   const lines = list.map(([name, text]) => [make("dt", {}, name), make("dd", {}, text)]);
   const settings = Object.entries(picked.row.settings).map(([name, value]) =>
