@@ -218,16 +218,14 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let own = matches!(draw, Draw::Vertices { .. } | Draw::Indirect);
-    // The draw source isn't asked for vertices of the pass's own.
-    let brought = if own { DrawInterface::default() } else { shaders.brought_along(draw) };
+    let brought = shaders.brought_along(draw);
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(gpu, &brought).map_err(mismatch)?;
     check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    let own_vertices = own && !wanted.is_empty();
+    let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
     } else {

@@ -84,7 +84,7 @@ type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
 
 impl ShaderLibrary {
     /// A library over the folders `roots`, then `shipped` (file name, GLSL text). `draws` says what each kind of draw brings
-    /// along.
+    /// along; it isn't asked for draws of a pass's own vertices, which bring nothing.
     #[must_use]
     pub fn new(
         roots: Vec<Root>,
@@ -276,7 +276,11 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
-        (self.draws)(draw)
+        match draw {
+            // The pass has vertices of its own, and the draw source isn't asked for any.
+            Draw::Vertices { .. } | Draw::Indirect => DrawInterface::default(),
+            Draw::Objects(_) | Draw::Casters(_) | Draw::Sky | Draw::FullScreen | Draw::Custom => (self.draws)(draw),
+        }
     }
 }
 

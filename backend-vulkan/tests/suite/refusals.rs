@@ -8,7 +8,7 @@ use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
     StepId, Work,
 };
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
 use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
@@ -22,6 +22,14 @@ const SHADERS: &[(&str, &str)] = &[
     ),
     ("white.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }"),
     ("whole.frag", "#version 460\nlayout(location = 0) out uvec4 color;\nvoid main() { color = uvec4(1); }"),
+    ("vertices.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex); }"),
+    (
+        "brought.frag",
+        "#version 460
+        layout(set = 1, binding = 0) uniform sampler2D picture;
+        layout(location = 0) out vec4 color;
+        void main() { color = texture(picture, vec2(0.5)); }",
+    ),
     (
         "cube.frag",
         "#version 460
@@ -56,9 +64,13 @@ fn plain(_: Draw) -> DrawInterface {
 
 /// Why a Plan that draws objects with the shader `first` and shows them with `second` is refused; empty if it isn't.
 fn refusal(device: &Device, first: &str, second: &str, draws: fn(Draw) -> DrawInterface) -> String {
-    let plan = resolve_then_sample(device, (first, Draw::Objects(DrawList::Opaque)), second);
+    refusal_of(device, &resolve_then_sample(device, (first, Draw::Objects(DrawList::Opaque)), second), draws)
+}
+
+/// Why a Plan is refused; empty if it isn't.
+fn refusal_of(device: &Device, plan: &Plan, draws: fn(Draw) -> DrawInterface) -> String {
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, draws);
-    let refused = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).err();
+    let refused = Executor::new(device, plan, &mut shaders, &ExecutorOptions::default()).err();
     refused.map(|error| error.to_string()).unwrap_or_default()
 }
 
@@ -93,6 +105,22 @@ fn a_draw_interface_that_vulkan_can_not_bind_is_refused() {
     let group = device.bind_group(&interface, 1, &[(0, Resource::Buffer(&buffer))]).err();
     let said = group.map(|error| error.to_string()).unwrap_or_default();
     assert_eq!(said, "bind group for set 1: `picture` is brought along where something else is");
+}
+
+#[test]
+fn a_pass_with_vertices_of_its_own_can_not_read_what_a_draw_source_brings_along() {
+    let Some(device) = testing::device() else { return };
+    let own = Draw::Vertices { count: 3, instances: 1 };
+    let said = |shader, draw| refusal_of(device, &resolve_then_sample(device, (shader, draw), "show"), plain);
+    assert_eq!(said("white", own), "");
+    assert_eq!(said("brought", Draw::Objects(DrawList::Opaque)), "");
+    let refused =
+        "pass `draw`: the shader reads `picture` at set 1, binding 0, where this kind of draw brings along nothing";
+    assert_eq!(said("brought", own), refused);
+    let shaders = ShaderLibrary::new(Vec::new(), SHADERS, plain);
+    for draw in [own, Draw::Indirect] {
+        assert_eq!(shaders.brought_along(draw), DrawInterface::default(), "the compiler says the same");
+    }
 }
 
 #[test]

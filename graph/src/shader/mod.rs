@@ -268,7 +268,7 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// The interface of the draw source for `draw`.
+    /// The interface of the draw source for `draw`; an empty one where the pass has vertices of its own.
     fn brought_along(&self, draw: Draw) -> DrawInterface;
 }
 
