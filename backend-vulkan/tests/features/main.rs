@@ -12,6 +12,7 @@ mod depth;
 mod geometry;
 mod growth;
 mod hand_over;
+mod held;
 mod imports;
 mod local_reads;
 mod outlasting;
