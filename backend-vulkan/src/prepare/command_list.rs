@@ -2,6 +2,7 @@
 //! in a list of its kind. So recording a frame looks at little memory, and almost only forwards.
 
 use super::draw_target::DrawTarget;
+use super::history::RingCache;
 use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
 use crate::gpu::{Gpu, LocalRead};
@@ -19,16 +20,8 @@ pub(crate) struct CommandList {
     pub(crate) parts: Vec<u8>,
     /// After how many frames, one after the other, everything is made.
     pub(super) period: u64,
-    steps: Vec<StepFrames>,
-    /// The commands of each step in each frame of its period, once they are made.
-    made: Vec<Option<Run>>,
-}
-
-/// Where in [`CommandList::made`] the frames of a step are.
-struct StepFrames {
-    first: usize,
-    /// After how many frames the step records the same again.
-    period: u64,
+    /// By step: its commands in each frame until it records the same again.
+    made: Vec<RingCache<Run>>,
 }
 
 /// Consecutive entries of a list.
@@ -161,13 +154,12 @@ impl Run {
 impl CommandList {
     /// No commands yet, for steps that record the same again after so many frames.
     pub(super) fn new(periods: impl Iterator<Item = u64>) -> CommandList {
-        let mut frames = 0;
-        let steps = periods.map(|period| {
-            let first = frames;
-            frames += usize::try_from(period).unwrap_or(usize::MAX);
-            StepFrames { first, period }
+        let mut longest = 1;
+        let made = periods.map(|period| {
+            longest = longest.max(period);
+            RingCache::new(period)
         });
-        let steps: Vec<_> = steps.collect();
+        let made = made.collect();
         CommandList {
             commands: Vec::new(),
             memory: Vec::new(),
@@ -175,15 +167,14 @@ impl CommandList {
             attachments: Vec::new(),
             targets: Vec::new(),
             parts: Vec::new(),
-            period: steps.iter().map(|step| step.period).max().unwrap_or(1),
-            steps,
-            made: vec![None; frames],
+            period: longest,
+            made,
         }
     }
 
     /// The commands of a step in a frame, if they are made.
     pub(crate) fn step(&self, step: usize, frame: u64) -> Option<&[Command]> {
-        self.made[self.place(step, frame)].map(|run| run.of(&self.commands))
+        self.made[step].at(frame).map(|run| run.of(&self.commands))
     }
 
     /// Makes the commands of a step in a frame, unless they are there.
@@ -193,18 +184,24 @@ impl CommandList {
         frame: u64,
         make: impl FnOnce(&mut CommandList) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let place = self.place(step, frame);
-        if self.made[place].is_none() {
-            let first = number(self.commands.len());
-            make(self)?;
-            self.made[place] = Some(Run { first, end: number(self.commands.len()) });
+        if self.made[step].at(frame).is_some() {
+            return Ok(());
         }
-        Ok(())
+        let first = number(self.commands.len());
+        make(self)?;
+        let run = Run { first, end: number(self.commands.len()) };
+        self.made[step].prepare(frame, || Ok(run)).map(drop)
     }
 
-    /// Forgets all commands.
+    /// Forgets all commands, and keeps the memory of the lists.
     pub(super) fn forget(&mut self) {
-        *self = CommandList::new(std::mem::take(&mut self.steps).into_iter().map(|step| step.period));
+        self.commands.clear();
+        self.memory.clear();
+        self.images.clear();
+        self.attachments.clear();
+        self.targets.clear();
+        self.parts.clear();
+        self.made.iter_mut().for_each(RingCache::forget);
     }
 
     /// Adds a command.
@@ -257,14 +254,31 @@ impl CommandList {
         }
         number(self.targets.len() - 1)
     }
-
-    fn place(&self, step: usize, frame: u64) -> usize {
-        let StepFrames { first, period } = self.steps[step];
-        first + usize::try_from(frame % period).unwrap_or(0)
-    }
 }
 
 /// A number in a list, which memory ends far below 2^32.
 fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_that_never_records_the_same_again_takes_memory_only_for_its_frames() {
+        let mut list = CommandList::new([1, u64::MAX].into_iter());
+        for frame in 0..3 {
+            let make = |list: &mut CommandList| {
+                list.push(Command::Custom);
+                Ok(())
+            };
+            assert!(list.step(1, frame).is_none());
+            list.prepare(1, frame, make).expect("nothing fails");
+            assert_eq!(list.step(1, frame).map(<[Command]>::len), Some(1));
+        }
+        assert_eq!(list.commands.len(), 3);
+        list.forget();
+        assert!(list.step(1, 2).is_none() && list.commands.is_empty());
+    }
 }

@@ -96,6 +96,11 @@ impl<T> RingCache<T> {
         RingCache { period: period.max(1), made: Vec::new() }
     }
 
+    /// The objects for frame `frame`, if they are made.
+    pub(crate) fn at(&self, frame: u64) -> Option<&T> {
+        self.made.get(self.slot(frame))?.as_ref()
+    }
+
     /// The objects for frame `frame`, which are made unless they are there.
     pub(crate) fn prepare(&mut self, frame: u64, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
         let slot = self.slot(frame);
