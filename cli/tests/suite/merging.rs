@@ -187,6 +187,17 @@ fn no_results_are_lost() {
         .mentions("the file of results `missing/results.json` can't be read");
     place.run(&["merge", "-o", "c"]).exits(2);
     assert!(!place.path("c").exists());
+    // What can't be finished has no results, or those that it had.
+    std::fs::create_dir(place.path("c")).expect("a folder");
+    place.file("c/pictures", "no folder");
+    place.run(&["merge", "a", "b", "-o", "c"]).exits(3).mentions("`c/pictures` can't be written");
+    assert_eq!(files(&place, "c").into_keys().collect::<Vec<_>>(), ["c/pictures"]);
+    std::fs::remove_file(place.path("c/pictures")).expect("removed");
+    merged(&place, &["a"], "c");
+    let before = files(&place, "c");
+    std::fs::remove_file(place.path("b/reference.exr")).expect("removed");
+    place.run(&["merge", "a", "b", "-o", "c"]).exits(1).mentions("the picture `b/reference.exr` can't be read");
+    assert_eq!(files(&place, "c"), before);
 }
 
 #[test]
