@@ -86,7 +86,7 @@ pub(crate) enum Error {
     Sweep { what: String },
     /// A folder holds results of something else.
     #[error(
-        "`{}` holds results of another pipeline, device, baseline or number of frames: name another folder",
+        "`{}` holds results of another pipeline, device, reference, baseline or number of frames: name another folder",
         text::path(folder)
     )]
     OtherSweep { folder: PathBuf },

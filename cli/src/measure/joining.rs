@@ -81,7 +81,7 @@ fn put(
 /// The first field in which two subjects differ, and both values.
 fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
     let fields = |subject: &Subject| {
-        let Subject { pipeline, pipeline_digest, device, driver, frames, baseline } = subject;
+        let Subject { pipeline, pipeline_digest, device, driver, frames, reference, baseline } = subject;
         let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
         [
             ("pipeline_digest", format!("`{pipeline_digest}`")),
@@ -89,6 +89,7 @@ fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
             ("device", format!("`{device}`")),
             ("driver", format!("`{driver}`")),
             ("frames", frames.to_string()),
+            ("reference", format!("`{reference}`")),
             ("baseline", format!("`{}`", baseline.join(" "))),
         ]
     };

@@ -32,7 +32,10 @@ pub(crate) struct Subject {
     pub(crate) driver: String,
     /// Frames whose times were taken, for each row.
     pub(crate) frames: u32,
-    /// The settings that the ratios of times are relative to: all of the pipeline's, by name.
+    /// The pictures that errors are measured against: `auto`, `none`, or the digest of a picture.
+    pub(crate) reference: String,
+    /// The choice that the ratios of times are relative to: all settings of the pipeline, by name, and `@scene`, by its digest,
+    /// `@size` and `@stereo`.
     pub(crate) baseline: BTreeMap<String, String>,
 }
 

@@ -107,6 +107,16 @@ impl Bench<'_> {
     /// The results that the folder holds already, or none yet.
     fn begun(&mut self, baseline: &Choice) -> Result<Results, Error> {
         let planned = self.planned(baseline, &[])?;
+        let mut of_baseline = settings(&planned);
+        of_baseline.extend([
+            (subjects::SCENE.to_owned(), baseline.scene.digest.clone()),
+            (subjects::SIZE.to_owned(), baseline.size.to_string()),
+            (subjects::STEREO.to_owned(), planned.plan.stereo.name().to_owned()),
+        ]);
+        let reference = match self.arguments.reference.to_str() {
+            Some(word @ (AUTO | NONE)) => word.to_owned(),
+            _ => Digest::of_value(&inputs::picture(&self.arguments.reference, &self.read)?),
+        };
         let texts = (0..).map_while(|file| self.pipeline.sources.file(file)).map(|file| &*file.text);
         let subject = Subject {
             pipeline: self.arguments.pipeline.file.to_string_lossy().into_owned(),
@@ -114,7 +124,8 @@ impl Bench<'_> {
             device: self.device.summary().name.clone(),
             driver: self.device.summary().driver.clone(),
             frames: self.arguments.frames,
-            baseline: settings(&planned),
+            reference,
+            baseline: of_baseline,
         };
         let folder = &self.arguments.output;
         let made = |folder: &Path| std::fs::create_dir_all(folder);
@@ -180,12 +191,13 @@ impl Bench<'_> {
         let (of_baseline, frames) = frames.split_first().map_or((&[][..], &[][..]), |(first, rest)| (first, rest));
         let mut rows = Vec::with_capacity(batch.len());
         for ((choice, ready), frames) in batch.iter().zip(prepared.into_iter().skip(1)).zip(frames) {
-            let (settings, outcome) = match ready {
+            let (settings, stereo, outcome) = match ready {
                 Ok(mut drawn) => {
                     let measured = self.measured(choice, &mut drawn, frames, of_baseline)?;
-                    (settings(drawn.planned), Outcome::Measured(Box::new(measured)))
+                    let outcome = Outcome::Measured(Box::new(measured));
+                    (settings(drawn.planned), drawn.planned.plan.stereo, outcome)
                 }
-                Err(why) => (choice.settings().collect(), Outcome::Failed(why)),
+                Err(why) => (choice.settings().collect(), choice.stereo.0[0], Outcome::Failed(why)),
             };
             rows.push(Row {
                 choice: choice.values.clone(),
@@ -193,7 +205,7 @@ impl Bench<'_> {
                 scene: choice.scene.file.clone(),
                 scene_digest: choice.scene.digest.clone(),
                 size: [choice.size.width, choice.size.height],
-                stereo: choice.stereo.0[0].name().to_owned(),
+                stereo: stereo.name().to_owned(),
                 outcome,
             });
             progress.done_one();

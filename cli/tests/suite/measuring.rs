@@ -76,8 +76,15 @@ fn a_sweep_goes_on_where_it_stopped_and_mixes_no_two() {
     let all = results(&place, "swept");
     assert_eq!(row(&all, &[("msaa", "4")]), row(&kept, &[("msaa", "4")]));
     assert_eq!(all["rows"].as_array().map(Vec::len), Some(3));
-    let other = [&more[..], &["--set", "blur=2"]].concat();
-    measure(&place, &other).expect("lavapipe").exits(2).mentions("holds results of another");
+    let others = [
+        &["--reference", "none", "--set", "blur=2"][..],
+        &["--reference", "auto"],
+        &["--reference", "none", "--stereo", "multi-pass"],
+    ];
+    for other in others {
+        let other = [&["--sweep", "msaa=1,2,4", "-o", "swept"], other].concat();
+        measure(&place, &other).expect("lavapipe").exits(2).mentions("holds results of another");
+    }
     assert_eq!(results(&place, "swept"), all);
 }
 

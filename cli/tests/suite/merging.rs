@@ -106,6 +106,7 @@ fn results_of_different_things_are_not_joined() {
         ("device", json!("another")),
         ("driver", json!("a driver 2.0")),
         ("frames", json!(17)),
+        ("reference", json!("none")),
         ("baseline", json!({ "msaa": "8", "scale": "1" })),
     ] {
         let said = refused(|results| results["subject"][field] = value);

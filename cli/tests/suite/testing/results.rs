@@ -121,6 +121,7 @@ pub(crate) fn results(rows: Vec<Value>) -> Value {
             "device": "a device",
             "driver": "a driver 1.0",
             "frames": 16,
+            "reference": "auto",
             "baseline": { "msaa": "4", "scale": "1" },
         },
         "rows": rows,
