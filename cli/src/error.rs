@@ -1,7 +1,6 @@
 //! The errors that end a command early.
 
 use crate::command_line::options;
-use crate::measure::{JoiningProblem, StoreProblem};
 use crate::picture::{DecodingError, EncodingError};
 use crate::system::{Exit, links, text};
 use framewright_graph::base;
@@ -81,6 +80,13 @@ pub(crate) enum Error {
     /// Pictures of different sizes.
     #[error("`{}` is {}, and `{}` is {}: only pictures of one size are compared", text::path(&reference.0), pixels(reference.1), text::path(&picture.0), pixels(picture.1))]
     Sizes { reference: (PathBuf, [usize; 2]), picture: (PathBuf, [usize; 2]) },
+    /// Pictures without anything to compare.
+    #[error(
+        "no pixel is finite in both `{}` and `{}`: there is nothing to compare",
+        text::path(reference),
+        text::path(picture)
+    )]
+    NothingFinite { reference: PathBuf, picture: PathBuf },
     /// A sweep that can't be measured.
     #[error("{what}")]
     Sweep { what: String },
@@ -92,10 +98,10 @@ pub(crate) enum Error {
     OtherSweep { folder: PathBuf },
     /// A file of results that is none.
     #[error("`{}` {}", text::path(path), text::escape_lines(&problem.to_string()))]
-    Results { path: PathBuf, problem: StoreProblem },
+    Results { path: PathBuf, problem: Box<dyn std::error::Error> },
     /// Results that can't be joined.
     #[error("{0}")]
-    Joining(#[from] JoiningProblem),
+    Joining(Box<dyn std::error::Error>),
     /// A picture of results lies elsewhere.
     #[error(
         "the picture `{}` lies outside of `{}`: a link leads there, and is not followed",
@@ -255,6 +261,7 @@ impl Error {
             | Error::NotFloats { .. }
             | Error::NoLight { .. }
             | Error::Sizes { .. }
+            | Error::NothingFinite { .. }
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::OutsideResults { .. }

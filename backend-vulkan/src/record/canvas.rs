@@ -1,7 +1,6 @@
 //! What a pass draws into: viewport and scissor of an eye's picture, and the draws that it takes to draw for both eyes at once.
 
-use super::recorder::{CullMode, FrontFace};
-use super::state::CommandState;
+use super::state::{CommandState, CullMode, FrontFace};
 use crate::gpu::Gpu;
 use crate::prepare::{DrawTarget, scissor, viewport};
 use ash::vk;

@@ -1,5 +1,6 @@
 //! Recording of a prepared frame's commands.
 
+mod bindings;
 mod canvas;
 mod custom;
 mod draw_source;
@@ -11,7 +12,8 @@ mod timing;
 
 pub use custom::{CustomImage, CustomRecorder};
 pub use draw_source::DrawSource;
-pub use recorder::{CullMode, FrontFace, IndexType, Recorder};
+pub use recorder::{IndexType, Recorder};
+pub use state::{CullMode, FrontFace};
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use state::CommandState;

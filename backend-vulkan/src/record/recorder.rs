@@ -1,7 +1,8 @@
 //! How a draw source records its draws.
 
+use super::bindings::bind_set;
 use super::canvas::Canvas;
-use super::step::bind_set;
+use super::state::{CullMode, FrontFace};
 use crate::memory::RawBuffer;
 use crate::prepare::{PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer, RawBindGroup};
@@ -11,26 +12,6 @@ use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// The faces that are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum CullMode {
-    /// None.
-    None,
-    /// Faces seen from the front.
-    Front,
-    /// Faces seen from behind.
-    Back,
-}
-
-/// The direction in which the vertices of a face go round, seen from its front.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum FrontFace {
-    /// Counter-clockwise, as in glTF.
-    CounterClockwise,
-    /// Clockwise: counter-clockwise mirrored.
-    Clockwise,
-}
 
 /// The type of an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

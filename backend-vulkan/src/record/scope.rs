@@ -1,8 +1,9 @@
 //! Rendering scopes and their draws.
 
+use super::bindings::bind;
 use super::canvas::Canvas;
 use super::recorder::Recorder;
-use super::step::{Recording, bind};
+use super::step::Recording;
 use super::timing::Counts;
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead};

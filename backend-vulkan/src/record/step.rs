@@ -1,5 +1,6 @@
 //! A Plan's steps as commands: the list of what was prepared is walked, and nothing is allocated.
 
+use super::bindings::bind;
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
 use super::recorder::HeldResources;
@@ -7,9 +8,7 @@ use super::state::CommandState;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
 use crate::commands::barrier_call;
-use crate::gpu::Gpu;
-use crate::pipeline::PARTS_STAGES;
-use crate::prepare::{Bindings, Command, CommandList, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
+use crate::prepare::{Command, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
 use ash::vk;
 use framewright_graph::plan::{Pass, Queue};
 use std::time::Duration;
@@ -132,38 +131,4 @@ impl Recording<'_> {
             }
         }
     }
-}
-
-/// Binds a pass's own set, and tells its shaders which parts of images are in use.
-pub(super) fn bind(
-    gpu: &Gpu,
-    commands: vk::CommandBuffer,
-    point: vk::PipelineBindPoint,
-    list: &CommandList,
-    bindings: &Bindings,
-) {
-    if bindings.set != vk::DescriptorSet::null() {
-        bind_set(gpu, commands, point, bindings.layout, 0, bindings.set);
-    }
-    if !bindings.parts.is_empty() {
-        let parts = bindings.parts.of(&list.parts);
-        // SAFETY: the command buffer is being recorded, every layout has this range, and no more parts than fit were let
-        // through.
-        unsafe { gpu.raw.cmd_push_constants(commands, bindings.layout, PARTS_STAGES, 0, parts) };
-    }
-}
-
-/// Binds a set to a number, where the layout has the set's own layout.
-pub(super) fn bind_set(
-    gpu: &Gpu,
-    commands: vk::CommandBuffer,
-    point: vk::PipelineBindPoint,
-    layout: vk::PipelineLayout,
-    number: u32,
-    set: vk::DescriptorSet,
-) {
-    let bind = gpu.raw.fp_v1_0().cmd_bind_descriptor_sets;
-    // SAFETY: the command buffer is being recorded, and the set has the layout that the pipeline layout has at this number. A list
-    // of offsets without entries would be allocated by drivers: there is none.
-    unsafe { bind(commands, point, layout, number, 1, &raw const set, 0, std::ptr::null()) };
 }

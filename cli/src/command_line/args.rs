@@ -5,7 +5,8 @@ use crate::command_line::comparing::CompareArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 use crate::command_line::values::{
-    Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
+    AnswerFormat, Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file,
+    rotation, stereo,
 };
 use crate::system::text;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -312,16 +313,6 @@ impl PlanningArguments {
 enum Saving {
     /// Full-screen draws, which gain nothing from several samples, stay in multisampled images, so that more is resolved.
     Resolves,
-}
-
-/// Form of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(crate) enum AnswerFormat {
-    /// For people.
-    #[default]
-    Human,
-    /// For programs.
-    Json,
 }
 
 /// Form of a Plan.

@@ -1,10 +1,7 @@
 //! The command line of `framewright choose`.
 
-use super::args::AnswerFormat;
 use super::comparing::ErrorLimits;
-use super::values::positive;
-use crate::measure::choosing::{Limit, Quantity};
-use crate::metric::Metric;
+use super::values::{AnswerFormat, positive};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
@@ -35,14 +32,3 @@ pub(crate) struct ChooseArguments {
 }
 
 const HEADING: &str = "Limits, of which at least one is stated";
-
-impl ChooseArguments {
-    /// The limits that are stated.
-    #[must_use]
-    pub(crate) fn limits(&self) -> Vec<Limit> {
-        let costs = [(Quantity::Milliseconds, self.max_ms), (Quantity::Mebibytes, self.max_mib)];
-        let errors = Metric::ALL.map(|metric| (Quantity::Error(metric), self.errors.of(metric)));
-        let limits = costs.into_iter().chain(errors);
-        limits.filter_map(|(quantity, value)| Some(Limit { quantity, value: value? })).collect()
-    }
-}

@@ -1,7 +1,6 @@
 //! The command line of `framewright compare`.
 
-use super::args::AnswerFormat;
-use super::values::{number, png};
+use super::values::{AnswerFormat, number, png};
 use crate::metric::{Metric, PIXELS_PER_DEGREE};
 use clap::Args;
 use std::path::PathBuf;

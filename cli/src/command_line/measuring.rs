@@ -1,8 +1,7 @@
 //! The command line of `framewright measure`.
 
 use super::args::PipelineArguments;
-use super::values::{DEFAULT_SIZE, Size};
-use crate::measure::sweep::{Sweep, sweep};
+use super::values::{DEFAULT_SIZE, Size, Sweep, sweep};
 use clap::Args;
 use std::ffi::OsString;
 use std::path::PathBuf;

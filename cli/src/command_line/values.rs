@@ -1,11 +1,16 @@
 //! Values of single arguments, and how they are read. The error of each reader says what was expected, in words.
 
 use crate::picture::FileFormat;
+use crate::system::text;
+use clap::ValueEnum;
 use framewright_graph::compile::Order;
 use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
 use serde::Serialize;
 use std::path::PathBuf;
+
+/// A range has at most this many values.
+const MOST_STEPS: u32 = 1_000;
 
 /// Width and height of the output where the command line says none, in pixels.
 pub(crate) const DEFAULT_SIZE: Size = Size { width: 1280, height: 720 };
@@ -137,6 +142,16 @@ pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
     }
 }
 
+/// Form of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum AnswerFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// For programs.
+    Json,
+}
+
 /// Reads a number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
@@ -146,6 +161,55 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 /// Reads a number above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0, such as 4.5".to_owned())
+}
+
+/// The values that one setting takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sweep {
+    /// The setting; or `@size`, `@scene` or `@stereo`.
+    pub(crate) name: String,
+    /// As the command line has them.
+    pub(crate) values: Vec<String>,
+}
+
+/// Reads `NAME=A,B,C` or `NAME=LO..HI:STEPS`.
+///
+/// # Errors
+/// The form that was expected.
+pub(crate) fn sweep(text: &str) -> Result<Sweep, String> {
+    const FORM: &str = "expected NAME=A,B,C or NAME=LO..HI:STEPS, such as msaa=1,4 or render_scale=0.5..2:4";
+    let (name, values) = text.split_once('=').filter(|(name, _)| !name.is_empty()).ok_or(FORM)?;
+    // Paths of scenes may hold two dots.
+    let range_of = values.split_once("..").filter(|_| !name.starts_with('@'));
+    let values = match range_of {
+        Some((low, rest)) => {
+            let (high, steps) = rest.split_once(':').ok_or(FORM)?;
+            range(low, high, steps)?
+        }
+        None => values.split(',').map(str::to_owned).collect(),
+    };
+    if values.iter().any(String::is_empty) {
+        return Err(FORM.to_owned());
+    }
+    match (1..values.len()).find(|at| values[..*at].contains(&values[*at])) {
+        Some(twice) => Err(format!("`{}` stands there twice", text::escape(&values[twice]))),
+        None => Ok(Sweep { name: name.to_owned(), values }),
+    }
+}
+
+/// So many values from the one to the other, both among them.
+fn range(low: &str, high: &str, steps: &str) -> Result<Vec<String>, String> {
+    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
+    let (Some(low), Some(high)) = (number(low), number(high)) else {
+        return Err("a range goes from one number to another, such as 0.5..2:4".to_owned());
+    };
+    let steps = steps.parse::<u32>().ok().filter(|steps| (2..=MOST_STEPS).contains(steps));
+    let steps = steps.ok_or_else(|| format!("a range has 2 to {MOST_STEPS} values, such as 0.5..2:4"))?;
+    if low >= high {
+        return Err(format!("the range goes backwards: {low} is not below {high}"));
+    }
+    let value = |at: u32| low + (high - low) * f64::from(at) / f64::from(steps - 1);
+    Ok((0..steps).map(|at| value(at).to_string()).collect())
 }
 
 /// Reads the name of a PNG file.
@@ -205,6 +269,18 @@ mod tests {
         assert_eq!(read("glow.down[0]=b/a=c.png"), Ok((Some("glow.down[0]".to_owned()), "b/a=c.png".into())));
         assert_eq!(read("./a=b.png"), Ok((None, "./a=b.png".into())));
         assert!(read("depth=").is_err() && read("depth=a.jpg").is_err() && read("a").is_err());
+    }
+
+    #[test]
+    fn values_are_listed_or_a_range() {
+        let values = |text: &str| sweep(text).map(|sweep| sweep.values);
+        assert_eq!(values("msaa=1,4"), Ok(vec!["1".to_owned(), "4".to_owned()]));
+        assert_eq!(values("s=0.5..2:4").expect("a range"), ["0.5", "1", "1.5", "2"]);
+        for wrong in ["msaa", "=1", "msaa=", "msaa=1,,2", "s=1..2", "s=1..2:1", "s=2..1:3", "s=a..b:3", "s=0..1:1001"] {
+            assert!(sweep(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(sweep("s=2..1:3"), Err("the range goes backwards: 2 is not below 1".to_owned()));
+        assert_eq!(sweep("s=1,2,1"), Err("`1` stands there twice".to_owned()));
     }
 
     #[test]

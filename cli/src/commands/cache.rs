@@ -1,6 +1,7 @@
 //! `framewright cache`: the files that are kept from one call to the next.
 
-use crate::command_line::args::{AnswerFormat, CacheArguments};
+use crate::command_line::args::CacheArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::system::{Exit, text};
 use framewright_vulkan::{Cache, CachedFiles};

@@ -1,7 +1,7 @@
 //! `framewright compare`: the errors of a picture beside a reference.
 
-use crate::command_line::args::AnswerFormat;
 use crate::command_line::comparing::CompareArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::files::{inputs, outputs};
 use crate::metric::{self, Errors, Metric};
@@ -48,6 +48,12 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     let busy = progress::busy("comparing");
     let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);
     drop(busy);
+    if errors.of_nothing {
+        return Err(Error::NothingFinite {
+            reference: arguments.reference.clone(),
+            picture: arguments.picture.clone(),
+        });
+    }
     if let Some(file) = heat_map {
         let size = reference.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
         let picture = metric::heat_map(errors.flip_map(), size);
@@ -83,7 +89,10 @@ fn limit(arguments: &CompareArguments, errors: &Errors, metric: Metric) -> Optio
 
 /// A line for each metric, and one if pixels aren't finite.
 fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> String {
-    let wanted = |metric: &&Metric| arguments.metric.is_empty() || arguments.metric.contains(metric);
+    let wanted = |metric: &&Metric| {
+        let is_limited = arguments.limits.of(**metric).is_some();
+        arguments.metric.is_empty() || is_limited || arguments.metric.contains(metric)
+    };
     let line = |metric: &Metric| {
         let limit = limit(arguments, errors, *metric).map_or_else(String::new, |limit| {
             let (kind, verdict) = match (metric.is_likeness(), limit.held) {
@@ -101,7 +110,7 @@ fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> St
     if [before, after] != [0, 0] {
         let pixels = reference.texels.len();
         lines += &format!(
-            "not finite    {before} of {pixels} pixels in the reference, {after} in the picture; they are no part of the figures\n"
+            "not finite    {before} of {pixels} pixels in the reference, {after} in the picture; they are no part of the figures, and no limit is held\n"
         );
     }
     lines

@@ -1,6 +1,7 @@
 //! `framewright devices`: the Vulkan devices of this machine, and the profile of one.
 
-use crate::command_line::args::{AnswerFormat, DevicesArguments};
+use crate::command_line::args::DevicesArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::commands::run::DeviceUsed;
 use crate::error::Error;
 use crate::files::outputs;

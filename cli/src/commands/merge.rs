@@ -24,7 +24,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Error> {
         parts.push(Part { folder: folder.clone(), results });
     }
     // The command line asks for at least one.
-    let Some(results) = joined(parts)? else { return Ok(Exit::Fine) };
+    let Some(results) = joined(parts).map_err(|problem| Error::Joining(problem.into()))? else { return Ok(Exit::Fine) };
     pictures::make(to)?;
     let file = to.join(store::FILE);
     outputs::prepare(std::iter::once(&*file), &read)?;

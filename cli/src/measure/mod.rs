@@ -23,8 +23,7 @@ pub(crate) mod settings_file;
 mod spread;
 pub(crate) mod store;
 mod subjects;
-pub(crate) mod sweep;
+mod sweep;
 
-pub(crate) use joining::{JoiningProblem, Part, joined};
+pub(crate) use joining::{Part, joined};
 pub(crate) use run::measure;
-pub(crate) use store::StoreProblem;

@@ -20,7 +20,7 @@ use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
 use framewright_graph::vulkan::{Format, Rotation};
 use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Duration;
@@ -82,16 +82,23 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let words = Words { doing: "measuring", done: "measured", things: "choices" };
     let progress = Progress::new(missing.len(), words, Duration::from_secs(60));
     for batch in missing.chunks(AT_ONCE) {
-        let rows = bench.batch(&baseline, batch, &progress).map_err(|error| match interrupt::asked() {
-            true => Error::InterruptedMeasuring { measured: results.rows.len(), wanted: choices.len() },
-            false => error,
+        let rows = bench.batch((&baseline, &results.subject.baseline), batch, &progress).map_err(|error| {
+            match interrupt::asked() {
+                true => Error::InterruptedMeasuring { measured: results.rows.len(), wanted: choices.len() },
+                false => error,
+            }
         })?;
         results.rows.extend(rows);
         results.rows.sort_by_key(|row| choices.iter().position(|choice| is_of(row, choice)));
         store::write(&arguments.output, &results)?;
+        store::write_views(&arguments.output, &results)?;
     }
     progress.finish();
-    store::write_views(&arguments.output, &results)?;
+    if missing.is_empty() {
+        // A part of a sweep may be empty.
+        store::write(&arguments.output, &results)?;
+        store::write_views(&arguments.output, &results)?;
+    }
     text::print(&table(&results)).map_err(Error::Print)?;
     Ok(Exit::Fine)
 }
@@ -156,7 +163,12 @@ impl Bench<'_> {
     }
 
     /// Measures a few choices, in turns with the baseline.
-    fn batch(&mut self, baseline: &Choice, batch: &[Choice], progress: &Progress) -> Result<Vec<Row>, Error> {
+    fn batch(
+        &mut self,
+        (baseline, all_settings): (&Choice, &BTreeMap<String, String>),
+        batch: &[Choice],
+        progress: &Progress,
+    ) -> Result<Vec<Row>, Error> {
         let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
         let all: Vec<&Choice> = [baseline].into_iter().chain(batch).collect();
         let mut plans = Vec::with_capacity(all.len());
@@ -188,6 +200,11 @@ impl Bench<'_> {
                 }
             }
         }
+        if let Some(Err(why)) = prepared.first() {
+            return Err(Error::Sweep {
+                what: format!("the choice that all others are relative to can't be drawn: {why}"),
+            });
+        }
         let (of_baseline, frames) = frames.split_first().map_or((&[][..], &[][..]), |(first, rest)| (first, rest));
         let mut rows = Vec::with_capacity(batch.len());
         for ((choice, ready), frames) in batch.iter().zip(prepared.into_iter().skip(1)).zip(frames) {
@@ -197,7 +214,11 @@ impl Bench<'_> {
                     let outcome = Outcome::Measured(Box::new(measured));
                     (settings(drawn.planned), drawn.planned.plan.stereo, outcome)
                 }
-                Err(why) => (choice.settings().collect(), choice.stereo.0[0], Outcome::Failed(why)),
+                Err(why) => {
+                    let settings = all_settings.iter().filter(|(name, _)| !name.starts_with('@'));
+                    let settings = settings.map(|(name, value)| (name.clone(), value.clone()));
+                    (settings.chain(choice.settings()).collect(), choice.stereo.0[0], Outcome::Failed(why))
+                }
             };
             rows.push(Row {
                 choice: choice.values.clone(),
@@ -354,7 +375,7 @@ fn floats<'t>(picture: &Light, bytes: &'t [u8]) -> Picture<'t> {
 }
 
 /// All settings of a planned frame.
-fn settings(planned: &Planned) -> std::collections::BTreeMap<String, String> {
+fn settings(planned: &Planned) -> BTreeMap<String, String> {
     planned.plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
 }
 

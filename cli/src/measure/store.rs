@@ -46,7 +46,7 @@ struct Version {
 pub(crate) fn read(folder: &Path, read: &ReadFiles) -> Result<Results, Error> {
     let path = folder.join(FILE);
     let text = inputs::text(FileRole::RESULTS, &path, LARGEST, read)?;
-    parsed(&text).map_err(|problem| Error::Results { path, problem })
+    parsed(&text).map_err(|problem| Error::Results { path, problem: problem.into() })
 }
 
 fn parsed(text: &str) -> Result<Results, StoreProblem> {
@@ -79,7 +79,7 @@ fn possible(results: &Results) -> Result<(), StoreProblem> {
 /// If a figure is none that a measurement gives, or the file can't be written.
 pub(crate) fn write(folder: &Path, results: &Results) -> Result<(), Error> {
     let path = folder.join(FILE);
-    possible(results).map_err(|problem| Error::Results { path: path.clone(), problem })?;
+    possible(results).map_err(|problem| Error::Results { path: path.clone(), problem: problem.into() })?;
     let text = serde_json::to_string_pretty(results)? + "\n";
     outputs::write(&[(&path, text.as_bytes())], &ReadFiles::default())
 }

@@ -1,9 +1,9 @@
 //! The choices of a sweep, put into words that the pipeline, the scene and the output understand.
 
 use super::digest::Digest;
-use super::sweep::{self, Combined, Sweep};
+use super::sweep::{self, Combined};
 use crate::command_line::measuring::MeasureArguments;
-use crate::command_line::values::{self, Modes, Size};
+use crate::command_line::values::{self, Modes, Size, Sweep};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::planning::Loaded;

@@ -1,21 +1,11 @@
 //! Sweeps: the values that settings take, and the choices that they make together.
 
+use crate::command_line::values::Sweep;
 use crate::variants::cover;
 use std::collections::BTreeMap;
 
 /// A sweep makes at most this many choices.
 pub(crate) const MOST_CHOICES: usize = 10_000;
-/// A range has at most this many values.
-const MOST_STEPS: u32 = 1_000;
-
-/// The values that one setting takes.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sweep {
-    /// The setting; or `@size`, `@scene` or `@stereo`.
-    pub(crate) name: String,
-    /// As the command line has them.
-    pub(crate) values: Vec<String>,
-}
 
 /// How several sweeps make choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,44 +16,6 @@ pub(crate) enum Combined {
     Pairwise,
     /// One setting at a time.
     OneByOne,
-}
-
-/// Reads `NAME=A,B,C` or `NAME=LO..HI:STEPS`.
-///
-/// # Errors
-/// The form that was expected.
-pub(crate) fn sweep(text: &str) -> Result<Sweep, String> {
-    const FORM: &str = "expected NAME=A,B,C or NAME=LO..HI:STEPS, such as msaa=1,4 or render_scale=0.5..2:4";
-    let (name, values) = text.split_once('=').filter(|(name, _)| !name.is_empty()).ok_or(FORM)?;
-    let values = match values.split_once("..") {
-        Some((low, rest)) => {
-            let (high, steps) = rest.split_once(':').ok_or(FORM)?;
-            range(low, high, steps)?
-        }
-        None => values.split(',').map(str::to_owned).collect(),
-    };
-    if values.iter().any(String::is_empty) {
-        return Err(FORM.to_owned());
-    }
-    match (1..values.len()).find(|at| values[..*at].contains(&values[*at])) {
-        Some(twice) => Err(format!("`{}` stands there twice", crate::system::text::escape(&values[twice]))),
-        None => Ok(Sweep { name: name.to_owned(), values }),
-    }
-}
-
-/// So many values from the one to the other, both among them.
-fn range(low: &str, high: &str, steps: &str) -> Result<Vec<String>, String> {
-    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
-    let (Some(low), Some(high)) = (number(low), number(high)) else {
-        return Err("a range goes from one number to another, such as 0.5..2:4".to_owned());
-    };
-    let steps = steps.parse::<u32>().ok().filter(|steps| (2..=MOST_STEPS).contains(steps));
-    let steps = steps.ok_or_else(|| format!("a range has 2 to {MOST_STEPS} values, such as 0.5..2:4"))?;
-    if low >= high {
-        return Err(format!("the range goes backwards: {low} is not below {high}"));
-    }
-    let value = |at: u32| low + (high - low) * f64::from(at) / f64::from(steps - 1);
-    Ok((0..steps).map(|at| value(at).to_string()).collect())
 }
 
 /// The number of choices that sweeps make, even where there are too many to make.
@@ -116,18 +68,7 @@ pub(crate) fn shard<T>(list: Vec<T>, number: usize, of: usize) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn values_are_listed_or_a_range() {
-        let values = |text: &str| sweep(text).map(|sweep| sweep.values);
-        assert_eq!(values("msaa=1,4"), Ok(vec!["1".to_owned(), "4".to_owned()]));
-        assert_eq!(values("s=0.5..2:4").expect("a range"), ["0.5", "1", "1.5", "2"]);
-        for wrong in ["msaa", "=1", "msaa=", "msaa=1,,2", "s=1..2", "s=1..2:1", "s=2..1:3", "s=a..b:3", "s=0..1:1001"] {
-            assert!(sweep(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(sweep("s=2..1:3"), Err("the range goes backwards: 2 is not below 1".to_owned()));
-        assert_eq!(sweep("s=1,2,1"), Err("`1` stands there twice".to_owned()));
-    }
+    use crate::command_line::values::sweep;
 
     #[test]
     fn choices_are_all_products_or_enough_for_pairs_or_one_by_one() {

@@ -70,6 +70,9 @@ pub(crate) struct Errors {
     pub(crate) ssim: f64,
     /// Pixels that aren't finite: in the reference, in the other picture.
     pub(crate) non_finite: [usize; 2],
+    /// Whether no pixel is finite in both pictures: then no figure means anything.
+    #[serde(skip)]
+    pub(crate) of_nothing: bool,
     #[serde(skip)]
     flip_map: Plane,
 }
@@ -125,8 +128,9 @@ impl Errors {
         let is_light = reference.is_light || test.is_light;
         let (flip_map, exposures) = match is_light {
             true => {
-                let (map, exposures) = flip::of_light(&a, &b, extent, pixels_per_degree);
-                (map, Some(exposures))
+                let finite: Vec<_> = a.iter().zip(&both).filter(|(_, finite)| **finite).map(|(it, _)| *it).collect();
+                let exposures = Exposures::of(&finite);
+                (flip::of_light(&a, &b, extent, pixels_per_degree, exposures), Some(exposures))
             }
             false => (flip::of_display(&a, &b, extent, pixels_per_degree), None),
         };
@@ -153,6 +157,7 @@ impl Errors {
             psnr: (noise > 0.0).then(|| -10.0 * noise.log10()),
             ssim,
             non_finite: [0, 1].map(|at| counts(at).iter().filter(|finite| !**finite).count()),
+            of_nothing: !both.contains(&true),
             flip_map,
         }
     }

@@ -22,7 +22,8 @@ mod shaders;
 mod space;
 mod summary;
 
-use crate::command_line::args::{AnswerFormat, CheckArguments};
+use crate::command_line::args::CheckArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::planning::{self, Loaded, View, device};
 use crate::system::counted::{Progress, Words};

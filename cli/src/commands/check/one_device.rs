@@ -1,7 +1,8 @@
 //! `framewright check` on one device.
 
 use super::verdict::{Verdict, fine, verdict};
-use crate::command_line::args::{AnswerFormat, CheckArguments};
+use crate::command_line::args::CheckArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::planning::{self, View, device, notes};
 use crate::system::{Exit, progress, text};

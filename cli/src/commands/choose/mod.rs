@@ -3,14 +3,15 @@
 mod answer;
 mod settings;
 
-use crate::command_line::args::AnswerFormat;
 use crate::command_line::choosing::ChooseArguments;
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::files::outputs;
-use crate::measure::choosing::{Candidates, Chosen};
+use crate::measure::choosing::{Candidates, Chosen, Limit, Quantity};
 use crate::measure::pictures::Pictures;
 use crate::measure::results::Results;
 use crate::measure::{Part, joined, store};
+use crate::metric::Metric;
 use crate::system::{Exit, text};
 use answer::Answer;
 use framewright_graph::base::ReadFiles;
@@ -25,7 +26,7 @@ pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
     outputs::prepare(arguments.output.as_deref().into_iter(), &read)?;
     // The command line asks for at least one folder.
     let Some(results) = all(&arguments.folders, &read)? else { return Ok(Exit::Fine) };
-    let (candidates, limits) = (Candidates::of(&results), arguments.limits());
+    let (candidates, limits) = (Candidates::of(&results), limits(arguments));
     let chosen = candidates.choose(&limits);
     if let (Chosen::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
         let contents = settings::file(&results, &best.settings, &read)?;
@@ -51,5 +52,13 @@ fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> 
         }
         parts.push(Part { folder: folder.clone(), results });
     }
-    Ok(joined(parts)?)
+    joined(parts).map_err(|problem| Error::Joining(problem.into()))
+}
+
+/// The limits that are stated.
+fn limits(arguments: &ChooseArguments) -> Vec<Limit> {
+    let costs = [(Quantity::Milliseconds, arguments.max_ms), (Quantity::Mebibytes, arguments.max_mib)];
+    let errors = Metric::ALL.map(|metric| (Quantity::Error(metric), arguments.errors.of(metric)));
+    let limits = costs.into_iter().chain(errors);
+    limits.filter_map(|(quantity, value)| Some(Limit { quantity, value: value? })).collect()
 }

@@ -24,7 +24,7 @@ const BELOW_WHITE: f64 = 0.85;
 impl Exposures {
     /// Those for a reference: from the one that shows its brightest pixel to the one that shows its median. Where half of the
     /// reference is black it is the median of the other pixels.
-    pub(super) fn of(reference: &[[f64; 3]]) -> Exposures {
+    pub(in crate::metric) fn of(reference: &[[f64; 3]]) -> Exposures {
         let mut light: Vec<f64> = reference.iter().map(|texel| luminance(*texel)).collect();
         light.sort_unstable_by(f64::total_cmp);
         let lit = &light[light.partition_point(|light| *light <= 0.0)..];

@@ -48,21 +48,21 @@ pub(super) fn of_display(reference: &[[f64; 3]], test: &[[f64; 3]], extent: [usi
     Plane { extent, values: colors.zip(features).map(|(color, feature)| color.powf(1.0 - feature)).collect() }
 }
 
-/// HDR-FLIP of two pictures of linear light: at each pixel the largest FLIP over all exposures.
+/// HDR-FLIP of two pictures of linear light: at each pixel the largest FLIP over the exposures.
 pub(super) fn of_light(
     reference: &[[f64; 3]],
     test: &[[f64; 3]],
     extent: [usize; 2],
     pixels: f64,
-) -> (Plane, Exposures) {
-    let exposures = Exposures::of(reference);
+    exposures: Exposures,
+) -> Plane {
     let mut largest = Plane { extent, values: vec![0.0; reference.len()] };
     for stop in exposures.stops() {
         let shown = |texels: &[[f64; 3]]| texels.iter().map(|texel| exposures::shown(*texel, stop)).collect::<Vec<_>>();
         let flip = of_display(&shown(reference), &shown(test), extent, pixels);
         largest.values.iter_mut().zip(flip.values).for_each(|(largest, flip)| *largest = largest.max(flip));
     }
-    (largest, exposures)
+    largest
 }
 
 /// Colours as the eye sees them from its distance, in CIELAB.
