@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/ambient_occlusion.glsl"
+#include "include/distance.glsl"
 #include "include/g_buffer.glsl"
 #include "include/radiance.glsl"
-#include "include/scene.glsl"
 #include "include/texture.glsl"
 
 // Depth of surfaces, of the size that is drawn.
@@ -41,8 +41,7 @@ void main() {
     }
     const vec3 here = place_at(texel, extent, depth_here);
     const vec3 facing = from_octahedral(guard_signed(texel_in(normal, normal_st, texel).xy));
-    // The projection has no far plane: the near distance is the one number in its last column.
-    const float away = view.world_to_clip[3].z / depth_here;
+    const float away = near_distance() / infinite_depth(depth_here);
     const mat3 rows = transpose(mat3(view.world_to_clip));
     // The radius in texels, seen straight on.
     const vec2 reach = params.radius / away * 0.5 * vec2(length(rows[0]), length(rows[1])) * vec2(extent);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "include/distance.glsl"
 #include "include/radiance.glsl"
 #include "include/texture.glsl"
 
@@ -21,13 +22,13 @@ const float APART = 0.05;
 void main() {
     const ivec2 extent = used_of(source, source_st);
     const ivec2 texel = texel_at(uv, extent);
-    const float depth_here = guard_alpha(texel_in(depth, depth_st, texel).r);
+    const float depth_here = infinite_depth(guard_alpha(texel_in(depth, depth_st, texel).r));
     float sum = 0.0;
     float weights = 0.0;
     for (int y = -2; y <= 2; ++y) {
         for (int x = -2; x <= 2; ++x) {
             const ivec2 there = clamp(texel + ivec2(x, y), ivec2(0), extent - 1);
-            const float depth_there = guard_alpha(texel_in(depth, depth_st, there).r);
+            const float depth_there = infinite_depth(guard_alpha(texel_in(depth, depth_st, there).r));
             // Distances are in proportion to 1 over depth.
             const float apart = abs(depth_here - depth_there) / max(depth_there, 1e-30);
             const float ends = (abs(x) == 2 ? 0.5 : 1.0) * (abs(y) == 2 ? 0.5 : 1.0);

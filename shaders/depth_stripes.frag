@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/depth_stripes.glsl"
+#include "include/distance.glsl"
 #include "include/radiance.glsl"
-#include "include/scene.glsl"
 #include "include/texture.glsl"
 
-// Reversed depth without a far plane.
+// Reversed depth.
 layout(set = 0, binding = 0) uniform TEXTURE_depth depth;
 layout(set = 0, binding = 1) uniform Params {
     // From stripe to stripe, metres along the camera's axis, more than 0.
@@ -21,11 +21,10 @@ layout(location = 0) out vec4 color;
 // stripe takes away, so that the colour need not be read. Of multisampled depth each sample has its stripe, and their mean is
 // drawn.
 void main() {
-    // The projection has no far plane: the near distance is the one number in its last column.
-    const float near = view.world_to_clip[3].z;
+    const float near = near_distance();
     float light = 0.0;
     for (int number = 0; number < samples_of(depth); ++number) {
-        light += stripe(guard_alpha(found_in(depth, depth_st, uv, 0, number).r), near, params.period);
+        light += stripe(infinite_depth(guard_alpha(found_in(depth, depth_st, uv, 0, number).r)), near, params.period);
     }
     color = guard_color(vec4(0.0, 0.0, 0.0, 1.0 - light / float(samples_of(depth))));
 }

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "include/distance.glsl"
 #include "include/overlay.glsl"
 #include "include/radiance.glsl"
-#include "include/scene.glsl"
 #include "include/texture.glsl"
 
 // What is shown.
@@ -42,12 +42,10 @@ void main() {
         return;
     }
     const vec4 found = found_in(shown, shown_st, inside, params.layer, 0);
-    // The projection has no far plane: the near distance is the one number in its last column.
-    const float near = view.world_to_clip[3].z;
     const vec3 channels = COMPONENTS_shown == 1 ? vec3(found.r) : vec3(found.rgb);
     vec3 shade;
     if (params.farthest > 0.0) {
-        shade = vec3(shade_of_distance(guard_alpha(found.r), near, params.farthest));
+        shade = vec3(shade_of_distance(infinite_depth(guard_alpha(found.r)), near_distance(), params.farthest));
     } else if (params.is_signed) {
         shade = shade_of_signed(channels, params.gain);
     } else {

@@ -173,6 +173,12 @@ pub(crate) enum Error {
     /// A file can't be written.
     #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source, Some(path)))]
     Write { path: PathBuf, source: io::Error },
+    /// A file stands where a folder is wanted.
+    #[error(
+        "`{}` can't be written: it is a file, and a folder is wanted\nhelp: name another folder, or move the file away",
+        text::path(path)
+    )]
+    NoFolder { path: PathBuf },
     /// A file would be written over one that is read.
     #[error("`{}` is {what}, which would be lost: name another file to write", text::path(path))]
     ReadAndWritten {
@@ -304,6 +310,7 @@ impl Error {
                 Exit::Interrupted
             }
             Error::Write { .. }
+            | Error::NoFolder { .. }
             | Error::Cache { .. }
             | Error::Print(_)
             | Error::Restart(_)

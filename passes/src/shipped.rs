@@ -43,6 +43,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/cross_fade.glsl",
     "include/depth_samples.glsl",
     "include/depth_stripes.glsl",
+    "include/distance.glsl",
     "include/film_grain.glsl",
     "include/g_buffer.glsl",
     "include/g_buffer_surface.glsl",

@@ -9,7 +9,7 @@ use framewright_graph::vulkan::{Format, Numeric};
 use half::f16;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::fs;
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 use std::path::PathBuf;
 
 /// Texels along a side of a picture. A strip for a three-dimensional image is longer than textures of other kinds.
@@ -45,6 +45,18 @@ impl TextureFiles {
     #[must_use]
     pub fn new(root: Root) -> TextureFiles {
         TextureFiles { root }
+    }
+
+    /// The bytes of a picture's file.
+    ///
+    /// # Errors
+    /// If the file lies outside of the folder, can't be read or is too large.
+    pub fn bytes(&self, path: &str) -> Result<Vec<u8>, TextureProblem> {
+        let unreadable = |error: std::io::Error| TextureProblem::Unreadable { reason: error.to_string() };
+        let mut bytes = Vec::new();
+        let file = self.root.open(&self.locate(path)?).map_err(unreadable)?;
+        file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
+        Ok(bytes)
     }
 
     /// The file behind a path.

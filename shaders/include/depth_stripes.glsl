@@ -2,9 +2,9 @@
 #ifndef FRAMEWRIGHT_DEPTH_STRIPES
 #define FRAMEWRIGHT_DEPTH_STRIPES
 
-// The share of light that a stripe lets through, sin²(π · distance / period): 0 at every whole period, 1 between two. Depth is
-// reversed and has no far plane: near / distance. Where nothing was drawn, and beyond 65,536 periods, where 32 bits don't tell
-// one from the next, all light passes.
+// The share of light that a stripe lets through, sin²(π · distance / period): 0 at every whole period, 1 between two. Depth
+// is that of distance.glsl's infinite_depth(): near / distance. Where nothing was drawn, and beyond 65,536 periods, where 32
+// bits don't tell one from the next, all light passes.
 float stripe(float depth, float near, float period) {
     if (!(depth * period * 65536.0 > near)) {
         return 1.0;

@@ -4,7 +4,7 @@
 
 #include "include/radiance.glsl"
 
-// Distance along the camera's axis as a share of `farthest`, at most 1, from reversed depth without a far plane: near /
+// Distance along the camera's axis as a share of `farthest`, at most 1, from distance.glsl's infinite_depth(): near /
 // distance. Depth 0 is infinitely far.
 float shade_of_distance(float depth, float near, float farthest) {
     return depth * farthest > near ? near / (depth * farthest) : 1.0;

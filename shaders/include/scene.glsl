@@ -36,7 +36,7 @@ struct PointLight {
 
 // A view of the scene: the camera's, or that of one eye.
 struct Sight {
-    // Reversed depth: 1 at the near plane, 0 infinitely far.
+    // Reversed depth: 1 at the near plane, 0 at the far plane, or infinitely far; see distance.glsl.
     mat4 world_to_clip;
     mat4 clip_to_world;
     // Where the camera stands in the scene's own coordinates; where there are two eyes, between them.

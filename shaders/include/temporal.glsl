@@ -8,6 +8,12 @@
 
 // A deviation that is taken for none: that of one bit of a half float below 1.
 const float EVEN_DEVIATION = 1e-3;
+// History at rest may differ by this many times the mean change from frame to frame.
+const float CHANGES_ALLOWED = 2.0;
+// The mean change counts for nothing from this speed on, in texels a frame.
+const float SPEED_OF_CHANGE = 0.25;
+// The least share of a frame where something moves by a texel a frame or more: history is blurred each time it is looked up.
+const float SHARE_IN_MOTION = 0.25;
 
 // Luma and two differences of colour (ITU-T H.273, YCgCo): what is seen as an edge shows in the first.
 vec3 to_ycocg(vec3 color) {
@@ -34,9 +40,9 @@ vec3 shown(vec3 color) {
 }
 
 // History, clipped to the colours of the 3 × 3 texels around. Where it is further from their mean than `deviations` standard
-// deviations, it is moved nearer along a straight line (M. Salvi, "An Excursion in Temporal Supersampling", GDC 2016; the line:
-// L. J. F. Pedersen, "Temporal Reprojection Anti-Aliasing in INSIDE", GDC 2016).
-vec3 allowed_history(vec3 history, vec3 around[9], float deviations) {
+// deviations and `allowance`, it is moved nearer along a straight line (M. Salvi, "An Excursion in Temporal Supersampling",
+// GDC 2016; the line: L. J. F. Pedersen, "Temporal Reprojection Anti-Aliasing in INSIDE", GDC 2016).
+vec3 allowed_history(vec3 history, vec3 around[9], float deviations, float allowance) {
     vec3 mean = vec3(0.0);
     for (int at = 0; at < 9; ++at) {
         mean += compared(around[at]) / 9.0;
@@ -46,11 +52,23 @@ vec3 allowed_history(vec3 history, vec3 around[9], float deviations) {
         const vec3 apart = compared(around[at]) - mean;
         variance += apart * apart / 9.0;
     }
-    const vec3 reach = deviations * sqrt(variance) + EVEN_DEVIATION;
+    const vec3 reach = deviations * sqrt(variance) + allowance + EVEN_DEVIATION;
     const vec3 apart = compared(history) - mean;
     const vec3 reaches = abs(apart) / reach;
     const float most = max(reaches.x, max(reaches.y, reaches.z));
     return most > 1.0 ? shown(mean + apart / most) : history;
+}
+
+// By how much history may differ from all colours around. A bar that is narrower than a texel is missed by some frames; the frames
+// before saw it come and go. `change` is their mean change of luma, `speed` in texels a frame.
+float change_allowed(float change, float speed) {
+    return CHANGES_ALLOWED * change * clamp(1.0 - speed / SPEED_OF_CHANGE, 0.0, 1.0);
+}
+
+// How much a frame counts: at first as much as each frame before (their plain mean), at least `share`. `last` is how much the
+// frame before counted.
+float share_after(float last, float share, float speed) {
+    return max(max(share, SHARE_IN_MOTION * clamp(speed, 0.0, 1.0)), last / (1.0 + last));
 }
 
 // The mean of what is drawn, which counts `share`, and of history; bright ones weigh less.

@@ -93,6 +93,7 @@ pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, u
             transform: DMat4::from_translation(DVec3::new(0.0, 0.0, 5.0)),
             vertical_fov: std::f32::consts::FRAC_PI_3,
             near: 0.1,
+            far: None,
             movement: Movement::default(),
         },
         ..empty_scene()

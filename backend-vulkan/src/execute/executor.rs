@@ -31,12 +31,22 @@ pub struct ExecutorOptions {
     /// Whether the device notes when each step and pass begins and ends, for [`Executor::report`]. That takes commands of its own,
     /// and some devices finish one pass before they begin the next to tell the time.
     pub timestamps: bool,
+    /// Whether the device counts how often fragment shaders run, for [`Executor::report`]. Custom passes can't make queries of the
+    /// same kind then.
+    pub fragment_counts: bool,
 }
 
 impl Default for ExecutorOptions {
     fn default() -> Self {
         let timeout = Duration::from_secs(120);
-        ExecutorOptions { poison: false, timeout, frames_in_flight: 1, readback: false, timestamps: false }
+        ExecutorOptions {
+            poison: false,
+            timeout,
+            frames_in_flight: 1,
+            readback: false,
+            timestamps: false,
+            fragment_counts: false,
+        }
     }
 }
 
@@ -173,7 +183,7 @@ impl Executor {
     }
 
     /// The report of a frame, which is waited for: its draws, and how long the device took if [`ExecutorOptions::timestamps`]
-    /// is set.
+    /// is set, and how often fragment shaders ran if [`ExecutorOptions::fragment_counts`] is.
     ///
     /// # Errors
     /// Those of [`Executor::wait`].

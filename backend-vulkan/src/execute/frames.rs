@@ -7,7 +7,7 @@ use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
 use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, Frame, PreparedPlan, batches};
-use crate::record::{CommandState, DrawSource, FrameReport, Recorded, Recording, Timing, report};
+use crate::record::{CommandState, DrawSource, FragmentCounts, FrameReport, Recorded, Recording, Timing, report};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
@@ -39,6 +39,8 @@ struct FrameSlot {
     commands: Vec<(CommandPool, vk::CommandBuffer)>,
     /// If frames are timed.
     timing: Option<Timing>,
+    /// If their fragments are counted.
+    fragments: Option<FragmentCounts>,
     recorded: Recorded,
     /// By output, if they are kept.
     outputs: Vec<Readback>,
@@ -70,7 +72,7 @@ impl Frames {
         let semaphores: Vec<_> = timelines.iter().map(|(_, timeline)| timeline.raw).collect();
         let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
         let slots = 0..options.frames_in_flight.max(1);
-        let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options.timestamps));
+        let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options));
         Ok(Frames {
             gpu: gpu.clone(),
             timeout: options.timeout,
@@ -220,8 +222,8 @@ impl Frames {
 
     /// The report of a frame that was waited for, and whose place no later one has taken.
     pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Result<FrameReport, Error> {
-        let FrameSlot { timing, recorded, .. } = &self.slots[self.slot_of(frame)];
-        report(&self.gpu, plan, &self.batches, timing.as_ref(), recorded)
+        let FrameSlot { timing, fragments, recorded, .. } = &self.slots[self.slot_of(frame)];
+        report(&self.gpu, plan, &self.batches, timing.as_ref(), fragments.as_ref(), recorded)
     }
 
     /// The kept contents of an output of a frame that was waited for.
@@ -243,7 +245,7 @@ impl Drop for Frames {
 }
 
 impl FrameSlot {
-    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch], timestamps: bool) -> Result<FrameSlot, Error> {
+    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch], options: &ExecutorOptions) -> Result<FrameSlot, Error> {
         let commands = batches.iter().map(|batch| {
             let pool = CommandPool::new(gpu, batch.queue)?;
             let buffer = pool.buffer()?;
@@ -251,7 +253,11 @@ impl FrameSlot {
         });
         Ok(FrameSlot {
             commands: commands.collect::<Result<_, _>>()?,
-            timing: timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
+            timing: options.timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
+            fragments: match options.fragment_counts {
+                true => FragmentCounts::new(gpu, plan, batches.len())?,
+                false => None,
+            },
             recorded: Recorded::default(),
             outputs: Vec::new(),
             frame: None,
@@ -275,8 +281,13 @@ impl FrameSlot {
         if let Some(timing) = &mut self.timing {
             timing.begin_frame();
         }
-        let (timing, recorded) = (self.timing.as_mut(), &mut self.recorded);
-        let mut recording = Recording { frame, prepared, source, timing, recorded, state: CommandState::default() };
+        if let Some(fragments) = &mut self.fragments {
+            fragments.begin_frame();
+        }
+        let (timing, fragments) = (self.timing.as_mut(), self.fragments.as_mut());
+        let recorded = &mut self.recorded;
+        let mut recording =
+            Recording { frame, prepared, source, timing, fragments, recorded, state: CommandState::default() };
         for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
             record(frame.gpu, *buffer, |commands| {
                 recording.begin_batch(commands, batch.queue);
@@ -290,6 +301,7 @@ impl FrameSlot {
                         readback.record(frame, commands, into);
                     }
                 }
+                recording.end_batch(commands);
                 Ok(())
             })?;
         }

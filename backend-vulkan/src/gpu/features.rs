@@ -69,8 +69,8 @@ impl Features {
         Features { core, v1_1, v1_2, v1_3, local_read: local }
     }
 
-    /// The features that are switched on: the minimum, and beyond it cube arrays, what draws for two eyes at once, and local
-    /// reads where the device has them.
+    /// The features that are switched on: the minimum, and beyond it cube arrays, what draws for two eyes at once, counts of
+    /// what is drawn, and local reads where the device has them.
     pub(crate) fn used(has: &Features, local_read: bool) -> Features {
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
@@ -79,6 +79,7 @@ impl Features {
         features.local_read.dynamic_rendering_local_read = local_read.into();
         features.core.image_cube_array = has.core.image_cube_array;
         features.core.shader_clip_distance = has.core.shader_clip_distance;
+        features.core.pipeline_statistics_query = has.core.pipeline_statistics_query;
         features.v1_1.multiview = has.v1_1.multiview;
         features.v1_2.shader_output_layer = has.v1_2.shader_output_layer;
         features
@@ -112,6 +113,11 @@ impl Features {
     /// Whether shaders can see several cubes at once.
     pub(crate) fn cube_arrays(&self) -> bool {
         self.core.image_cube_array == vk::TRUE
+    }
+
+    /// Whether the device counts what its pipelines do.
+    pub(crate) fn pipeline_statistics(&self) -> bool {
+        self.core.pipeline_statistics_query == vk::TRUE
     }
 
     /// Switches these features on in a device's creation.

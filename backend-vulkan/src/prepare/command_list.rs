@@ -111,9 +111,9 @@ pub(crate) struct OwnDraw {
 
 /// How much is drawn.
 pub(crate) enum DrawCounts {
-    /// So many vertices or indices, and instances.
+    /// The number of vertices or indices, and the number of instances.
     Direct(u32, u32),
-    /// What the buffer holds.
+    /// The counts that the buffer holds.
     Indirect(vk::Buffer),
 }
 
@@ -152,7 +152,7 @@ impl Run {
 }
 
 impl CommandList {
-    /// No commands yet, for steps that record the same again after so many frames.
+    /// A list without commands, for steps that repeat their commands after a period of frames: `periods` has one period for each step.
     pub(super) fn new(periods: impl Iterator<Item = u64>) -> CommandList {
         let mut longest = 1;
         let made = periods.map(|period| {

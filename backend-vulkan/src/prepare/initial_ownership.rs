@@ -124,6 +124,7 @@ mod tests {
             device: DeviceUsed { name: String::new(), exact_memory: true },
             settings: Vec::new(),
             changes: Vec::new(),
+            decided: [].into(),
             stereo: framewright_graph::frame::Stereo::Off,
             views: Vec::new(),
             images: vec![image],

@@ -4,6 +4,7 @@ mod bindings;
 mod canvas;
 mod custom;
 mod draw_source;
+mod fragments;
 mod recorder;
 mod scope;
 mod state;
@@ -16,6 +17,7 @@ pub use recorder::{IndexType, Recorder};
 pub use state::{CullMode, FrontFace};
 pub use timing::{FrameReport, PassReport, StepReport};
 
+pub(crate) use fragments::FragmentCounts;
 pub(crate) use state::CommandState;
 pub(crate) use step::{Recorded, Recording};
 pub(crate) use timing::{Timing, report};

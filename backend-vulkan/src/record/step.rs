@@ -3,6 +3,7 @@
 use super::bindings::bind;
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
+use super::fragments::FragmentCounts;
 use super::recorder::HeldResources;
 use super::state::CommandState;
 use super::timing::{Counts, Timing};
@@ -20,6 +21,8 @@ pub(crate) struct Recording<'r> {
     pub(crate) source: &'r mut dyn DrawSource,
     /// If the frame is timed.
     pub(crate) timing: Option<&'r mut Timing>,
+    /// If its fragments are counted.
+    pub(crate) fragments: Option<&'r mut FragmentCounts>,
     pub(crate) recorded: &'r mut Recorded,
     /// Of the command buffer that is being recorded.
     pub(crate) state: CommandState,
@@ -55,6 +58,16 @@ impl Recording<'_> {
         self.state.begin_commands();
         if let Some(timing) = &mut self.timing {
             timing.begin_batch(commands, queue);
+        }
+        if let Some(fragments) = &mut self.fragments {
+            fragments.begin_batch(commands, queue);
+        }
+    }
+
+    /// Ends the command buffer of a batch.
+    pub(crate) fn end_batch(&mut self, commands: vk::CommandBuffer) {
+        if let Some(fragments) = &mut self.fragments {
+            fragments.end_batch(commands);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Timestamps, and the report of a frame.
 
+use super::fragments::FragmentCounts;
 use super::step::Recorded;
 use crate::base::Error;
 use crate::gpu::Gpu;
@@ -16,6 +17,9 @@ pub struct FrameReport {
     pub milliseconds: f64,
     /// Time that this thread took to record its commands, what the draw source did for it included, in milliseconds.
     pub recording_milliseconds: f64,
+    /// How often fragment shaders ran, if [`crate::ExecutorOptions::fragment_counts`] is set. `None` without it, on a device that
+    /// doesn't count them (`pipelineStatisticsQuery`), and for a Plan that draws several views at once.
+    pub fragment_invocations: Option<u64>,
     /// By step of the Plan.
     pub steps: Vec<StepReport>,
 }
@@ -159,12 +163,14 @@ impl Timing {
     }
 }
 
-/// The report of a frame that was `recorded` and waited for, with its times if there is `timing`.
+/// The report of a frame that was `recorded` and waited for, with its times if there is `timing`, and the count of its fragments if
+/// there are `fragments`.
 pub(crate) fn report(
     gpu: &Gpu,
     plan: &Plan,
     batches: &[Batch],
     timing: Option<&Timing>,
+    fragments: Option<&FragmentCounts>,
     recorded: &Recorded,
 ) -> Result<FrameReport, Error> {
     let mut counts = recorded.counts.iter().copied();
@@ -198,7 +204,9 @@ pub(crate) fn report(
     }
     let spent = queues.into_iter().map(|(queue, from, to)| Clock::of(gpu, queue).between(from, to));
     let recording_milliseconds = recorded.took.as_secs_f64() * 1e3;
-    Ok(FrameReport { milliseconds: spent.fold(0.0, f64::max), recording_milliseconds, steps })
+    let fragment_invocations = fragments.map(FragmentCounts::read).transpose()?;
+    let milliseconds = spent.fold(0.0, f64::max);
+    Ok(FrameReport { milliseconds, recording_milliseconds, fragment_invocations, steps })
 }
 
 /// The time that a timestamp's queries hold. Vulkan writes it to one of them and may write 0 to the others.

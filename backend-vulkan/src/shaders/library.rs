@@ -15,7 +15,7 @@ use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
     BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable, Variant,
 };
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// A shader, ready for a pipeline.
@@ -168,6 +168,26 @@ impl ShaderLibrary {
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
+    /// The texts of the user's own files that the shader `name`, which the file `from` names, may be made of: those of all its
+    /// stages, of vertex shaders that stand in for the usual ones, and of what they include. They are sorted, each once. Files that
+    /// can't be read are left out.
+    #[must_use]
+    pub fn own_texts(&self, from: &FilePath, name: &str) -> Vec<String> {
+        let stages = ["frag", "vert", "comp"].map(|ending| format!("{name}.{ending}"));
+        let usual = USUAL_VERTEX_SHADERS.map(str::to_owned);
+        let beside = stages.iter().filter_map(|file| from.beside(file).ok());
+        let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
+        let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
+        let own = |file: &SourceFile| matches!(file.path, FilePath::Own(_));
+        let found = places.filter_map(|file| self.files.find(&file).ok().flatten()).filter(own);
+        let with_included = found.flat_map(|file| {
+            let included = text::included(&self.files, &file);
+            std::iter::once(file).chain(included)
+        });
+        let texts: BTreeSet<String> = with_included.filter(own).map(|file| file.text).collect();
+        texts.into_iter().collect()
+    }
+
     /// One stage by its file name; `None` if there is no such file.
     fn stage(&mut self, file: String, stage: ShaderStage, variant: &Variant) -> StageResult {
         let Some(source) = self.source(&file)? else { return Ok(None) };
@@ -303,6 +323,9 @@ fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
     let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
     own.map(|(name, ..)| name.to_string()).collect()
 }
+
+/// All that [`vertex_shader_of`] gives.
+const USUAL_VERTEX_SHADERS: [&str; 4] = ["objects.vert", "sky.vert", "full_screen.vert", "vertices.vert"];
 
 /// The vertex shader of a kind of draw, for shaders without one of their own.
 fn vertex_shader_of(draw: Draw) -> &'static str {

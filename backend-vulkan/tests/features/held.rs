@@ -75,7 +75,7 @@ fn executor(device: &Device) -> Executor {
     Executor::new(device, &plan, &mut shaders, &options).expect("an executor")
 }
 
-/// Submits so many frames, waits for each one after the next is submitted, and looks at what it drew.
+/// Submits the number of frames, waits for each one after the next is submitted, and looks at what it drew.
 fn run(executor: &mut Executor, source: &mut Fresh<'_>, frames: u32) {
     let mut last: Option<(u64, u32)> = None;
     for _ in 0..frames {

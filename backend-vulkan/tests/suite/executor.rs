@@ -241,6 +241,32 @@ fn a_report_names_every_pass_with_its_draws_and_time() {
 }
 
 #[test]
+fn a_report_counts_fragments_where_the_device_does_and_it_is_asked_for() {
+    let Some(device) = testing::device() else { return };
+    let plan = plan(device);
+    let report = |fragment_counts: bool| {
+        let options = ExecutorOptions { fragment_counts, ..ExecutorOptions::default() };
+        let mut executor = Executor::new(device, &plan, &mut library(), &options).expect("an executor");
+        (0..2)
+            .map(|_| {
+                let frame = executor.frame(&mut Nothing).expect("a frame");
+                executor.report(frame).expect("its report").fragment_invocations
+            })
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(report(false), [None, None]);
+    let counts = report(true);
+    if device.summary().name.contains("SwiftShader") {
+        assert_eq!(counts, [None, None]);
+        return;
+    }
+    // Both passes cover all 16×4 texels, the first one once for each of four samples. Devices run shaders for whole blocks.
+    let count = counts[0].expect("a count");
+    assert_eq!(counts, [Some(count), Some(count)], "each frame has a count of its own");
+    assert!((320..=640).contains(&count), "{count}");
+}
+
+#[test]
 fn a_report_without_timestamps_says_no_time() {
     let Some(device) = testing::device() else { return };
     let mut executor =

@@ -41,6 +41,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         device: DeviceUsed { name: device.profile().name, exact_memory: true },
         settings: Vec::new(),
         changes: Vec::new(),
+        decided: [].into(),
         stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),

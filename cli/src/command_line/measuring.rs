@@ -17,7 +17,7 @@ pub(crate) struct MeasureArguments {
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,
-    /// Values that a setting takes: a list, or so many values of a range. Repeatable: every value with every other. `@size`, `@scene`
+    /// Values that a setting takes: a list, or a range and how many values of it. Repeatable: every value with every other. `@size`, `@scene`
     /// and `@stereo` may stand for a setting. Without this each setting that the preset `reference` names is swept by itself.
     #[arg(long, value_name = "NAME=A,B,C|NAME=LO..HI:STEPS", value_parser = sweep)]
     pub(crate) sweep: Vec<Sweep>,
@@ -27,6 +27,9 @@ pub(crate) struct MeasureArguments {
     /// Frames of each choice whose times are taken.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) frames: u32,
+    /// Measures flicker too: how much the error changes from frame to frame over the first N frames of the moving scene.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub(crate) flicker: Option<u32>,
     /// Picture that errors are measured against: a .png or .exr file, or `auto`: the same choice under the preset `reference`, with at
     /// least 64 samples a pixel; `none` measures costs alone.
     #[arg(long, value_name = "auto|none|FILE", default_value = "auto")]

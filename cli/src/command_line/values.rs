@@ -172,13 +172,13 @@ pub(crate) struct Sweep {
     pub(crate) values: Vec<String>,
 }
 
-/// Reads `NAME=A,B,C` or `NAME=LO..HI:STEPS`.
+/// Reads `NAME=A,B,C` or `NAME=LO..HI:STEPS`. Blanks around names, values and numbers are no part of them.
 ///
 /// # Errors
 /// The form that was expected.
 pub(crate) fn sweep(text: &str) -> Result<Sweep, String> {
     const FORM: &str = "expected NAME=A,B,C or NAME=LO..HI:STEPS, such as msaa=1,4 or render_scale=0.5..2:4";
-    let (name, values) = text.split_once('=').filter(|(name, _)| !name.is_empty()).ok_or(FORM)?;
+    let (name, values) = text.split_once('=').map(|(name, values)| (name.trim(), values)).ok_or(FORM)?;
     // Paths of scenes may hold two dots.
     let range_of = values.split_once("..").filter(|_| !name.starts_with('@'));
     let values = match range_of {
@@ -186,9 +186,9 @@ pub(crate) fn sweep(text: &str) -> Result<Sweep, String> {
             let (high, steps) = rest.split_once(':').ok_or(FORM)?;
             range(low, high, steps)?
         }
-        None => values.split(',').map(str::to_owned).collect(),
+        None => values.split(',').map(|value| value.trim().to_owned()).collect(),
     };
-    if values.iter().any(String::is_empty) {
+    if name.is_empty() || values.iter().any(String::is_empty) {
         return Err(FORM.to_owned());
     }
     match (1..values.len()).find(|at| values[..*at].contains(&values[*at])) {
@@ -197,18 +197,28 @@ pub(crate) fn sweep(text: &str) -> Result<Sweep, String> {
     }
 }
 
-/// So many values from the one to the other, both among them.
+/// Values at equal distances from `low` to `high`, which both are among them. `steps` is their number.
 fn range(low: &str, high: &str, steps: &str) -> Result<Vec<String>, String> {
-    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let (Some(low), Some(high)) = (number(low), number(high)) else {
         return Err("a range goes from one number to another, such as 0.5..2:4".to_owned());
     };
-    let steps = steps.parse::<u32>().ok().filter(|steps| (2..=MOST_STEPS).contains(steps));
+    let steps = steps.trim().parse::<u32>().ok().filter(|steps| (2..=MOST_STEPS).contains(steps));
     let steps = steps.ok_or_else(|| format!("a range has 2 to {MOST_STEPS} values, such as 0.5..2:4"))?;
     if low >= high {
         return Err(format!("the range goes backwards: {low} is not below {high}"));
     }
-    let value = |at: u32| low + (high - low) * f64::from(at) / f64::from(steps - 1);
+    let last = steps - 1;
+    let value = |at: u32| {
+        let share = f64::from(at) / f64::from(last);
+        let value = low + (high - low) * f64::from(at) / f64::from(last);
+        match value.is_finite() {
+            _ if at == last => high,
+            true => value,
+            // The distance is beyond all numbers, and neither part of this sum is.
+            false => low * (1.0 - share) + high * share,
+        }
+    };
     Ok((0..steps).map(|at| value(at).to_string()).collect())
 }
 
@@ -281,6 +291,21 @@ mod tests {
         }
         assert_eq!(sweep("s=2..1:3"), Err("the range goes backwards: 2 is not below 1".to_owned()));
         assert_eq!(sweep("s=1,2,1"), Err("`1` stands there twice".to_owned()));
+        // Both ends are among the values, even where their distance is beyond all numbers.
+        let wide: Vec<f64> =
+            values("s=-1e308..1e308:5").expect("a range").iter().map(|it| it.parse().expect("a number")).collect();
+        assert_eq!(wide, [-1e308, -5e307, 0.0, 5e307, 1e308]);
+        assert_eq!(values("s=0.1..0.7:7").expect("a range").last().map(String::as_str), Some("0.7"));
+    }
+
+    #[test]
+    fn blanks_around_values_are_no_part_of_them() {
+        assert_eq!(sweep(" msaa = 1, 4 "), sweep("msaa=1,4"));
+        assert_eq!(sweep("s= 0.5 .. 2 : 4"), sweep("s=0.5..2:4"));
+        assert_eq!(sweep("s=1, 1"), Err("`1` stands there twice".to_owned()));
+        for wrong in ["msaa=1, ,4", " =1", "msaa= "] {
+            assert!(sweep(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

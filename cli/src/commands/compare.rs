@@ -61,8 +61,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
         outputs::write(&[(file, &picture)], &read)?;
     }
     let limits: Vec<Limit> = Metric::ALL.iter().filter_map(|metric| limit(arguments, &errors, *metric)).collect();
-    let is_finite = errors.non_finite == [0, 0];
-    let held = limits.is_empty() || (is_finite && limits.iter().all(|limit| limit.held));
+    let held = limits.iter().all(|limit| limit.held);
     let shown = match arguments.format {
         AnswerFormat::Human => table(arguments, &reference, &errors),
         AnswerFormat::Json => text::json(&Answer {
@@ -79,11 +78,12 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     Ok(if held { Exit::Fine } else { Exit::Found })
 }
 
-/// The limit that is stated for a metric, and whether it is held.
+/// The limit that is stated for a metric, and whether it is held. Beside pixels that aren't finite none is.
 fn limit(arguments: &CompareArguments, errors: &Errors, metric: Metric) -> Option<Limit> {
     let limit = arguments.limits.of(metric)?;
     let figure = errors.of(metric);
-    let held = if metric.is_likeness() { figure >= limit } else { figure <= limit };
+    let is_within = if metric.is_likeness() { figure >= limit } else { figure <= limit };
+    let held = is_within && errors.non_finite == [0, 0];
     Some(Limit { metric: metric.name(), limit, held })
 }
 
@@ -93,21 +93,22 @@ fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> St
         let is_limited = arguments.limits.of(**metric).is_some();
         arguments.metric.is_empty() || is_limited || arguments.metric.contains(metric)
     };
+    let [before, after] = errors.non_finite;
+    let is_finite = [before, after] == [0, 0];
     let line = |metric: &Metric| {
         let limit = limit(arguments, errors, *metric).map_or_else(String::new, |limit| {
-            let (kind, verdict) = match (metric.is_likeness(), limit.held) {
-                (true, true) => ("least", "held"),
-                (true, false) => ("least", "missed"),
-                (false, true) => ("most", "held"),
-                (false, false) => ("most", "exceeded"),
+            let (kind, beyond) = if metric.is_likeness() { ("least", "missed") } else { ("most", "exceeded") };
+            let verdict = match limit.held {
+                true => "held",
+                false if is_finite => beyond,
+                false => "not held",
             };
             format!("  ({kind} {}: {verdict})", limit.limit)
         });
         format!("{:<14}{}{limit}\n", metric.name(), figure(*metric, errors))
     };
     let mut lines: String = Metric::ALL.iter().filter(wanted).map(line).collect();
-    let [before, after] = errors.non_finite;
-    if [before, after] != [0, 0] {
+    if !is_finite {
         let pixels = reference.texels.len();
         lines += &format!(
             "not finite    {before} of {pixels} pixels in the reference, {after} in the picture; they are no part of the figures, and no limit is held\n"

@@ -3,14 +3,14 @@
 use crate::command_line::merging::MergeArguments;
 use crate::error::Error;
 use crate::files::outputs;
-use crate::measure::pictures::{self, Pictures};
+use crate::measure::pictures::Pictures;
 use crate::measure::results::Results;
 use crate::measure::{Part, joined, store};
 use crate::system::{Exit, text};
 use framewright_graph::base::ReadFiles;
 use std::path::Path;
 
-/// Joins results, and copies their pictures. `results.json` is written last: whoever sees it sees all of it.
+/// Joins results, and copies their pictures. `results.json` is written last: while it is absent, the folder is incomplete.
 ///
 /// # Errors
 /// If results can't be read or joined, or a file can't be written.
@@ -25,7 +25,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Error> {
     }
     // The command line asks for at least one.
     let Some(results) = joined(parts).map_err(|problem| Error::Joining(problem.into()))? else { return Ok(Exit::Fine) };
-    pictures::make(to)?;
+    outputs::make_folder(to)?;
     let file = to.join(store::FILE);
     outputs::prepare(std::iter::once(&*file), &read)?;
     if file.exists() && loses(to, &results)? {

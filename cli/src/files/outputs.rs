@@ -78,6 +78,17 @@ fn write_one(path: &Path, contents: &[u8]) -> Result<(), Error> {
     }
 }
 
+/// Makes a folder, and those that it lies in.
+///
+/// # Errors
+/// [`Error::NoFolder`], [`Error::Write`].
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Error> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(Error::NoFolder { path: folder.to_owned() });
+    }
+    fs::create_dir_all(folder).map_err(|source| Error::Write { path: folder.to_owned(), source })
+}
+
 /// Writes `contents` to a new file, whole or not at all.
 ///
 /// # Errors

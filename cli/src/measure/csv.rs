@@ -2,10 +2,10 @@
 
 use super::results::{Cost, Measured, Outcome, Results, Row, Spread};
 use crate::error::Error;
-use crate::metric::Errors;
+use crate::metric::{Errors, Flicker};
 
 /// The columns after the swept settings.
-const FIGURES: [&str; 27] = [
+const FIGURES: [&str; 33] = [
     "gpu_ms",
     "gpu_ms_low",
     "gpu_ms_high",
@@ -17,6 +17,7 @@ const FIGURES: [&str; 27] = [
     "recording_ms_high",
     "transient_bytes",
     "moved_bytes",
+    "fragment_invocations",
     "flip",
     "flip_95",
     "flip_worst",
@@ -29,9 +30,14 @@ const FIGURES: [&str; 27] = [
     "non_finite_picture",
     "reference_flip",
     "reference_rmse",
+    "flicker",
+    "flicker_95",
+    "flicker_worst",
+    "flicker_non_finite",
     "picture",
     "reference",
     "heat_map",
+    "flicker_map",
     "error",
 ];
 
@@ -70,7 +76,8 @@ fn figures(row: &Row) -> [Option<String>; FIGURES.len()] {
     let reference = |number: fn(&Errors) -> f64| {
         measured.and_then(|it| it.reference_errors.as_ref()).map(|errors| number(errors).to_string())
     };
-    let cost = |number: fn(&Cost) -> u64| measured.map(|it| number(&it.cost).to_string());
+    let flicker = |figure: fn(&Flicker) -> String| measured.and_then(|it| it.flicker.as_ref()).map(figure);
+    let cost = |number: fn(&Cost) -> Option<u64>| measured.and_then(|it| number(&it.cost)).map(|it| it.to_string());
     let path = |path: fn(&Measured) -> &Option<String>| measured.and_then(|it| path(it).clone());
     let spread = |spread: fn(&Cost) -> Spread| {
         let figures = |Spread { median, low, high }: Spread| [median, low, high].map(|number| Some(number.to_string()));
@@ -89,8 +96,9 @@ fn figures(row: &Row) -> [Option<String>; FIGURES.len()] {
         recording,
         recording_low,
         recording_high,
-        cost(|cost| cost.transient_bytes),
-        cost(|cost| cost.moved_bytes),
+        cost(|cost| Some(cost.transient_bytes)),
+        cost(|cost| Some(cost.moved_bytes)),
+        cost(|cost| cost.fragment_invocations),
         errors(|errors| Some(errors.flip.mean)),
         errors(|errors| Some(errors.flip.percentile_95)),
         errors(|errors| Some(errors.flip.worst)),
@@ -103,9 +111,14 @@ fn figures(row: &Row) -> [Option<String>; FIGURES.len()] {
         count(1),
         reference(|errors| errors.flip.mean),
         reference(|errors| errors.rmse),
+        flicker(|flicker| flicker.mean.to_string()),
+        flicker(|flicker| flicker.percentile_95.to_string()),
+        flicker(|flicker| flicker.worst.to_string()),
+        flicker(|flicker| flicker.non_finite.to_string()),
         path(|measured| &measured.picture),
         path(|measured| &measured.reference),
         path(|measured| &measured.heat_map),
+        path(|measured| &measured.flicker_map),
         failure,
     ]
 }

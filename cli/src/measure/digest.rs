@@ -19,6 +19,16 @@ impl Digest {
         digest.shown()
     }
 
+    /// The digest of some bytes, in hexadecimal digits.
+    pub(crate) fn of_bytes<'b>(parts: impl IntoIterator<Item = &'b [u8]>) -> String {
+        let mut digest = Digest::default();
+        for part in parts {
+            digest.0.write(part);
+            digest.0.write(&(part.len() as u64).to_le_bytes());
+        }
+        digest.shown()
+    }
+
     /// The digest of a value's debug form.
     pub(crate) fn of_value(value: &impl fmt::Debug) -> String {
         let mut digest = Digest::default();

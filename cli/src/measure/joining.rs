@@ -81,7 +81,8 @@ fn put(
 /// The first field in which two subjects differ, and both values.
 fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
     let fields = |subject: &Subject| {
-        let Subject { pipeline, pipeline_digest, device, driver, frames, reference, baseline } = subject;
+        let Subject { pipeline, pipeline_digest, device, driver, frames, flicker_frames, reference, baseline } =
+            subject;
         let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
         [
             ("pipeline_digest", format!("`{pipeline_digest}`")),
@@ -89,6 +90,7 @@ fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
             ("device", format!("`{device}`")),
             ("driver", format!("`{driver}`")),
             ("frames", frames.to_string()),
+            ("flicker_frames", flicker_frames.map_or_else(|| "none".to_owned(), |frames| frames.to_string())),
             ("reference", format!("`{reference}`")),
             ("baseline", format!("`{}`", baseline.join(" "))),
         ]
@@ -105,6 +107,7 @@ fn differing(a: &Row, b: &Row) -> &'static str {
         (Outcome::Measured(a), Outcome::Measured(b)) if a.cost != b.cost => "cost",
         (Outcome::Measured(a), Outcome::Measured(b)) if a.errors != b.errors => "errors",
         (Outcome::Measured(a), Outcome::Measured(b)) if a.reference_errors != b.reference_errors => "reference_errors",
+        (Outcome::Measured(a), Outcome::Measured(b)) if a.flicker != b.flicker => "flicker",
         (Outcome::Measured(a), Outcome::Measured(b)) if a.passes != b.passes => "passes",
         (Outcome::Measured(_), Outcome::Measured(_)) => "pictures",
         _ => "outcome",

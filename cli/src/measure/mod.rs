@@ -5,18 +5,22 @@
 //!                                                                                └─► choosing, joining
 //! ```
 
+mod checks;
 pub(crate) mod choosing;
 mod csv;
 mod digest;
 mod front;
+mod held_against;
 mod joining;
 mod moved_bytes;
 mod naming;
 mod page;
 pub(crate) mod pictures;
+mod pipeline_digest;
 mod plausible;
 mod plot;
 mod reference;
+mod references;
 pub(crate) mod results;
 mod run;
 pub(crate) mod settings_file;
@@ -24,6 +28,7 @@ mod spread;
 pub(crate) mod store;
 mod subjects;
 mod sweep;
+mod table;
 
 pub(crate) use joining::{Part, joined};
 pub(crate) use run::measure;

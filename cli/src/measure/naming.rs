@@ -41,7 +41,12 @@ impl Row {
 impl Measured {
     /// The pictures that it names, as paths within the folder.
     pub(crate) fn pictures(&self) -> impl Iterator<Item = (&'static str, &String)> {
-        let named = [("picture", &self.picture), ("reference", &self.reference), ("heat_map", &self.heat_map)];
+        let named = [
+            ("picture", &self.picture),
+            ("reference", &self.reference),
+            ("heat_map", &self.heat_map),
+            ("flicker_map", &self.flicker_map),
+        ];
         named.into_iter().filter_map(|(name, path)| Some((name, path.as_ref()?)))
     }
 }

@@ -1,14 +1,14 @@
 //! Pictures of results that are joined. Each gets a name by its contents: so no folder's pictures take the place of another's,
 //! and the same picture has the same name wherever it comes from.
 
-use super::results::{Outcome, Results};
+use super::results::{Measured, Outcome, Results};
 use crate::error::Error;
 use crate::files::{inputs, outputs};
 use framewright_graph::base::ReadFiles;
 use std::collections::BTreeMap;
+use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// The folder of pictures in that of joined results.
 const FOLDER: &str = "pictures";
@@ -29,7 +29,8 @@ impl Pictures {
         let mut known: BTreeMap<String, String> = BTreeMap::new();
         for row in &mut results.rows {
             let Outcome::Measured(measured) = &mut row.outcome else { continue };
-            for path in [&mut measured.picture, &mut measured.reference, &mut measured.heat_map].into_iter().flatten() {
+            let Measured { picture, reference, heat_map, flicker_map, .. } = &mut **measured;
+            for path in [picture, reference, heat_map, flicker_map].into_iter().flatten() {
                 let name = match known.get(path) {
                     Some(name) => name.clone(),
                     None => {
@@ -68,7 +69,7 @@ impl Pictures {
     /// If one can't be read or written.
     pub(crate) fn copy(&self, folder: &Path, read: &ReadFiles) -> Result<(), Error> {
         if !self.sources.is_empty() {
-            make(&folder.join(FOLDER))?;
+            outputs::make_folder(&folder.join(FOLDER))?;
         }
         for (name, source) in &self.sources {
             let bytes = inputs::measured_picture(source, read)?;
@@ -76,13 +77,4 @@ impl Pictures {
         }
         Ok(())
     }
-}
-
-/// Makes a folder, and those that it lies in.
-///
-/// # Errors
-/// [`Error::Write`].
-pub(crate) fn make(folder: &Path) -> Result<(), Error> {
-    let problem = |source: io::Error| Error::Write { path: folder.to_owned(), source };
-    fs::create_dir_all(folder).map_err(problem)
 }

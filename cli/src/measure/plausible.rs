@@ -2,7 +2,7 @@
 
 use super::results::{Cost, Measured, Outcome, Results, Row, Spread};
 use crate::command_line::values::MAX_SIZE;
-use crate::metric::Errors;
+use crate::metric::{Errors, Flicker};
 use crate::picture::FileFormat;
 use std::path::{Component, Path};
 
@@ -13,6 +13,9 @@ const ROUNDING: f64 = 1.0 + 1e-9;
 pub(super) fn problem(results: &Results) -> Option<String> {
     if results.subject.frames == 0 {
         return Some("`frames` is 0".to_owned());
+    }
+    if results.subject.flicker_frames.is_some_and(|frames| frames < 2) {
+        return Some("`flicker_frames` is below 2".to_owned());
     }
     results.rows.iter().enumerate().find_map(|(at, row)| {
         let problem = of_row(row)?;
@@ -31,8 +34,30 @@ fn of_row(row: &Row) -> Option<String> {
     }
     of_cost(&measured.cost).or_else(|| of_passes(measured)).or_else(|| of_pictures(measured)).or_else(|| {
         let named = [("errors", &measured.errors), ("reference_errors", &measured.reference_errors)];
-        named.into_iter().find_map(|(name, errors)| of_errors(name, errors.as_ref()?, row.size))
+        let wrong = named.into_iter().find_map(|(name, errors)| of_errors(name, errors.as_ref()?, row.size));
+        wrong.or_else(|| of_flicker(measured.flicker.as_ref()?, row.size))
     })
+}
+
+fn of_flicker(flicker: &Flicker, size: [u32; 2]) -> Option<String> {
+    let Flicker { frames, mean, percentile_95, worst, non_finite, .. } = flicker;
+    let within = |value: f64, most: f64| value >= 0.0 && value <= most * ROUNDING;
+    // The error of a value from 0 to 1 changes by 2 at most.
+    let figures = [("worst", worst, 2.0), ("mean", mean, *worst), ("percentile_95", percentile_95, *worst)];
+    let wrong = figures.into_iter().find(|(_, value, most)| !within(**value, *most));
+    if let Some((figure, value, _)) = wrong {
+        return Some(format!("`flicker.{figure}` can't be {value}"));
+    }
+    if *frames < 2 {
+        return Some(format!("`flicker.frames` can't be {frames}"));
+    }
+    let pixels = pixels(size);
+    (*non_finite > pixels).then(|| format!("`flicker.non_finite` can't be {non_finite} of {pixels} pixels"))
+}
+
+/// Pictures of both eyes stand side by side.
+fn pixels(size: [u32; 2]) -> usize {
+    size.iter().fold(2, |pixels: usize, side| pixels.saturating_mul(*side as usize))
 }
 
 fn of_cost(cost: &Cost) -> Option<String> {
@@ -59,8 +84,7 @@ fn of_errors(name: &str, errors: &Errors, size: [u32; 2]) -> Option<String> {
     let exposures = flip
         .exposures
         .is_none_or(|exposures| exposures.first.is_finite() && exposures.last.is_finite() && exposures.count > 0);
-    // Pictures of both eyes stand side by side.
-    let pixels = size.iter().fold(2, |pixels: usize, side| pixels.saturating_mul(*side as usize));
+    let pixels = pixels(size);
     let figures = [
         ("flip.worst", flip.worst, within(flip.worst, 0.0, 1.0)),
         ("flip.mean", flip.mean, within(flip.mean, 0.0, flip.worst)),

@@ -12,7 +12,7 @@ const WIDTHS: [f64; 2] = [560.0, 340.0];
 const HEIGHT: f64 = 360.0;
 /// Left, top, right and bottom margin.
 const MARGINS: [f64; 4] = [64.0, 36.0, 16.0, 48.0];
-/// The front's first points are listed, at most so many.
+/// The number of the front's points that are listed.
 const LISTED: usize = 14;
 
 const STYLE: &str = "svg{background:#fff;color:#1c1c1c;font:12px system-ui,sans-serif}\

@@ -19,7 +19,7 @@ const LEAST_FRAMES: u16 = 16;
 
 /// A reference, and the one of its first half.
 #[derive(Debug)]
-pub(crate) struct Reference {
+pub(crate) struct Drawn {
     pub(crate) picture: Light,
     /// Half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
     pub(crate) of_half: Light,
@@ -35,7 +35,7 @@ pub(crate) fn draw(
     pipeline: &mut Loaded,
     scene: &Scene,
     size: Size,
-) -> Result<Option<Reference>, Error> {
+) -> Result<Option<Drawn>, Error> {
     let Some(request) = pictures::of_first_output(planned) else { return Ok(None) };
     let mut prepared = Prepared::new(device, planned, pipeline, scene, size, &ExecutorOptions::default())?;
     let (extent, samples) = drawn(&planned.plan, size);
@@ -56,7 +56,7 @@ pub(crate) fn draw(
             of_half = sum.as_ref().map(Sum::mean);
         }
     }
-    Ok(sum.zip(of_half).map(|(sum, of_half)| Reference { picture: sum.mean(), of_half }))
+    Ok(sum.zip(of_half).map(|(sum, of_half)| Drawn { picture: sum.mean(), of_half }))
 }
 
 /// Size and samples of the largest target that objects are drawn into.

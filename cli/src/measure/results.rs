@@ -1,6 +1,6 @@
 //! The results of `framewright measure`: the file `results.json` in its folder. `docs/measuring.md` describes it.
 
-use crate::metric::Errors;
+use crate::metric::{Errors, Flicker};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub(crate) struct Results {
 pub(crate) struct Subject {
     /// The pipeline's file, as it was named.
     pub(crate) pipeline: String,
-    /// A digest of the pipeline and of all files that it names.
+    /// A digest of the pipeline and of all files that it names, the user's own shaders among them.
     pub(crate) pipeline_digest: String,
     /// The device's name.
     pub(crate) device: String,
@@ -32,6 +32,8 @@ pub(crate) struct Subject {
     pub(crate) driver: String,
     /// Frames whose times were taken, for each row.
     pub(crate) frames: u32,
+    /// Frames of the moving scene over which flicker is measured; `None`: it isn't.
+    pub(crate) flicker_frames: Option<u32>,
     /// The pictures that errors are measured against: `auto`, `none`, or the digest of a picture.
     pub(crate) reference: String,
     /// The choice that the ratios of times are relative to: all settings of the pipeline, by name, and `@scene`, by its digest,
@@ -84,6 +86,10 @@ pub(crate) struct Measured {
     pub(crate) reference: Option<String>,
     /// The picture of FLIP, as a path within the folder.
     pub(crate) heat_map: Option<String>,
+    /// The flicker over frames of the moving scene; `None` if it wasn't measured.
+    pub(crate) flicker: Option<Flicker>,
+    /// The picture of flicker, as a path within the folder.
+    pub(crate) flicker_map: Option<String>,
 }
 
 /// The cost of a frame.
@@ -100,6 +106,8 @@ pub(crate) struct Cost {
     pub(crate) transient_bytes: u64,
     /// Bytes that loads, stores, resolves and copies move, after the Plan.
     pub(crate) moved_bytes: u64,
+    /// How often fragment shaders ran in a frame: the median; `None` if the device doesn't count it, or draws several views at once.
+    pub(crate) fragment_invocations: Option<u64>,
 }
 
 /// A pass's cost.

@@ -29,6 +29,15 @@ pub(crate) struct Subject {
     pub(crate) digest: String,
     /// As it stands at its first frame.
     pub(crate) scene: Scene,
+    /// As it moves.
+    pub(crate) moving: Scene,
+}
+
+impl Subject {
+    /// The scene as it stands at a frame.
+    pub(crate) fn still_at(&self, frame: u32) -> Scene {
+        self.moving.still_at(frame.into())
+    }
 }
 
 /// A choice of a sweep.
@@ -99,9 +108,9 @@ pub(crate) fn choices(
         if let Some(known) = scenes.get(path) {
             return Ok(Rc::clone(known));
         }
-        let still = inputs::scene(path, read)?.still_at(0);
-        let (file, digest) = (path.to_string_lossy().into_owned(), Digest::of_value(&still));
-        let subject = Rc::new(Subject { file, digest, scene: still });
+        let moving = inputs::scene(path, read)?;
+        let (file, digest) = (path.to_string_lossy().into_owned(), Digest::of_value(&moving));
+        let subject = Rc::new(Subject { file, digest, scene: moving.still_at(0), moving });
         scenes.insert(path.to_owned(), Rc::clone(&subject));
         Ok(subject)
     };

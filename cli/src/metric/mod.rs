@@ -3,6 +3,7 @@
 //! [`Errors::between`] takes two pictures of linear light and gives every metric of [`Metric`]. Pixels that aren't finite in
 //! either are counted, and are no part of any figure.
 
+mod flicker;
 mod flip;
 mod heat_map;
 mod plane;
@@ -10,6 +11,7 @@ mod ssim;
 
 use crate::picture::Light;
 use clap::ValueEnum;
+pub(crate) use flicker::{Changes, Flicker};
 pub(crate) use flip::{Exposures, PIXELS_PER_DEGREE};
 use framewright_passes::srgb;
 pub(crate) use heat_map::heat_map;
@@ -103,7 +105,7 @@ impl Metric {
 }
 
 impl Errors {
-    /// The errors of a picture of the same size as the reference. FLIP takes so many pixels for a degree of sight.
+    /// The errors of a picture of the same size as the reference. `pixels_per_degree` is what FLIP takes for the number of pixels in a degree of sight.
     #[must_use]
     pub(crate) fn between(reference: &Light, test: &Light, pixels_per_degree: f64) -> Errors {
         let extent = reference.extent;
@@ -121,10 +123,8 @@ impl Errors {
             texels.map(|(texel, finite)| if *finite { texel.map(f64::from) } else { [0.0; 3] }).collect()
         };
         let (a, b) = (light(reference), light(test));
-        let shown = |texels: &[[f64; 3]]| -> Vec<[f64; 3]> {
-            texels.iter().map(|texel| texel.map(|light| srgb::encode(light.clamp(0.0, 1.0)))).collect()
-        };
-        let (shown_a, shown_b) = (shown(&a), shown(&b));
+        let all_shown = |texels: &[[f64; 3]]| -> Vec<[f64; 3]> { texels.iter().copied().map(shown).collect() };
+        let (shown_a, shown_b) = (all_shown(&a), all_shown(&b));
         let is_light = reference.is_light || test.is_light;
         let (flip_map, exposures) = match is_light {
             true => {
@@ -137,7 +137,8 @@ impl Errors {
         let similarity = ssim::map(&shown_a, &shown_b, extent);
         let inside = |at: &usize| both[*at] && ssim::is_inside(extent, *at);
         let ssim = mean((0..both.len()).filter(inside).map(|at| similarity.values[at]), 1.0);
-        let pooled = pooled(flip_map.values.iter().zip(&both).filter(|(_, finite)| **finite).map(|(flip, _)| *flip));
+        let pooled =
+            Pooled::of(flip_map.values.iter().zip(&both).filter(|(_, finite)| **finite).map(|(flip, _)| *flip));
         let differences = |a: &[[f64; 3]], b: &[[f64; 3]]| -> Vec<f64> {
             let pixels = a.iter().zip(b).zip(&both).filter(|(_, finite)| **finite);
             pixels.flat_map(|((a, b), _)| [0, 1, 2].map(|at| b[at] - a[at])).collect()
@@ -150,7 +151,13 @@ impl Errors {
             .map(|(difference, reference)| difference * difference / (reference * reference + RELATIVE_FLOOR));
         let noise = mean(differences(&shown_a, &shown_b).iter().map(|it| it * it), 0.0);
         Errors {
-            flip: FlipErrors { exposures, pixels_per_degree, ..pooled },
+            flip: FlipErrors {
+                exposures,
+                pixels_per_degree,
+                mean: pooled.mean,
+                percentile_95: pooled.percentile_95,
+                worst: pooled.worst,
+            },
             rmse: mean(light.iter().map(|it| it * it), 0.0).sqrt(),
             max_error: light.iter().fold(0.0, |most, it| it.abs().max(most)),
             relative_mse: mean(relative, 0.0),
@@ -182,6 +189,11 @@ impl Errors {
     }
 }
 
+/// Light as a display shows it: values from 0 to 1 in the curve of sRGB.
+fn shown(light: [f64; 3]) -> [f64; 3] {
+    light.map(|light| srgb::encode(light.clamp(0.0, 1.0)))
+}
+
 fn is_finite(texel: &[f32; 3]) -> bool {
     texel.iter().all(|light| light.is_finite())
 }
@@ -192,17 +204,25 @@ fn mean(values: impl Iterator<Item = f64>, none: f64) -> f64 {
     if count == 0 { none } else { sum / f64::from(count) }
 }
 
-/// Mean, percentile and worst of FLIP.
-fn pooled(values: impl Iterator<Item = f64>) -> FlipErrors {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    // The least value that at least 95 of 100 pixels don't exceed.
-    let rank = (sorted.len() * 95).div_ceil(100).saturating_sub(1);
-    FlipErrors {
-        exposures: None,
-        pixels_per_degree: PIXELS_PER_DEGREE,
-        mean: mean(sorted.iter().copied(), 0.0),
-        percentile_95: sorted.get(rank).copied().unwrap_or(0.0),
-        worst: sorted.last().copied().unwrap_or(0.0),
+/// Figures of a value at each pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pooled {
+    mean: f64,
+    /// The least value that at least 95 of 100 pixels don't exceed.
+    percentile_95: f64,
+    worst: f64,
+}
+
+impl Pooled {
+    /// Those of some pixels; all 0 of none.
+    fn of(values: impl Iterator<Item = f64>) -> Pooled {
+        let mut sorted: Vec<f64> = values.collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let rank = (sorted.len() * 95).div_ceil(100).saturating_sub(1);
+        Pooled {
+            mean: mean(sorted.iter().copied(), 0.0),
+            percentile_95: sorted.get(rank).copied().unwrap_or(0.0),
+            worst: sorted.last().copied().unwrap_or(0.0),
+        }
     }
 }

@@ -20,6 +20,7 @@ use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::{Helper, ShaderLibrary};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -34,6 +35,8 @@ pub(crate) struct Loaded {
     pub(crate) helper: Helper,
     /// Pictures beside the pipeline file.
     pub(crate) textures: TextureFiles,
+    /// The paths of those that the pipeline names.
+    pub(crate) pictures: BTreeSet<Arc<str>>,
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
     /// How it is drawn for two eyes.
@@ -65,6 +68,8 @@ pub(crate) struct View<'a> {
 struct NamedFiles {
     files: PipelineFiles,
     textures: TextureFiles,
+    /// The paths of pictures that are named.
+    pictures: BTreeSet<Arc<str>>,
     /// Whether the user has no right to read one of the files.
     denied: bool,
 }
@@ -77,6 +82,7 @@ impl Files for NamedFiles {
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        self.pictures.insert(file.path.clone());
         self.textures.info(file)
     }
 }
@@ -97,7 +103,8 @@ pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Res
     let extensions = arguments.extend.iter().map(|path| inputs::extension(path, &mut files, read));
     let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
     let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
-    let mut named = NamedFiles { files, textures: TextureFiles::new(textures), denied: false };
+    let mut named =
+        NamedFiles { files, textures: TextureFiles::new(textures), pictures: BTreeSet::new(), denied: false };
     let own = Found { shown, relative: path, bytes };
     let mut pipeline = language::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
@@ -109,6 +116,7 @@ pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Res
         pipeline,
         sources: Arc::new(sources),
         textures: named.textures,
+        pictures: named.pictures,
         shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draw::interface)
             .with_helper(&helper),
         helper,

@@ -37,6 +37,7 @@ fn hash(plan: &Plan, steps: &[Step]) -> u64 {
         device,
         settings: _,
         changes: _,
+        decided: _,
         stereo,
         views,
         images,

@@ -4,7 +4,7 @@
 //! that only a description contains counts as used: then more variants are checked than necessary, never fewer.
 
 use framewright_graph::base::Sources;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Pieces of names in the strings of all files, with how often they occur.
 #[derive(Debug, Default)]
@@ -12,6 +12,8 @@ pub(crate) struct Mentions<'a> {
     pieces: HashMap<&'a str, usize>,
     /// Strings with numbers in them.
     numbers: Vec<&'a str>,
+    /// The strings themselves.
+    strings: BTreeSet<&'a str>,
     /// Whether a string has escapes, which aren't read: it may hold any name.
     hidden: bool,
 }
@@ -27,10 +29,23 @@ impl<'a> Mentions<'a> {
         mentions
     }
 
+    /// Everything that one file mentions.
+    #[must_use]
+    pub(crate) fn of_text(text: &'a str) -> Mentions<'a> {
+        let mut mentions = Mentions::default();
+        mentions.text(text);
+        mentions
+    }
+
     /// Whether `name` may occur in at least `times` places. A `-` within it may be a minus: every piece must occur.
     #[must_use]
     pub(crate) fn may_hold(&self, name: &str, times: usize) -> bool {
         self.hidden || name.split('-').all(|piece| self.pieces.get(piece).is_some_and(|found| *found >= times))
+    }
+
+    /// All strings, each once.
+    pub(crate) fn strings(&self) -> impl Iterator<Item = &'a str> {
+        self.strings.iter().copied()
     }
 
     /// The numbers that stand in strings with `name`.
@@ -84,6 +99,7 @@ impl<'a> Mentions<'a> {
     }
 
     fn words(&mut self, text: &'a str) {
+        self.strings.insert(text);
         words(text).for_each(|piece| *self.pieces.entry(piece).or_default() += 1);
         if text.contains(|c: char| c.is_ascii_digit()) {
             self.numbers.push(text);

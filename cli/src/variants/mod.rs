@@ -14,7 +14,7 @@ pub(crate) mod cover;
 mod decisions;
 mod facts;
 mod identity;
-mod mentions;
+pub(crate) mod mentions;
 mod minimise;
 mod report;
 mod run;

@@ -1,7 +1,7 @@
 //! `choose`: the best settings under a budget, of those that were measured (NU-3).
 
 use crate::testing::results::{Numbers, Row, results, write};
-use crate::testing::{Outcome, Place};
+use crate::testing::{Outcome, Place, repository};
 use serde_json::{Value, json};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -139,56 +139,98 @@ fn random(numbers: &mut Numbers) -> Value {
     results(rows)
 }
 
-#[test]
-fn the_choice_is_what_an_exhaustive_search_finds() {
-    let mut numbers = Numbers(7);
-    let (mut chosen, mut missed, mut bound) = (0, 0, 0);
-    for _ in 0..300 {
-        let place = Place::new();
-        let results = random(&mut numbers);
-        write(&place, ".", &results);
-        let all = candidates(&results);
-        let mut limits = Vec::new();
-        while limits.is_empty() {
-            for option in OPTIONS {
-                if numbers.below(3) == 0 {
-                    let part = (1 + numbers.below(9)) as f64;
-                    let value = match option {
-                        "--max-ms" => part / 4.0,
-                        "--max-mib" => part * 0.75,
-                        "--max-flip" => part / 64.0,
-                        "--max-rmse" => part / 32.0,
-                        _ => 1.0 - part / 128.0,
-                    };
-                    limits.push(Limit { option, value });
-                }
-            }
-        }
-        let outcome = choose(&place, &limits, &["--format", "json"]);
+/// How often something was chosen, nothing held the limits, and a limit bound.
+#[derive(Debug, Default)]
+struct Found {
+    chosen: usize,
+    missed: usize,
+    bound: usize,
+}
+
+impl Found {
+    /// Holds the answer for the results in a place's folder against an exhaustive search.
+    fn search(&mut self, place: &Place, all: &[Candidate], limits: &[Limit]) {
+        let outcome = choose(place, limits, &["--format", "json"]);
         let answer: Value = serde_json::from_str(&outcome.out).unwrap_or_else(|_| panic!("{}", outcome.err));
-        let best_of_all = best(&all, &limits, &limits);
+        let best_of_all = best(all, limits, limits);
         agrees(&answer["chosen"], &best_of_all, "the choice", &limits);
         assert_eq!(outcome.code, Some(i32::from(best_of_all.is_empty())));
         let Some(winner) = best_of_all.first() else {
-            missed += 1;
-            agrees(&answer["nearest_miss"], &nearest(&all.iter().collect::<Vec<_>>(), &limits), "the miss", &limits);
-            continue;
+            self.missed += 1;
+            agrees(&answer["nearest_miss"], &nearest(&all.iter().collect::<Vec<_>>(), limits), "the miss", &limits);
+            return;
         };
-        chosen += 1;
-        let better: Vec<&Candidate> = all.iter().filter(|one| prefer(one, winner, &limits).is_lt()).collect();
-        agrees(&answer["next_better"], &nearest(&better, &limits), "the next better", &limits);
+        self.chosen += 1;
+        let better: Vec<&Candidate> = all.iter().filter(|one| prefer(one, winner, limits).is_lt()).collect();
+        agrees(&answer["next_better"], &nearest(&better, limits), "the next better", &limits);
         let by_option = |entry: &Value| limits.iter().position(|limit| entry["option"] == limit.option);
         for entry in answer["limits"].as_array().expect("limits") {
             let at = by_option(entry).expect("a stated one");
             let others: Vec<Limit> =
                 limits.iter().enumerate().filter(|(other, _)| *other != at).map(|it| *it.1).collect();
-            let mut without = best(&all, &limits, &others);
-            without.retain(|one| prefer(one, winner, &limits).is_lt());
-            bound += usize::from(!without.is_empty());
+            let mut without = best(all, limits, &others);
+            without.retain(|one| prefer(one, winner, limits).is_lt());
+            self.bound += usize::from(!without.is_empty());
             agrees(&entry["without"], &without, "the choice without a limit", &limits);
         }
     }
-    assert!(chosen > 100 && missed > 80 && bound > 20, "{chosen} chosen, {missed} missed, {bound} limits bound");
+}
+
+/// Some limits by chance, at least one.
+fn some_limits(numbers: &mut Numbers, mut value: impl FnMut(&mut Numbers, &str) -> f64) -> Vec<Limit> {
+    let mut limits = Vec::new();
+    while limits.is_empty() {
+        for option in OPTIONS {
+            if numbers.below(3) == 0 {
+                limits.push(Limit { option, value: value(numbers, option) });
+            }
+        }
+    }
+    limits
+}
+
+#[test]
+fn the_choice_is_what_an_exhaustive_search_finds() {
+    let mut numbers = Numbers(7);
+    let mut found = Found::default();
+    for _ in 0..300 {
+        let place = Place::new();
+        let results = random(&mut numbers);
+        write(&place, ".", &results);
+        let limits = some_limits(&mut numbers, |numbers, option| {
+            let part = (1 + numbers.below(9)) as f64;
+            match option {
+                "--max-ms" => part / 4.0,
+                "--max-mib" => part * 0.75,
+                "--max-flip" => part / 64.0,
+                "--max-rmse" => part / 32.0,
+                _ => 1.0 - part / 128.0,
+            }
+        });
+        found.search(&place, &candidates(&results), &limits);
+    }
+    assert!(found.chosen > 100 && found.missed > 80 && found.bound > 20, "{found:?}");
+}
+
+/// NU-3: the same over the figures of the study. Each limit is the figure of some settings.
+#[test]
+fn the_choice_from_the_study_is_what_an_exhaustive_search_finds() {
+    let mut numbers = Numbers(18);
+    let mut found = Found::default();
+    for sweep in std::fs::read_dir(repository("docs/trade-offs")).expect("the study") {
+        let file = std::fs::read_to_string(sweep.expect("a sweep").path().join("results.json")).expect("results");
+        let results: Value = serde_json::from_str(&file).expect("JSON");
+        let all = candidates(&results);
+        let place = Place::new();
+        write(&place, ".", &results);
+        for _ in 0..8 {
+            let limits = some_limits(&mut numbers, |numbers, option| {
+                all[numbers.below(all.len() as u64) as usize].figures[option]
+            });
+            found.search(&place, &all, &limits);
+        }
+    }
+    assert!(found.chosen > 20 && found.missed > 5 && found.bound > 5, "{found:?}");
 }
 
 /// Three settings of one scene, and what each costs and buys.

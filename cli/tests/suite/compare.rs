@@ -136,6 +136,12 @@ fn pixels_that_are_not_finite_are_counted_and_hold_no_limit() {
     assert_eq!((errors["rmse"].as_f64(), errors["flip"]["mean"].as_f64()), (Some(0.0), Some(0.0)), "{errors}");
     let out = place.run(&["compare", "right.exr", "wrong.exr", "--max-rmse", "1"]).exits(1).out;
     assert!(out.contains("not finite    0 of 256 pixels in the reference, 3 in the picture; they are no part of the figures, and no limit is held"), "{out}");
+    // Each limit says the same, and so does the answer for programs.
+    assert!(out.contains("(most 1: not held)"), "{out}");
+    let json = ["compare", "right.exr", "wrong.exr", "--max-rmse", "1", "--min-ssim", "0", "--format", "json"];
+    let answer: Value = serde_json::from_str(&place.run(&json).exits(1).out).expect("JSON");
+    assert_eq!(answer["held"], false);
+    assert!(answer["limits"].as_array().expect("limits").iter().all(|limit| limit["held"] == false), "{answer}");
     // Nothing but such pixels, and light beyond every tone curve.
     light(&place, "all.exr", [f32::NAN; 3], &[]);
     place.run(&["compare", "all.exr", "all.exr"]).exits(1).mentions("no pixel is finite in both");

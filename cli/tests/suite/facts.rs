@@ -13,13 +13,14 @@ fn each_fact_is_printed_with_what_decided_it() {
         "scene.has_alpha_clip: true (3 objects: `sieve`, `lattice`, `far lattice`)",
         "scene.has_cross_fade: false (no object)",
         "scene.casts_shadows: false (no light that shines has `shadows: true`)",
+        "scene.shadow_cascades: 0 (the sun casts none)",
         "scene.point_lights: 2",
         "scene.lights: 3",
         "scene.objects: 67",
     ] {
         assert!(lines.contains(&line), "`{line}` is not in\n{out}");
     }
-    assert_eq!(lines.len(), 11, "{out}");
+    assert_eq!(lines.len(), 12, "{out}");
     // The lamp emits 12.
     assert!(lines.iter().any(|line| line.starts_with("scene.peak_radiance: 1") && line.contains("`lamp`")), "{out}");
 }

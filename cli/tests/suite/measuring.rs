@@ -47,6 +47,8 @@ fn more_samples_cost_memory_and_come_nearer_to_the_reference() {
             assert!(number(&row["reference_errors"]["flip"]["mean"]) < flip(row), "{row}");
             let cost = &row["cost"];
             assert!(number(&cost["gpu_milliseconds"]["median"]) > 0.0 && number(&cost["moved_bytes"]) > 0.0, "{row}");
+            // Lavapipe counts them: each pixel is drawn at least once.
+            assert!(number(&cost["fragment_invocations"]) >= 96.0 * 54.0, "{row}");
             let [low, median, high] = ["low", "median", "high"].map(|it| number(&cost["gpu_ratio"][it]));
             assert!(0.0 < low && low <= median && median <= high, "{row}");
             assert!(row["passes"].as_array().is_some_and(|passes| passes.len() >= 3), "{row}");
@@ -142,6 +144,139 @@ fn what_is_measured_is_what_run_draws() {
     assert_eq!(number(&row(&own, &[("msaa", "4")])["errors"]["rmse"]), 0.0);
     let other = ["--sweep", "@size=48x48", "--reference", "run.png", "-o", "other"];
     measure(&place, &other).expect("lavapipe").exits(1).mentions("only pictures of one size are compared");
+    // It was found before anything was drawn.
+    assert!(!place.path("other").exists());
+    // A picture of light beyond what a display shows is compared in another way, which is said.
+    let light = exr::prelude::SpecificChannels::rgb(|_| (0.5_f32, 0.5_f32, 0.5_f32));
+    let light = exr::prelude::Image::from_channels((96, 54), light);
+    exr::prelude::WritableImage::write(&light).to_file(place.path("light.exr")).expect("written");
+    let beside = |picture: &str, folder: &str| {
+        measure(&place, &["--sweep", "msaa=1", "--reference", picture, "-o", folder]).expect("lavapipe").exits(0).err
+    };
+    let said = beside("light.exr", "light");
+    assert!(said.contains("note: FLIP is HDR-FLIP here: light.exr holds light without an upper end"), "{said}");
+    assert!(!beside("run.png", "shown").contains("HDR-FLIP"));
+}
+
+#[test]
+fn a_row_that_failed_is_measured_again() {
+    let place = Place::new();
+    let sweep = ["--sweep", "msaa=1,4", "--reference", "none", "-o", "swept"];
+    let Some(out) = measure(&place, &sweep) else { return };
+    out.exits(0);
+    let mut kept = results(&place, "swept");
+    kept["rows"][0]["outcome"] = serde_json::json!({ "failed": "the machine was asleep" });
+    place.file("swept/results.json", kept.to_string());
+    let again = measure(&place, &sweep).expect("lavapipe").exits(0);
+    assert!(again.err.contains("note: 1 choice is measured already"), "{}", again.err);
+    let all = results(&place, "swept");
+    assert_eq!(all["rows"].as_array().map(Vec::len), Some(2));
+    assert!(number(&row(&all, &[("msaa", "1")])["cost"]["moved_bytes"]) > 0.0);
+    assert_eq!(all["rows"][1], kept["rows"][1]);
+}
+
+#[test]
+fn references_are_read_back_unless_they_are_damaged() {
+    let place = Place::new();
+    let sweep = |values: &str| measure(&place, &["--sweep", values, "-o", "swept"]).map(|out| out.exits(0));
+    if sweep("msaa=1").is_none() {
+        return;
+    }
+    let picture = row(&results(&place, "swept"), &[("msaa", "1")])["reference"].as_str().expect("a path").to_owned();
+    let file = place.path("swept").join(&picture).with_extension("exr");
+    let errors = || row(&results(&place, "swept"), &[("msaa", "1")])["reference_errors"].clone();
+    let (drawn, own, made) = (std::fs::read(&file).expect("read"), errors(), || {
+        std::fs::metadata(&file).and_then(|data| data.modified()).expect("a time")
+    });
+    let first = made();
+    sweep("msaa=1,2");
+    assert_eq!(made(), first, "it was drawn again");
+    assert_eq!(row(&results(&place, "swept"), &[("msaa", "2")])["reference_errors"], own);
+    let mut damaged = drawn.clone();
+    *damaged.last_mut().expect("bytes") ^= 1;
+    for wrong in [&damaged, &drawn[..drawn.len() / 2]] {
+        std::fs::write(&file, wrong).expect("written");
+        std::fs::remove_file(place.path("swept/results.json")).expect("removed");
+        sweep("msaa=4");
+        assert!(std::fs::read(&file).expect("read") == drawn, "it was not drawn again");
+    }
+}
+
+#[test]
+fn a_pipeline_is_another_if_its_own_shaders_or_pictures_are() {
+    let place = Place::new();
+    let pipeline = r#"Pipeline(
+        version: 1,
+        textures: [(name: "grain", file: "grain.png")],
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "all", draw: FullScreen("own"), color: ["screen"], sample: {"grain": "grain"})],
+        outputs: ["screen"],
+    )"#;
+    place.file("p.ron", pipeline);
+    let grain = |light: u8| {
+        let path = place.path("grain.png");
+        image::RgbImage::from_pixel(4, 4, image::Rgb([light; 3])).save(path).expect("written");
+    };
+    grain(7);
+    let shader = "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"part.glsl\"\n\
+        layout(set = 0, binding = 0) uniform sampler2D grain; layout(location = 0) in vec2 uv;\n\
+        layout(location = 0) out vec4 color; void main() { color = texture(grain, uv) * part(); }";
+    place.file("own.frag", shader);
+    place.file("part.glsl", "float part() { return 1.0; }");
+    place.file("other.frag", "nothing");
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let arguments = ["measure", "p.ron", "--scene", "spheres_and_cubes", "--size", "8x8", "--frames", "1"];
+    let measure = |folder: &str| {
+        let sweep = ["--sweep", "@size=8x8", "--reference", "none", "-o", folder];
+        place.run_with(&variables, &[&arguments[..], &sweep].concat())
+    };
+    measure("swept").exits(0);
+    place.file("other.frag", "something that nothing names");
+    measure("swept").exits(0);
+    place.file("part.glsl", "float part() { return 0.5; }");
+    measure("swept").exits(2).mentions("holds results of another pipeline");
+    measure("again").exits(0);
+    grain(9);
+    measure("again").exits(2).mentions("holds results of another pipeline");
+}
+
+#[test]
+fn bars_flicker_less_with_temporal_anti_aliasing() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let arguments = [
+        "measure",
+        "temporal",
+        "--scene",
+        "passing",
+        "--size",
+        "96x54",
+        "--frames",
+        "1",
+        "--sweep",
+        "taa=false,true",
+        "--flicker",
+        "12",
+        "-o",
+        "swept",
+    ];
+    place.run_with(&variables, &arguments).exits(0);
+    let results = results(&place, "swept");
+    assert_eq!(results["subject"]["flicker_frames"], 12);
+    let flicker = |taa: &str, figure: &str| number(&row(&results, &[("taa", taa)])["flicker"][figure]);
+    for figure in ["mean", "percentile_95"] {
+        let [without, with] = ["false", "true"].map(|taa| flicker(taa, figure));
+        assert!(0.0 < with && with < without, "{figure}: {with} with it, {without} without");
+    }
+    for taa in ["false", "true"] {
+        let map = row(&results, &[("taa", taa)])["flicker_map"].as_str().expect("a path");
+        let map = image::open(place.path("swept").join(map)).expect("a picture");
+        assert_eq!((map.width(), map.height()), (96, 54));
+    }
+    let table = std::fs::read_to_string(place.path("swept/results.csv")).expect("a table");
+    assert!(table.lines().next().expect("a head").contains(",flicker,flicker_95,flicker_worst,"), "{table}");
+    let wrong = [&arguments[..arguments.len() - 1], &["other", "--reference", "none"]].concat();
+    place.run_with(&variables, &wrong).exits(2).mentions("flicker is measured against references of each frame");
 }
 
 #[test]
@@ -182,6 +317,20 @@ fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
     wrong(&["--sweep", "render_scale=2..1:3"]).mentions("the range goes backwards: 2 is not below 1");
     wrong(&["--sweep", "@size=0x9"]).mentions("@size: the width must be 1 to 16384 pixels");
     wrong(&["--sweep", "@stereo=three"]).mentions("@stereo: expected auto");
+    wrong(&["--sweep", "@size=64x"]).mentions("@size: expected WIDTHxHEIGHT");
+    let several = wrong(&["--sweep", "msaa=1,3", "--sweep", "render_scale=1,99"]);
+    several.mentions("setting `msaa` doesn't allow `3`").mentions("setting `render_scale` doesn't allow `99`");
+    wrong(&["--set", "msaa=3"]).mentions("setting `msaa` doesn't allow `3`");
+    let arguments =
+        ["measure", "image_quality", "--scene", "spheres_and_cubes", "--sweep", "@scene=none.ron", "-o", "swept"];
+    place.run(&arguments).exits(1).mentions("there is no scene `none.ron`");
+    place.file("file", "no folder");
+    let arguments = ["measure", "image_quality", "--scene", "spheres_and_cubes", "--sweep", "msaa=1", "-o", "file"];
+    place.run(&arguments).exits(3).mentions("`file` can't be written: it is a file, and a folder is wanted");
+    place
+        .run(&["measure", "image_quality", "--scene", "spheres_and_cubes", "--reference", "none.png", "-o", "swept"])
+        .exits(1)
+        .mentions("the picture `none.png` can't be read");
     wrong(&["--shard", "3/2"]).mentions("expected K/N");
     let many = ["render_scale=0.5..4:1000", "white_point=1..100:1000", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();

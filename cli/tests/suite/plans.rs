@@ -160,7 +160,12 @@ fn a_profile_of_ones_own_decides_what_is_there() {
 #[test]
 fn a_scene_decides_which_passes_there_are() {
     let place = Place::new();
-    let with =
-        |arguments: &[&str]| place.run(&[&["inspect", "forward", "--format", "json"], arguments].concat()).exits(0).out;
+    // The facts that are named have the values of the scene.
+    let with = |arguments: &[&str]| {
+        let json = place.run(&[&["inspect", "forward", "--format", "json"], arguments].concat()).exits(0).out;
+        let mut plan: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        plan["decided"] = serde_json::Value::Null;
+        plan
+    };
     assert_eq!(with(&[]), with(&["--scene", "spheres_and_cubes"]), "the shipped scene holds everything");
 }

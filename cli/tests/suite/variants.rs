@@ -169,8 +169,8 @@ fn every_shipped_pipeline_is_fine_in_every_variant_on_every_shipped_device() {
         let of_plans = answer["plans"].as_array().expect("a list").iter().map(|plan| plan["variants"].as_u64());
         assert_eq!(of_plans.map(|count| count.expect("a count")).sum::<u64>(), answer["variants"], "{pipeline}");
     }
-    // Samples, HDR, tone mapping, two white points; masked, fading and transparent objects.
-    assert_eq!(json(&place, &["forward"], 0)["variants"], 4 * 2 * 2 * 2 * 2 * 2 * 2);
+    // Samples, HDR, tone mapping, two white points; masked, fading and transparent objects; five greatest radiances.
+    assert_eq!(json(&place, &["forward"], 0)["variants"], 4 * 2 * 2 * 2 * 2 * 2 * 2 * 5);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::instances::used_here;
 use super::state::State;
 use crate::base::Diagnostic;
-use crate::frame::{Cascade, DepthTarget, Draw, ViewIndex, Work};
+use crate::frame::{Cascade, DepthTarget, Draw, Metres, Share, ViewIndex, Work};
 use crate::language::{self, Pipeline};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -40,7 +40,7 @@ pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diag
         let drawn: BTreeSet<u8> = all.iter().map(|casters| casters.cascade.index).collect();
         if let Some(missing) = (0..first.cascade.of).find(|index| !drawn.contains(index)) {
             let message = format!("no pass draws cascade {missing} of {}", first.cascade.of);
-            let wrong = Diagnostic::new(first.pass.name.span, message).remark(words(&first.cascade));
+            let wrong = Diagnostic::new(first.pass.name.span, message).remark(first.cascade.in_words());
             errors.push(wrong.help("all cascades of a view are drawn: `repeat` a pass as often as there are"));
             let wrong = errors.len() - 1;
             used_here(pipeline, first.pass.instance, &mut errors[wrong..]);
@@ -51,11 +51,13 @@ pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diag
 /// The difference that keeps a pass's cascade from being looked up with the first pass's.
 fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     let (name, before) = (&other.pass.name, &first.pass.name);
-    if (first.cascade.of, first.cascade.reach) != (other.cascade.of, other.cascade.reach) {
+    if cut(&first.cascade) != cut(&other.cascade) {
         let message = format!("pass `{}` draws cascades otherwise than pass `{}`", name.text, before.text);
-        let wrong = Diagnostic::new(name.span, message).remark(words(&other.cascade));
-        let wrong = if name.span == before.span { wrong } else { wrong.label(before.span, words(&first.cascade)) };
-        return Some(wrong.help("all cascades of a view are of one number and reach: give both the same"));
+        let wrong = Diagnostic::new(name.span, message).remark(other.cascade.in_words());
+        let wrong = if name.span == before.span { wrong } else { wrong.label(before.span, first.cascade.in_words()) };
+        return Some(
+            wrong.help("all cascades of a view are of one number and reach, with ends of one kind: give both the same"),
+        );
     }
     if first.target.image != other.target.image {
         let wrong = Diagnostic::new(other.target.span, "all cascades of a view are layers of one image");
@@ -68,6 +70,7 @@ fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     })
 }
 
-fn words(cascade: &Cascade) -> String {
-    format!("cascade {} of {} through {}", cascade.index, cascade.of, cascade.reach_in_words())
+/// How a view is cut.
+fn cut(cascade: &Cascade) -> (u8, Option<Metres>, Share) {
+    (cascade.of, cascade.reach, cascade.logarithmic)
 }

@@ -5,7 +5,9 @@ use super::instances::used_here;
 use super::outputs::outputs;
 use super::resources::Resources;
 use super::state::State;
-use super::{casters, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views};
+use super::{
+    casters, decided, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views,
+};
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};
 use crate::language::{self, Document, Read, Reads};
@@ -120,6 +122,7 @@ fn expand_so(
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }
+    let decided = decided::decided(&pipeline, &states, &outputs);
     let kept = precision::choose(inputs.facts().depth_range, &mut resources, &states, &outputs);
 
     let Resources { images, buffers, .. } = resources;
@@ -141,6 +144,7 @@ fn expand_so(
                 buffers,
                 passes,
                 outputs,
+                decided,
                 switched_off,
                 remarks,
             })

@@ -4,7 +4,7 @@ use super::follow::follow_all;
 use super::shapes;
 use crate::base::Diagnostic;
 use crate::frame::{self, Image, Lifetime};
-use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Pipeline, Resolves, Samples, Size};
+use crate::language::{self, Format as Described, ImageRef, Mips, Pipeline, Resolves, Samples};
 use crate::vulkan::{Format, Rotation, Shape};
 use std::sync::Arc;
 
@@ -18,20 +18,11 @@ pub(super) struct FrameImage {
 /// Every image of the pipeline in a frame of this size; `None` where a mistake was reported.
 pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Vec<Option<FrameImage>> {
     let images = &pipeline.images;
-    let formats = follow_all(
-        images,
-        |image| match image.format.value {
-            Described::Like(of) => Some(index(of)),
-            _ => None,
-        },
-        |image, followed| format(image, followed),
-    );
+    let formats =
+        follow_all(images, |image| image.format.value.follows().map(index), |image, followed| format(image, followed));
     let areas = follow_all(
         images,
-        |image| match image.size.value {
-            Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(index(of)),
-            _ => None,
-        },
+        |image| image.size.value.follows().map(index),
         |image, followed| {
             let view = pipeline.views.get(image.view.0 as usize);
             let area = language::area(image, view.map_or(extent, |view| view.extent), followed);
@@ -40,26 +31,17 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
     );
     let samples = follow_all(
         images,
-        |image| match image.samples.value {
-            Samples::Like(of) => Some(index(of)),
-            Samples::Count(_) => None,
-        },
+        |image| image.samples.value.follows().map(index),
         |image, followed| samples(image, followed),
     );
     let layers = follow_all(
         images,
-        |image| match image.layers.value {
-            Layers::Like(of) => Some(index(of)),
-            _ => None,
-        },
+        |image| image.layers.value.follows().map(index),
         |image, followed| shapes::layers(image, followed),
     );
     let mips = follow_all(
         images,
-        |image| match image.mips.value {
-            Mips::Like(of) => Some(index(of)),
-            _ => None,
-        },
+        |image| image.mips.value.follows().map(index),
         |image, followed| match image.mips.value {
             Mips::Count(count) => Some(shapes::Levels::Count(count)),
             Mips::Full => Some(shapes::Levels::Full),
@@ -93,7 +75,8 @@ pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Di
     .collect()
 }
 
-fn index(of: ImageRef) -> usize {
+/// The number of the image that another one follows.
+pub(super) fn index(of: ImageRef) -> usize {
     of.index.0 as usize
 }
 

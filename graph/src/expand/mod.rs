@@ -7,6 +7,7 @@
 
 mod accesses;
 mod casters;
+mod decided;
 mod depth_only;
 mod eyes;
 mod fills;

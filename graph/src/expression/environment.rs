@@ -168,6 +168,8 @@ pub trait Values {
 pub struct Decision {
     /// The name of a setting, a fact or a property of the view or device.
     pub name: Arc<str>,
+    /// The kind of thing that has the name.
+    pub origin: Origin,
     /// Its value.
     pub value: Value,
 }

@@ -14,8 +14,8 @@ use crate::frame::ImageIndex;
 pub struct Outcome {
     /// The value; of the type of the expression.
     pub value: Value,
-    /// Settings, facts and properties of the view and the device that were read on the way to it, each once, in the
-    /// order of reading. A part that was not evaluated decides nothing.
+    /// Settings, facts and properties of the view and the device that decided it, each once, in the order of reading. A part
+    /// that was not evaluated decides nothing. Where one operand alone made `&&` false or `||` true, the other decides nothing.
     pub decided: Vec<Decision>,
     /// The part that made the value `false`, if it is.
     pub failed: Option<Failed>,
@@ -77,6 +77,8 @@ struct Slot {
 struct Read {
     node: u32,
     what: Source,
+    /// Whether the value depends on it. Of `hdr && bloom` with `bloom` false it doesn't depend on `hdr`.
+    decides: bool,
 }
 
 enum Source {
@@ -146,8 +148,19 @@ impl Run<'_> {
                 return Ok(next);
             }
             // The second operand leaves the value of the whole, and the part that explains it.
-            Operation::And => return Ok(next),
-            Operation::Or => self.pop()?.value,
+            Operation::And => {
+                if !self.truth()? {
+                    self.first_operand_decides_nothing(node);
+                }
+                return Ok(next);
+            }
+            Operation::Or => {
+                let value = self.pop()?.value;
+                if value == Value::Bool(true) {
+                    self.first_operand_decides_nothing(node);
+                }
+                value
+            }
             Operation::Branch(to) => return Ok(if self.pop_truth()? { next } else { to }),
             Operation::Jump(to) => return Ok(to),
             Operation::If { widen } => {
@@ -177,13 +190,20 @@ impl Run<'_> {
         }
     }
 
+    /// The second operand of the conjunction or disjunction `node` made its value: the reads of the first one don't count.
+    fn first_operand_decides_nothing(&mut self, node: u32) {
+        let program = &self.expression.program;
+        let first = program.node(node).first..program.node(node.saturating_sub(1)).first;
+        self.reads.iter_mut().rev().filter(|read| first.contains(&read.node)).for_each(|read| read.decides = false);
+    }
+
     /// A value that was read, if it has the declared type and is finite.
     fn read(&mut self, node: u32, symbol: Symbol, value: Value) -> Result<Value, Fault> {
         let value = value.widened(symbol.ty).ok_or(Fault::UNDECLARED)?;
         if matches!(value, Value::Number(number) if !number.is_finite()) {
             return Err(Fault::UNDECLARED);
         }
-        self.reads.push(Read { node, what: Source::Name(symbol, value.clone()) });
+        self.reads.push(Read { node, what: Source::Name(symbol, value.clone()), decides: true });
         Ok(value)
     }
 
@@ -212,7 +232,7 @@ impl Run<'_> {
         let arguments: Vec<Value> = self.stack.drain(from..).map(|slot| slot.value).collect();
         if let (Function::Of(property), [Value::Image(image)]) = (function, &arguments[..]) {
             let value = self.values.property(*image, property)?;
-            self.reads.push(Read { node, what: Source::Property(*image, property) });
+            self.reads.push(Read { node, what: Source::Property(*image, property), decides: true });
             return Ok(Value::Integer(value));
         }
         arithmetic::call(function, &arguments).map_err(|trouble| Fault::Trouble { trouble, operands: parts })
@@ -227,9 +247,11 @@ impl Run<'_> {
     /// The decisions behind the value of a part.
     fn decided(&self, part: u32) -> Vec<Decision> {
         let mut decided: Vec<Decision> = Vec::new();
-        for read in self.read_within(part) {
+        for read in self.read_within(part).filter(|read| read.decides) {
             let (own, others) = match &read.what {
-                Source::Name(symbol, value) if symbol.origin.decides() => (Some(self.named(read.node, value)), &[][..]),
+                Source::Name(symbol, value) if symbol.origin.decides() => {
+                    (Some(self.named(read.node, *symbol, value)), &[][..])
+                }
                 Source::Name(symbol, _) => (None, self.values.decided_by(symbol.id)),
                 Source::Property(image, property) => (None, self.values.property_decided_by(*image, *property)),
             };
@@ -242,13 +264,13 @@ impl Run<'_> {
         decided
     }
 
-    fn named(&self, node: u32, value: &Value) -> Decision {
+    fn named(&self, node: u32, symbol: Symbol, value: &Value) -> Decision {
         let program = &self.expression.program;
         let name = match program.node(node).operation {
             Operation::Name(name) => program.names[name as usize].0.clone(),
             _ => program.text.part(program.range(node)).into(),
         };
-        Decision { name, value: value.clone() }
+        Decision { name, origin: symbol.origin, value: value.clone() }
     }
 
     fn failed(&self, part: u32) -> Failed {
@@ -261,11 +283,11 @@ impl Run<'_> {
     fn shown_within(&self, part: u32) -> String {
         let mut values: Vec<String> = Vec::new();
         for read in self.read_within(part) {
-            let Source::Name(_, value) = &read.what else { continue };
+            let Source::Name(symbol, value) = &read.what else { continue };
             if matches!(value.ty(), Type::Image | Type::Buffer) {
                 continue;
             }
-            let Decision { name, value } = self.named(read.node, value);
+            let Decision { name, value, .. } = self.named(read.node, *symbol, value);
             let value = format!("{} = {value}", shown(&name));
             if !values.contains(&value) {
                 values.push(value);

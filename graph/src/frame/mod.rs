@@ -6,6 +6,7 @@
 mod access;
 pub mod change;
 mod covers;
+mod decided;
 mod index;
 mod jitter;
 mod output;
@@ -17,11 +18,12 @@ mod uses;
 mod view;
 
 pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
+pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;
 pub(crate) use part::TargetShape;
-pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
+pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Share, Work};
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{
@@ -57,6 +59,8 @@ pub struct Frame {
     pub passes: Vec<Pass>,
     /// Images and buffers whose last version the frame is made for.
     pub outputs: Vec<Output>,
+    /// The properties of images and passes that settings and facts decided.
+    pub decided: Arc<[Decided]>,
     /// Passes, and images that passes sample, that conditions switched off, and why.
     pub switched_off: Vec<SwitchedOff>,
     /// Warnings: allowed, but probably a mistake.

@@ -174,16 +174,50 @@ pub struct Cascade {
     pub of: u8,
     /// How far shadows reach; `None`: through the whole scene.
     pub reach: Option<Metres>,
+    /// How logarithmic the distances are at which parts end: 0 cuts parts of equal depth, 1 parts whose ends are multiples of each
+    /// other.
+    pub logarithmic: Share,
 }
 
 impl Cascade {
     /// The most that there are.
     pub const MOST: u8 = 4;
 
-    /// How far shadows reach, for people: "14 m", "the whole scene".
+    /// The part and how the view is cut, for people: "cascade 1 of 4 through 14 m".
     #[must_use]
-    pub fn reach_in_words(&self) -> String {
-        self.reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)))
+    pub fn in_words(&self) -> String {
+        let reach = self.reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)));
+        let words = format!("cascade {} of {} through {reach}", self.index, self.of);
+        if self.logarithmic == Share::OF_CASCADES {
+            return words;
+        }
+        format!("{words}, with ends {} logarithmic", f32::from(self.logarithmic))
+    }
+}
+
+/// A share of a whole, 0 to 1.
+// Bits of such numbers are ordered as the numbers are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "f32", into = "f32")]
+pub struct Share(u32);
+
+impl Share {
+    /// How logarithmic the ends of cascades are if a pipeline says nothing.
+    pub const OF_CASCADES: Share = Share(0.85f32.to_bits());
+}
+
+impl TryFrom<f32> for Share {
+    type Error = &'static str;
+
+    fn try_from(share: f32) -> Result<Share, &'static str> {
+        // A zero loses its sign.
+        (0.0..=1.0).contains(&share).then(|| Share((share + 0.0).to_bits())).ok_or("no number from 0 to 1")
+    }
+}
+
+impl From<Share> for f32 {
+    fn from(share: Share) -> f32 {
+        f32::from_bits(share.0)
     }
 }
 
@@ -234,6 +268,16 @@ pub enum ParamValue {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_numbers_from_0_to_1_are_shares_and_they_are_ordered_as_numbers() {
+        for bad in [-f32::MIN_POSITIVE, 1.0 + f32::EPSILON, f32::INFINITY, f32::NAN] {
+            assert!(Share::try_from(bad).is_err(), "{bad}");
+        }
+        let shares = [-0.0, 0.0, f32::MIN_POSITIVE, 0.5, 1.0].map(|share| Share::try_from(share).expect("a share"));
+        assert_eq!(shares[0], shares[1]);
+        assert!(shares.is_sorted() && f32::from(shares[3]) == 0.5);
+    }
 
     #[test]
     fn only_finite_lengths_above_0_are_lengths_and_they_are_ordered_as_numbers() {

@@ -28,7 +28,7 @@
 
 use crate::base::Place;
 use crate::frame::change::Action;
-use crate::frame::{EyeForm, Stereo};
+use crate::frame::{Decided, EyeForm, Stereo};
 use crate::vulkan::Rotation;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -65,7 +65,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 9;
+pub const FORMAT_VERSION: u32 = 10;
 
 /// The work of a frame on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -79,6 +79,9 @@ pub struct Plan {
     pub settings: Vec<SettingUsed>,
     /// Changes that files made to the pipeline that they extend, in their order.
     pub changes: Vec<Change>,
+    /// The properties of images and passes that settings and facts decided, with their values. A subject may be one that the
+    /// frame names and the Plan doesn't have: an image that became part of another one, or a pass that was culled.
+    pub decided: Arc<[Decided]>,
     /// How the frame is drawn for two eyes, by scopes whose attachments hold both eyes' parts ([`Image::eyes`]).
     pub stereo: Stereo,
     /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this

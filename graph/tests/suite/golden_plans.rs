@@ -1,6 +1,6 @@
 //! The Plans of every shipped pipeline as text, on the shipped lavapipe profile: with its default settings, with each
-//! alternative of each setting, and over a scene of opaque objects alone. The texts under `golden_plans/` are there to be
-//! reviewed: a change of the compiler shows as a change of theirs.
+//! alternative of each setting, over a scene of opaque objects alone, and over one without anything brighter than white. The
+//! texts under `golden_plans/` are there to be reviewed: a change of the compiler shows as a change of theirs.
 
 use crate::testing::pipelines::{INPUTS, shipped};
 use crate::testing::plans::shipped as shipped_device;
@@ -50,8 +50,12 @@ fn alternatives(kind: &SettingKind) -> Vec<String> {
 fn variants(file: &str, pipeline: &Document) -> Vec<Variant> {
     let name = file.trim_end_matches(".ron");
     let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
-    let mut variants =
-        vec![(name.to_owned(), Vec::new(), Facts::UNKNOWN), (format!("{name}@opaque_scene"), Vec::new(), opaque)];
+    let dim = Facts { peak_radiance: 0.75, ..Facts::UNKNOWN };
+    let mut variants = vec![
+        (name.to_owned(), Vec::new(), Facts::UNKNOWN),
+        (format!("{name}@opaque_scene"), Vec::new(), opaque),
+        (format!("{name}@dim_scene"), Vec::new(), dim),
+    ];
     for setting in &pipeline.settings {
         variants.extend(alternatives(&setting.kind).into_iter().map(|value| {
             let set = vec![(setting.name.text.to_string(), value.clone())];

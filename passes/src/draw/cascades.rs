@@ -6,6 +6,7 @@
 //! cascaded shadow maps", ShaderX6, 2008). So a texel covers the same place of the scene as long as it is covered at all.
 
 use super::block::Block;
+use crate::facts::splits::{Splits, through};
 use crate::scene::{Bounds, Camera, Object, Scene};
 use framewright_graph::frame::{Cascade, Draw};
 use framewright_graph::plan::{Plan, ViewId, Work};
@@ -58,10 +59,6 @@ pub fn may_cast(scene: &Scene, camera: &Camera, sun: &SunView, object: &Object) 
 
 /// Texels at each border of a map that a filter may reach into.
 const MARGIN: f64 = 6.0;
-/// Slices begin at this share of the reach, or at the near plane where that is further off.
-const NEAREST: f64 = 1.0 / 256.0;
-/// The share of logarithmic splits between slices; the rest is uniform splits.
-const LOGARITHMIC: f64 = 0.75;
 
 /// How the sun sees a cascade of a camera's picture, of which `aspect` is width over height. Its map has `texels` in width
 /// and height, at least 16.
@@ -71,15 +68,18 @@ pub fn sun_view(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, t
     let eye = camera.position();
     let (middle, radius) = sphere_around(scene);
     let reach = cascade.reach.map_or_else(|| through(middle.distance(eye) + radius), |reach| f32::from(reach).into());
-    let [near, far] = [0.0, 1.0].map(|end| split(camera, reach, f64::from(cascade.index) + end, cascade.of));
+    // Beyond the far plane nothing is seen; the corners of its picture are farther off than its middle.
+    let reach = camera.far.map_or(reach, |far| reach.min(f64::from(far) * corner_distance(camera, aspect)));
+    let splits = Splits { near: camera.near.into(), reach, of: cascade.of, logarithmic: cascade.logarithmic };
+    let [near, far] = [0, 1].map(|end| splits.border(cascade.index + end));
     let (ahead, slice) = sphere_of_slice(camera, aspect, near, far);
-    let texel = 2.0 * slice / (texels - 2.0 * MARGIN);
-
     let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
     let to_sun = to_sun.try_normalize().unwrap_or(DVec3::Y);
     let (right, up) = to_sun.any_orthonormal_pair();
     let forward = -camera.transform.z_axis.truncate();
-    let centre = eye + forward * ahead;
+    // No more is covered than the whole scene.
+    let (centre, slice) = if slice < radius { (eye + forward * ahead, slice) } else { (middle, radius) };
+    let texel = 2.0 * slice / (texels - 2.0 * MARGIN);
     let [x, y] = [right, up].map(|axis| (axis.dot(centre) / texel).round() * texel);
 
     let half = texel * texels * 0.5;
@@ -97,21 +97,10 @@ fn sphere_around(scene: &Scene) -> (DVec3, f64) {
     (around.0, (around.1 * 1.001).max(1e-3))
 }
 
-/// Rounds a distance up to a power of √2, so that it stays the same while the camera moves a little.
-fn through(distance: f64) -> f64 {
-    ((distance.max(1e-3).log2() * 2.0).ceil() * 0.5).exp2()
-}
-
-/// How far from the camera the slice number `border` begins, metres.
-fn split(camera: &Camera, reach: f64, border: f64, of: u8) -> f64 {
-    if border == 0.0 {
-        return 0.0;
-    }
-    let nearest = f64::from(camera.near).max(reach * NEAREST).min(reach);
-    let share = border / f64::from(of.max(1));
-    let logarithmic = nearest * (reach / nearest).powf(share);
-    let even = nearest + (reach - nearest) * share;
-    LOGARITHMIC * logarithmic + (1.0 - LOGARITHMIC) * even
+/// How far the corners of the picture at distance 1 are from the camera.
+fn corner_distance(camera: &Camera, aspect: f64) -> f64 {
+    let up = (f64::from(camera.vertical_fov) * 0.5).tan();
+    (1.0 + up * up * (1.0 + aspect * aspect)).sqrt()
 }
 
 /// The smallest sphere around the frustum between two distances: the distance of its middle from the camera, and its radius.

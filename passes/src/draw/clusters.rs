@@ -201,8 +201,9 @@ fn ball(light: &PointLight, camera: &Camera, space: &CameraSpace) -> Option<Ball
     Some(Ball { centre: space.from_world * from_camera, squared_radius: radius * radius })
 }
 
-/// How far from a camera the scene reaches, metres.
+/// How far from a camera what it sees of the scene reaches, metres.
 fn farthest(scene: &Scene, camera: &Camera) -> f64 {
     let eye = camera.position();
-    scene.bounds().map_or(1.0, |bounds| bounds.center().distance(eye) + bounds.radius())
+    let reach = scene.bounds().map_or(1.0, |bounds| bounds.center().distance(eye) + bounds.radius());
+    camera.far.map_or(reach, |far| reach.min(far.into()))
 }

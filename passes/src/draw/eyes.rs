@@ -81,6 +81,9 @@ impl Eyes {
         behind.vertical_fov = behind.vertical_fov.next_up().next_up();
         let moved = camera.position() + DMat3::from_mat4(camera.transform) * DVec3::new(0.0, 0.0, back);
         behind.transform.w_axis = moved.extend(1.0);
+        // An eye ahead of the camera has its far plane so much farther off.
+        let ahead = both.iter().map(|eye| -eye.place.z).fold(0.0, f64::max);
+        behind.far = camera.far.map(|far| ((f64::from(far) + back + ahead) as f32).next_up());
         behind
     }
 }

@@ -10,7 +10,8 @@ use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 
 /// Clip space from the shaders' world space. `aspect` is width over height.
 ///
-/// Depth is reversed without a far plane: 1 on the near plane, 0 infinitely far. Clip space is Vulkan's: y down.
+/// Depth is reversed: 1 on the near plane, 0 on the far plane, or infinitely far if there is none. Clip space is Vulkan's: y
+/// down.
 pub(super) fn world_to_clip(camera: &Camera, aspect: f64) -> DMat4 {
     let rotation = DMat4::from_mat3(DMat3::from_mat4(camera.transform).inverse());
     camera.projection(aspect).as_dmat4() * rotation

@@ -1,9 +1,10 @@
-//! Frustum culling: an object may be visible unless its box is wholly beyond a side of the frustum or behind the near plane.
+//! Frustum culling: an object may be visible unless its box is wholly beyond a side of the frustum, before the near plane or
+//! behind the far plane.
 //!
-//! The corners of an object's box are taken to clip space, where a picture's four sides and the near plane are planes: a box
-//! is beyond one if all of its corners are (U. Assarsson, T. Möller, "Optimized view frustum culling algorithms for bounding
-//! boxes", Journal of Graphics Tools 5 (1), 2000). Nothing is divided, so a box may reach behind the camera, and there is no
-//! far plane. A box that is beyond none may still be out of sight: it is drawn.
+//! The corners of an object's box are taken to clip space, where a picture's four sides, the near and the far plane are planes:
+//! a box is beyond one if all of its corners are (U. Assarsson, T. Möller, "Optimized view frustum culling algorithms for
+//! bounding boxes", Journal of Graphics Tools 5 (1), 2000). Nothing is divided, so a box may reach behind the camera. Without a
+//! far plane no box is beyond it. A box that is beyond none may still be out of sight: it is drawn.
 
 use super::frame_data::world_to_clip;
 use crate::scene::{Bounds, Camera, Scene};
@@ -38,7 +39,8 @@ fn may_be_visible(bounds: Bounds, to_world: DMat4, world_to_clip: DMat4) -> bool
     let corners: [DVec4; 8] = bounds.corners().map(|corner| to_clip * corner.extend(1.0));
     let beyond =
         |axis: usize, side: f64| corners.iter().all(|corner| side * corner[axis] - corner.w > slack[axis] + slack.w);
-    !(beyond(0, 1.0) || beyond(0, -1.0) || beyond(1, 1.0) || beyond(1, -1.0) || beyond(2, 1.0))
+    let beyond_far = corners.iter().all(|corner| corner.z < -slack.z);
+    !(beyond(0, 1.0) || beyond(0, -1.0) || beyond(1, 1.0) || beyond(1, -1.0) || beyond(2, 1.0) || beyond_far)
 }
 
 fn absolute(matrix: DMat4) -> DMat4 {

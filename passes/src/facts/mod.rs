@@ -1,9 +1,10 @@
 //! The facts of a scene that pipeline files can use, and what decided each.
 
 mod peak;
+pub(crate) mod splits;
 
-use crate::scene::{AlphaMode, Bounds, Object, Scene};
-use framewright_graph::frame::DrawList;
+use crate::scene::{AlphaMode, Bounds, Camera, Object, Scene};
+use framewright_graph::frame::{Cascade, DrawList};
 use framewright_graph::language::{Fact, FactValue, Facts};
 use peak::{Peak, peak};
 
@@ -51,6 +52,7 @@ fn facts(scene: &Scene, peak: Peak) -> Facts {
         has_transparent: any(DrawList::Transparent),
         has_cross_fade: scene.objects.iter().any(|object| is_dithered(scene, object)),
         casts_shadows: casts_shadows(scene),
+        shadow_cascades: shadow_cascades(scene),
         peak_radiance: peak.radiance,
         suns: u32::from(scene.sun.shines()),
         point_lights: count(scene.point_lights.iter().filter(|light| light.shines()).count()),
@@ -65,8 +67,11 @@ fn depth_range(scene: &Scene) -> Option<f64> {
     let cameras = || scene.cameras.iter().map(|camera| &camera.camera).chain([&scene.camera]);
     let places = cameras().map(|camera| Bounds { min: camera.position(), max: camera.position() });
     let all = scene.bounds().into_iter().chain(places).reduce(Bounds::union)?;
-    let near = cameras().map(|camera| f64::from(camera.near)).fold(f64::INFINITY, f64::min);
-    Some((2.0 * all.radius() / near).max(1.0))
+    let range = |camera: &Camera| {
+        let far = camera.far.map_or(f64::INFINITY, f64::from);
+        (2.0 * all.radius()).min(far) / f64::from(camera.near)
+    };
+    Some(cameras().map(range).fold(1.0, f64::max))
 }
 
 fn is_clipped(scene: &Scene, object: &Object) -> bool {
@@ -82,6 +87,14 @@ fn is_dithered(scene: &Scene, object: &Object) -> bool {
 fn casts_shadows(scene: &Scene) -> bool {
     let caster = scene.objects.iter().any(|object| scene.draw_list(object) != DrawList::Transparent);
     caster && !shadowing_lights(scene).is_empty()
+}
+
+/// How many cascades the sun's shadows need; 0 if it casts none.
+fn shadow_cascades(scene: &Scene) -> u32 {
+    if !(scene.sun.shadows && scene.sun.shines() && casts_shadows(scene)) {
+        return 0;
+    }
+    depth_range(scene).map_or(Cascade::MOST, splits::needed).into()
 }
 
 /// Lights that shine and cast shadows, in words.
@@ -103,6 +116,10 @@ fn because(scene: &Scene, peak: Peak, fact: Fact) -> String {
             (_, false) => "there is nothing that light doesn't go through".to_owned(),
             (lights, true) => few(lights.iter().cloned()),
         },
+        Fact::ShadowCascades if shadow_cascades(scene) == 0 => "the sun casts none".to_owned(),
+        Fact::ShadowCascades => depth_range(scene).map_or_else(String::new, |range| {
+            format!("all objects and cameras are within {range:.0} times the shortest near distance")
+        }),
         Fact::PeakRadiance => {
             let where_to = peak.object.map_or_else(
                 || if scene.sun.shines() { "the sky, towards the sun".to_owned() } else { "the sky".to_owned() },

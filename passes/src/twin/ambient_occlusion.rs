@@ -12,8 +12,7 @@ const RISE_OF_DISTANCE: f64 = 0.001;
 const NEARLY_TOUCHING: f64 = 0.0001;
 const APART: f64 = 0.05;
 
-/// The surfaces in a picture: row by row depth, reversed without a far plane, 0 where there is none, and the
-/// normal, octahedral.
+/// The surfaces in a picture: row by row depth, reversed, 0 where there is none, and the normal, octahedral.
 #[derive(Debug, Clone)]
 pub struct Surfaces {
     /// Width and height in texels.
@@ -37,6 +36,12 @@ impl Surfaces {
         self.world_to_clip.inverse().project_point3(DVec3::new(clip[0], clip[1], depth))
     }
 
+    /// The distance of a texel's surface along the camera's axis; infinite where there is none.
+    fn away(&self, texel: [i32; 2]) -> f64 {
+        let is_there = self.depth[self.index(texel)] > 0.0;
+        if is_there { self.world_to_clip.row(3).dot(self.place_at(texel).extend(1.0)) } else { f64::INFINITY }
+    }
+
     /// The share of light from everywhere that reaches a texel's surface past those around it. `radius` in metres.
     #[must_use]
     pub fn openness(&self, texel: [i32; 2], radius: f64, strength: f64) -> f64 {
@@ -45,7 +50,7 @@ impl Surfaces {
             return 1.0;
         }
         let (here, normal) = (self.place_at(texel), from_octahedral(self.normal[self.index(texel)]));
-        let away = self.world_to_clip.w_axis.z / depth;
+        let away = self.away(texel);
         let rows = DMat3::from_mat4(self.world_to_clip).transpose();
         let focal = [rows.x_axis.length(), rows.y_axis.length()];
         let occlusion = |i: u32| {
@@ -70,15 +75,16 @@ impl Surfaces {
     /// The mean of `source`, row by row, around a texel, of surfaces at about its distance.
     #[must_use]
     pub fn blurred(&self, source: &[f64], texel: [i32; 2]) -> f64 {
-        let here = self.depth[self.index(texel)];
+        // What lies beside nothing is infinitely far from it.
+        let nearness = |texel| self.away(texel).recip();
+        let here = nearness(texel);
         let (mut sum, mut weights) = (0.0, 0.0);
         for (x, y) in (-2..=2).flat_map(|y| (-2..=2).map(move |x| (x, y))) {
             let there = [(texel[0] + x).clamp(0, self.extent[0] - 1), (texel[1] + y).clamp(0, self.extent[1] - 1)];
-            let there = self.index(there);
-            let apart = (here - self.depth[there]).abs() / self.depth[there].max(1e-30);
+            let apart = (here - nearness(there)).abs() / nearness(there).max(1e-30);
             let end = |offset: i32| if offset.abs() == 2 { 0.5 } else { 1.0 };
             let weight = end(x) * end(y) * (1.0 - apart / APART).max(0.0);
-            sum += weight * source[there];
+            sum += weight * source[self.index(there)];
             weights += weight;
         }
         sum / weights
@@ -86,14 +92,16 @@ impl Surfaces {
 }
 
 /// By how much a texel turns its spiral, 0 to less than 1.
-fn spiral_turn([x, y]: [i32; 2]) -> f64 {
+#[must_use]
+pub fn spiral_turn([x, y]: [i32; 2]) -> f64 {
     let (x, y) = (x & 3, y & 3);
     let z = x ^ y;
     f64::from((z & 1) << 3 | (y & 1) << 2 | z & 2 | y >> 1) / 16.0
 }
 
-/// The weight of an occluder.
-fn occlusion_by(towards: DVec3, normal: DVec3, away: f64, radius: f64) -> f64 {
+/// The weight of an occluder at `towards` from a surface that is `away` from the camera.
+#[must_use]
+pub fn occlusion_by(towards: DVec3, normal: DVec3, away: f64, radius: f64) -> f64 {
     let squared = towards.length_squared() / (radius * radius);
     let share = (1.0 - squared).max(0.0);
     let rise = towards.dot(normal) / radius - RISE_OF_RADIUS.max(RISE_OF_DISTANCE * away / radius);

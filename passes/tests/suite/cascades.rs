@@ -1,6 +1,6 @@
 //! Claims about how the sun sees the parts of a scene (IQ-25): everything is covered, and nothing shimmers.
 
-use framewright_graph::frame::{Cascade, DrawList};
+use framewright_graph::frame::{Cascade, DrawList, Share};
 use framewright_passes::draw::cascades::{SunView, sun_view};
 use framewright_passes::scene::{Camera, Scene, load};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec3};
@@ -15,7 +15,7 @@ fn scene() -> Scene {
 }
 
 fn cascade(index: u8, of: u8) -> Cascade {
-    Cascade { list: DrawList::Opaque, index, of, reach: 30.0.try_into().ok() }
+    Cascade { list: DrawList::Opaque, index, of, reach: 30.0.try_into().ok(), logarithmic: Share::OF_CASCADES }
 }
 
 fn seen(scene: &Scene, camera: &Camera, index: u8, of: u8) -> SunView {
@@ -113,4 +113,72 @@ fn without_a_reach_shadows_go_through_the_whole_scene_and_keep_their_size_in_sma
     let mut reaches: Vec<f64> = steps.collect();
     reaches.dedup();
     assert!(reaches.len() <= 2, "{reaches:?}");
+}
+
+/// The size of a texel in the picture at a distance from the camera: relative to the distance, of the first cascade that covers
+/// the picture there.
+fn texel_in_picture(scene: &Scene, camera: &Camera, distance: f64, of: u8) -> f64 {
+    let up = (f64::from(camera.vertical_fov) * 0.5).tan();
+    let corner = |x: f64, y: f64| {
+        let seen = DVec3::new(x * up * ASPECT, y * up, -1.0) * distance;
+        camera.transform.transform_point3(seen)
+    };
+    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0)];
+    let texel = (0..of).find_map(|index| {
+        let cascade = Cascade { list: DrawList::Opaque, index, of, reach: None, logarithmic: Share::OF_CASCADES };
+        let seen = sun_view(scene, camera, ASPECT, cascade, TEXELS);
+        let within = |place: &DVec3| {
+            let (texel, _) = in_map(&seen, camera, *place);
+            texel.min_element() >= 0.0 && texel.max_element() <= f64::from(TEXELS)
+        };
+        corners.iter().all(within).then_some(seen.texel)
+    });
+    texel.map_or(0.0, |texel| texel / distance)
+}
+
+/// NU-6: with as many cascades as a scene needs, no texel covers more of the picture than with four in a scene of any depth.
+#[test]
+fn as_many_cascades_as_the_fact_says_are_as_fine_in_the_picture_as_four_in_a_deep_scene() {
+    let mut said = [0; 5];
+    for near in [1.0_f32, 2.0, 6.0, 10.0, 16.0] {
+        let mut scene = scene();
+        scene.sun.shadows = true;
+        scene.camera.near = near;
+        scene.cameras.iter_mut().for_each(|it| it.camera.near = near);
+        let of = u8::try_from(scene.facts().shadow_cascades).expect("a small number");
+        said[usize::from(of)] += 1;
+        if of == Cascade::MOST {
+            continue;
+        }
+        let deep = Camera { near: 1e-4, ..scene.camera };
+        let whole = Cascade { list: DrawList::Opaque, index: 0, of: 4, reach: None, logarithmic: Share::OF_CASCADES };
+        let reach = sun_view(&scene, &deep, ASPECT, whole, TEXELS).reach;
+        let allowed = texel_in_picture(&scene, &deep, reach / 256.0, 4);
+        for step in 0..20 {
+            let far = f64::from(step) * 0.05;
+            let camera = moved(&scene.camera, DVec3::new(-far, 0.0, -far), 0.1 * f64::from(step));
+            let mut distance = f64::from(near);
+            while distance < reach {
+                let found = texel_in_picture(&scene, &camera, distance, of);
+                assert!(
+                    found <= allowed * 1.001,
+                    "near {near}, {of} cascades, {distance} m: {found} and not {allowed}"
+                );
+                distance *= 1.07;
+            }
+        }
+    }
+    assert!(said[1] > 0 && said[2] > 0 && said[4] > 0, "{said:?}");
+}
+
+/// NU-6: a scene whose sun casts no shadows needs no cascades.
+#[test]
+fn without_shadows_of_the_sun_no_cascade_is_needed() {
+    let mut scene = scene();
+    scene.sun.shadows = false;
+    assert_eq!(scene.facts().shadow_cascades, 0);
+    scene.sun.shadows = true;
+    assert_ne!(scene.facts().shadow_cascades, 0);
+    scene.sun.color = [0.0; 3];
+    assert_eq!(scene.facts().shadow_cascades, 0);
 }

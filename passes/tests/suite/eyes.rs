@@ -36,6 +36,7 @@ fn one_camera_sees_all_that_either_eye_sees() {
         let (at, to) = (random.vector(far), random.vector(1.0));
         let (fov, near) = (random.between(0.3, 2.4) as f32, random.between(0.01, 1.0) as f32);
         let Some(camera) = Camera::look_at(at, at + to, DVec3::new(0.1, 1.0, 0.2), fov, near) else { continue };
+        let camera = Camera { far: (random.next() < 0.5).then_some(near * 100.0), ..camera };
         let aspect = random.between(0.5, 2.0);
         let mut sight = |x| {
             let place = DVec3::new(x, random.between(-0.02, 0.02), random.between(-0.02, 0.02));
@@ -54,10 +55,13 @@ fn one_camera_sees_all_that_either_eye_sees() {
                     |before: f64, after: f64| random.between(-before * 1.2, after * 1.2).clamp(-before, after);
                 let (x, y) = (edge(left, right), edge(below, above));
                 let distance = f64::from(camera.near) * 10_f64.powf(random.between(0.0, 4.0));
+                // On the far plane more often than not.
+                let distance = distance.min(camera.far.map_or(f64::INFINITY, f64::from));
                 let place = eye.place + DVec3::new(x * distance, y * distance, -distance);
                 let world = camera.position() + axes(&camera) * place;
                 let seen = axes(&around).transpose() * (world - around.position());
                 let ahead = -seen.z;
+                assert!(around.far.is_none_or(|far| ahead <= f64::from(far)), "{ahead} is beyond {:?}", around.far);
                 assert!(ahead >= f64::from(around.near) * (1.0 - 1e-6), "{ahead} is before {}", around.near);
                 assert!(seen.x.abs() <= ahead * widest * aspect, "{seen} lies beside {}", widest * aspect);
                 assert!(seen.y.abs() <= ahead * widest, "{seen} lies above or below {widest}");

@@ -56,6 +56,20 @@ fn the_range_of_depth_is_the_size_of_all_that_there_is_in_near_distances() {
 }
 
 #[test]
+fn a_far_plane_bounds_the_range_of_depth() {
+    let bounded = |far: f64| {
+        let camera =
+            format!(r#", cameras: [(name: "macro", position: (0, 1, 1), target: (0, 0, 0), near: 0.001, far: {far})]"#);
+        scene(&(WHITE_CUBE.to_owned() + &camera)).facts().depth_range.expect("known")
+    };
+    // The other camera sees 58 near distances.
+    let size = DVec3::new(1.0, 1.5, 5.5).length();
+    assert!(is_close(bounded(2.0), 2.0 / f64::from(0.001_f32)), "{}", bounded(2.0));
+    assert!(is_close(bounded(0.01), size / f64::from(0.1_f32)), "{}", bounded(0.01));
+    assert!(is_close(bounded(1e6), size / f64::from(0.001_f32)), "{}", bounded(1e6));
+}
+
+#[test]
 fn a_scene_without_light_shows_nothing() {
     assert_eq!(peak(&night(WHITE_CUBE)), 0.0);
     let facts = night(WHITE_CUBE).facts();

@@ -51,13 +51,14 @@ fn shows(scene: &Scene, camera: &Camera, aspect: f64, object: &Object) -> bool {
     let mesh = &scene.meshes[object.mesh];
     let to_view = camera.transform.inverse() * object.transform;
     let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
-    // Each is positive on the inner side: the four borders and the near plane.
-    let planes: [&dyn Fn(DVec3) -> f64; 5] = [
+    // Each is positive on the inner side: the four borders, the near and the far plane.
+    let planes: [&dyn Fn(DVec3) -> f64; 6] = [
         &|at| -at.z * tangent * aspect - at.x,
         &|at| -at.z * tangent * aspect + at.x,
         &|at| -at.z * tangent - at.y,
         &|at| -at.z * tangent + at.y,
         &|at| -at.z - f64::from(camera.near),
+        &|at| at.z + camera.far.map_or(f64::INFINITY, f64::from),
     ];
     mesh.indices.as_chunks::<3>().0.iter().any(|corners| {
         let corner = |index: u32| to_view.transform_point3(Vec3::from(mesh.positions[index as usize]).as_dvec3());
@@ -90,6 +91,7 @@ fn no_object_is_left_out_of_which_a_triangle_shows() {
         let (target, near) = (eye.as_dvec3() + random.vector(1.0).as_dvec3(), random.between(0.01, 3.0));
         let fov = random.between(0.2, 2.8);
         let Some(camera) = Camera::look_at(eye.as_dvec3(), target, DVec3::Y, fov, near) else { continue };
+        let camera = Camera { far: (round % 3 == 0).then(|| near + random.between(0.1, 30.0)), ..camera };
         for _ in 0..60 {
             // Mirrored, flattened, long and thin, huge: a scene may hold all of these.
             let mut scale = random.vector(1.0) * [0.1, 1.0, 20.0][(random.next() * 3.0) as usize % 3];

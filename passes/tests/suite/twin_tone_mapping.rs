@@ -1,5 +1,6 @@
 //! Claims about the tone mapping curves (IQ-21), over everything that the guard lets through.
 
+use framewright_passes::srgb::{decode, encode};
 use framewright_passes::twin::radiance::{LARGEST_HALF, guard_radiance};
 use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
 
@@ -172,5 +173,42 @@ fn neutral_brightens_with_the_light_and_ends_in_white() {
         assert!(curve.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12));
         let white = neutral(shares.map(|share| share * LARGEST_HALF));
         assert!(white.iter().all(|channel| *channel > 0.999), "{white:?}");
+    }
+}
+
+/// The number from 0 to 255 that an 8-bit sRGB image stores.
+fn stored(linear: f64) -> f64 {
+    (encode(linear) * 255.0).round()
+}
+
+/// NU-6: pipelines keep light in 8 bits where nothing is brighter than white. By curves that take neighbouring shades nowhere
+/// further apart, no shade is off by more than one step, and no step is left out that the light had.
+#[test]
+fn eight_bits_of_light_are_enough_for_curves_that_only_compress() {
+    // With an endless white point the curve is `reinhard`.
+    for white_point in [1.0, 1.001, 1.5, 4.0, 20.0, 100.0, f64::INFINITY] {
+        let (name, curve) = (format!("white point {white_point}"), |light: f64| modified_reinhard(light, white_point));
+        let shown = |step: u32| stored(curve(decode(f64::from(step) / 255.0)));
+        for step in 1..=255 {
+            let apart = shown(step) - shown(step - 1);
+            assert!((0.0..=1.0).contains(&apart), "{name}: steps {} and {step} are {apart} apart", step - 1);
+        }
+        for part in 0..=100_000 {
+            let radiance = f64::from(part) * 1e-5;
+            let off = (stored(curve(decode(stored(radiance) / 255.0))) - stored(curve(radiance))).abs();
+            assert!(off <= 1.0, "{name}: {radiance} is off by {off} steps");
+        }
+    }
+}
+
+/// NU-6: why pipelines keep 16 bits for the other curves.
+#[test]
+fn eight_bits_of_light_leave_steps_out_for_curves_that_spread_dark_shades() {
+    let grey = |radiance: f64| neutral([radiance; 3])[0];
+    let curves: [(&str, &dyn Fn(f64) -> f64); 2] = [("filmic", &filmic), ("neutral", &grey)];
+    for (name, curve) in curves {
+        let shown = |step: u32| stored(curve(decode(f64::from(step) / 255.0)));
+        let most = (1..=255).map(|step| shown(step) - shown(step - 1)).fold(0.0, f64::max);
+        assert!(most >= 2.0, "{name}: at most {most} steps apart");
     }
 }

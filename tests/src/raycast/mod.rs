@@ -74,19 +74,20 @@ impl<'scene> RayCaster<'scene> {
         Ray { origin, direction: right * across + up * upwards - back, spread: [right * pixel, up * -pixel] }
     }
 
-    /// The first surface that `ray` meets from the near plane on: front faces, back faces of double-sided materials, and no holes of
-    /// masked ones. Transparent objects count as whole.
+    /// The first surface that `ray` meets between the near and the far plane: front faces, back faces of double-sided
+    /// materials, and no holes of masked ones. Transparent objects count as whole.
     #[must_use]
     pub fn cast(&self, ray: &Ray) -> Option<Hit> {
         let near = f64::from(self.scene.camera.near);
+        let far = self.scene.camera.far.map_or(f64::INFINITY, f64::from);
         let mut nearest: Option<Hit> = None;
         self.tree.walk(ray, |triangle| {
-            let limit = nearest.map_or(f64::INFINITY, |hit| hit.depth);
+            let limit = nearest.map_or(far, |hit| hit.depth);
             let meeting = meet(ray, &self.triangles[triangle as usize]);
             if let Some(meeting) = meeting.filter(|meeting| (near..limit).contains(&meeting.distance)) {
                 nearest = self.shown(ray, triangle, &meeting).or(nearest);
             }
-            nearest.map_or(f64::INFINITY, |hit| hit.depth)
+            nearest.map_or(far, |hit| hit.depth)
         });
         nearest
     }

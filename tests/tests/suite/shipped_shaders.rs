@@ -186,7 +186,7 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("scale_area", &["source"], &["target_width", "target_height"]),
         ("scale_catmull_rom", &["source"], &["target_width", "target_height"]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
-        ("taa", &["now", "before", "depth", "motion"], &["share", "deviations"]),
+        ("taa", &["now", "before", "depth", "motion", "record_before"], &["share", "deviations"]),
         ("tone_map", &["source"], &["exposure", "white_point"]),
         ("tone_map_operator", &["source"], &["exposure", "operator", "white_point"]),
         ("vignette", &[], &["strength", "aspect"]),

@@ -20,6 +20,7 @@ const AXES = [
   ["recording ms", cost(it => it.recording_milliseconds.median), 1],
   ["MiB", cost(it => it.transient_bytes / MIB), 1],
   ["moved MiB", cost(it => it.moved_bytes / MIB), 1],
+  ["fragments, 10⁶", cost(it => typeof it.fragment_invocations === "number" ? it.fragment_invocations / 1e6 : null), 1],
   ["FLIP", error(it => it.flip.mean), 1],
   ["FLIP 95 %", error(it => it.flip.percentile_95), 1],
   ["FLIP worst", error(it => it.flip.worst), 1],
@@ -27,6 +28,9 @@ const AXES = [
   ["largest error", error(it => it.max_error), 1],
   ["relative MSE", error(it => it.relative_mse), 1],
   ["SSIM", error(it => it.ssim), -1],
+  ["flicker", measured => measured.flicker && measured.flicker.mean, 1],
+  ["flicker 95 %", measured => measured.flicker && measured.flicker.percentile_95, 1],
+  ["flicker worst", measured => measured.flicker && measured.flicker.worst, 1],
   // No difference is an infinite ratio.
   ["PSNR dB", error(it => it.psnr === null ? Infinity : it.psnr), -1],
 ].map(([name, of, sign]) => ({ name, sign, of: row => row.measured ? of(row.measured) : null }));
@@ -162,11 +166,14 @@ function mark() {
 function detail() {
   if (!picked) return;
   at("name").textContent = `${picked.name} — ${picked.place}`;
-  const paths = picked.measured ? ["picture", "reference", "heat_map"] : [];
+  const paths = picked.measured ? ["picture", "reference", "heat_map", "flicker_map"] : [];
   at("pictures").replaceChildren(...paths.filter(kind => picked.measured[kind]).map(kind => {
     // Each part of a path is a name, whatever it holds.
     const path = picked.measured[kind], address = path.split("/").map(encodeURIComponent).join("/");
-    const what = { picture: "picture", reference: "reference", heat_map: "FLIP: bright where a difference is seen" }[kind];
+    const what = {
+      picture: "picture", reference: "reference", heat_map: "FLIP: bright where a difference is seen",
+      flicker_map: "flicker: bright where the error changes from frame to frame",
+    }[kind];
     const figure = make("figure"), link = make("a", { href: address });
     link.append(/\.png$/i.test(path) ? make("img", { src: address, alt: what, loading: "lazy" }) : document.createTextNode(path));
     figure.append(link, make("figcaption", {}, what));
@@ -258,7 +265,7 @@ document.title = `${subject.pipeline}: measured settings`;
 const places = [...new Set(rows.map(row => row.place))];
 places.forEach(place => at("group").append(make("option", { value: place }, place)));
 if (places.length !== 1) at("group").append(make("option", { value: "" }, "all"));
-for (const [id, first] of [["across", 0], ["up", 5]]) {
+for (const [id, first] of [["across", 0], ["up", 6]]) {
   AXES.forEach((axis, index) => at(id).append(make("option", { value: index }, axis.name)));
   at(id).value = first;
 }

@@ -39,6 +39,7 @@ impl Row {
                     "recording_milliseconds": spread(0.125),
                     "transient_bytes": 1 << 20,
                     "moved_bytes": 5 << 20,
+                    "fragment_invocations": null,
                 },
                 "errors": null,
                 "reference_errors": null,
@@ -46,6 +47,8 @@ impl Row {
                 "picture": null,
                 "reference": null,
                 "heat_map": null,
+                "flicker": null,
+                "flicker_map": null,
             } },
         });
         Row(row).errors(0.0, 0.0, 1.0)
@@ -121,6 +124,7 @@ pub(crate) fn results(rows: Vec<Value>) -> Value {
             "device": "a device",
             "driver": "a driver 1.0",
             "frames": 16,
+            "flicker_frames": null,
             "reference": "auto",
             "baseline": { "msaa": "4", "scale": "1" },
         },

@@ -9,6 +9,7 @@ use super::{attachments, notes, outputs, ownership, passes};
 use crate::compile::scope::Step as Grouped;
 use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
+use std::sync::Arc;
 
 /// The Plan, with the images and buffers that `resources` made.
 pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Resources) -> Plan {
@@ -18,6 +19,7 @@ pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Re
         device: DeviceUsed { name: results.device.name.clone(), exact_memory: results.exact_memory },
         settings: settings(results),
         changes: changes(results),
+        decided: Arc::clone(&results.frame.decided),
         stereo: results.frame.stereo,
         views: views(results),
         images,

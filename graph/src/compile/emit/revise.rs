@@ -8,10 +8,12 @@ use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
 use crate::plan::{Param, Pass, Plan, Role, Totals, Work};
+use std::sync::Arc;
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
 pub(in crate::compile) fn values(results: &StageResults<'_>, plan: &mut Plan) {
     plan.settings = settings(results);
+    plan.decided = Arc::clone(&results.frame.decided);
     plan.views = views(results);
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&results.scoped.steps).zip(0_u32..) {
         match (&mut step.work, grouped) {

@@ -1,6 +1,6 @@
 //! `sample`, `storage`, `uniform` and `params`: the bindings and parameters of a shader, by the shader's own names.
 
-use super::condition;
+use super::condition::{self, Condition};
 use super::firsts::Firsts;
 use super::parts::{self, Either, Selected};
 use super::values::{self, optional};
@@ -136,16 +136,18 @@ impl Context<'_> {
                 Shape::Parentheses => context.reader.read(value, "a sampled image")?,
                 _ => SampleFields::plain(value),
             };
-            let off = optional(fields.when, |leaf| context.when(leaf));
+            let condition = optional(fields.when, |leaf| context.when(leaf));
             let sample = context.sampled_image(binding.clone(), fields);
-            let (binding, off, sample) = (binding?, off?, sample?);
-            let Some(off) = off else { return Some(sample.map(Ok)) };
+            let (binding, condition, sample) = (binding?, condition?, sample?);
+            let Some(condition) = condition else { return Some(sample.map(Ok)) };
             Some(FieldValue::computed(move |evaluator| {
-                let off = off.evaluate(evaluator);
-                let is_off = matches!(off, Some(Some(_)));
+                let condition = condition.evaluate(evaluator);
+                let is_off = condition.as_ref().is_some_and(|condition| condition.off.is_some());
                 let before = evaluator.reader.errors.len();
                 let sample = evaluator.leniently(is_off, |evaluator| sample.evaluate(evaluator));
-                match off? {
+                let Condition { off, by } = condition?;
+                evaluator.chosen = evaluator.chosen.and(&by);
+                match off {
                     None => sample.map(Ok),
                     // An image that has no value because it is left out is no mistake.
                     Some(off) if evaluator.reader.errors.len() == before => {

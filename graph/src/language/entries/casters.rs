@@ -3,7 +3,7 @@
 use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::frame::{Cascade, DrawList, Metres};
+use crate::frame::{Cascade, DrawList, Metres, Share};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, combined};
 use crate::ron::{Described, Leaf, Spanned, Table, names};
 
@@ -25,6 +25,9 @@ fields! {
         of: Leaf<'src> => Form::Whole(1, Cascade::MOST as i64),
         /// How far from the camera shadows reach, in metres; through the whole scene if left out or 0.
         reach: Option<Leaf<'src>> => Form::Number,
+        /// How logarithmic the distances are at which parts end, 0 to 1: 0 cuts parts of equal depth, 1 makes each end the same
+        /// multiple of the one before, which is sharper near by. 0.85 if left out.
+        logarithmic: Option<Leaf<'src>> => Form::Number,
     }
 }
 
@@ -45,16 +48,35 @@ impl Context<'_> {
         let index = self.whole_at(fields.cascade, "cascade", 0..=most - 1);
         let of = self.whole_at(fields.of, "number of cascades", 1..=most);
         let reach = optional(fields.reach, |leaf| self.reach(leaf));
+        let logarithmic = optional(fields.logarithmic, |leaf| self.logarithmic(leaf));
         let (list, index) = (list?, index?);
         let said = index.is_constant();
-        let numbers = combined((index, of?, reach?), |numbers| numbers);
-        numbers.checked_as(self.reader, said, move |(index, of, reach): (Spanned<u8>, Spanned<u8>, _), _| {
-            if index.value >= of.value {
-                let beyond = format!("there is no cascade {} of {}", index.value, of.value);
-                let help = format!("write a number from 0 to {}", of.value - 1);
-                return Err(Diagnostic::new(index.span, beyond).label(of.span, "the number of cascades").help(help));
-            }
-            Ok(Cascade { list, index: index.value, of: of.value, reach: reach.flatten() })
+        let numbers = combined((index, of?, reach?, logarithmic?), |numbers| numbers);
+        numbers.checked_as(
+            self.reader,
+            said,
+            move |(index, of, reach, logarithmic): (Spanned<u8>, Spanned<u8>, _, _), _| {
+                if index.value >= of.value {
+                    let beyond = format!("there is no cascade {} of {}", index.value, of.value);
+                    let help = format!("write a number from 0 to {}", of.value - 1);
+                    return Err(Diagnostic::new(index.span, beyond)
+                        .label(of.span, "the number of cascades")
+                        .help(help));
+                }
+                let logarithmic = logarithmic.unwrap_or(Share::OF_CASCADES);
+                Ok(Cascade { list, index: index.value, of: of.value, reach: reach.flatten(), logarithmic })
+            },
+        )
+    }
+
+    /// How logarithmic the distances are at which parts end.
+    fn logarithmic(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Share>> {
+        self.number_because(leaf, "how logarithmic splits are")?.checked(self.reader, move |share, _| {
+            #[allow(clippy::cast_possible_truncation, reason = "a number a little above 1 is refused or rounded to 1")]
+            Share::try_from(share.value as f32).map_err(|_| {
+                let wrong = Diagnostic::new(share.span, "splits can't be that logarithmic");
+                wrong.help("write a number from 0 (parts of equal depth) to 1").remark(share.remark())
+            })
         })
     }
 

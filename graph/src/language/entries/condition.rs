@@ -1,7 +1,7 @@
 //! `when`: a condition that switches an entry off.
 
 use crate::expression::{Value, Wanted};
-use crate::language::model::{Decided, Off, SettingKind};
+use crate::language::model::{Decided, Decisions, Off, SettingKind};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
 use std::sync::Arc;
@@ -9,20 +9,30 @@ use std::sync::Arc;
 /// The form of `when`: a condition.
 pub(crate) const CONDITION: Form = Form::Expression("a condition");
 
+/// The outcome of a condition.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Condition {
+    /// Why it doesn't hold; `None`: it holds.
+    pub(crate) off: Option<Off>,
+    /// The settings and facts that decided it.
+    pub(crate) by: Decisions,
+}
+
 impl Context<'_> {
-    /// Why an entry with this condition is off, if it is, and in which view. `None` if the condition is wrong.
-    pub(crate) fn off(&mut self, when: Option<Leaf<'_>>) -> Option<FieldValue<Option<Off>>> {
-        let Some(when) = when else { return Some(FieldValue::Constant(None)) };
-        let off = self.when(when)?;
+    /// Whether an entry with this condition is on, and why, in which view. `None` if the condition is wrong.
+    pub(crate) fn condition(&mut self, when: Option<Leaf<'_>>) -> Option<FieldValue<Condition>> {
+        let Some(when) = when else { return Some(FieldValue::Constant(Condition::default())) };
+        let condition = self.when(when)?;
         Some(FieldValue::computed(move |evaluator| {
-            let off = off.evaluate(evaluator)?;
+            let Condition { off, by } = condition.evaluate(evaluator)?;
             let view = evaluator.scope.view;
-            Some(off.map(|Off { span, because }| Off { span, because: within_view(view, &because) }))
+            let off = off.map(|Off { span, because }| Off { span, because: within_view(view, &because) });
+            Some(Condition { off, by })
         }))
     }
 
-    /// Whether a pass runs: `None`, or why it doesn't.
-    pub(crate) fn when(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Option<Off>>> {
+    /// Whether a condition holds, and why.
+    pub(crate) fn when(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Condition>> {
         let Shape::Text = leaf.shape() else {
             self.reader.expected(leaf, "a condition in quotes");
             return None;
@@ -33,18 +43,21 @@ impl Context<'_> {
             Quoted::Parameter(parameter, at) => {
                 let unknown: Arc<str> = format!("`{}` is false", parameter.name.text).into();
                 FieldValue::computed(move |evaluator| evaluator.parameter(at, span)).map(
-                    move |Decided { value, because, .. }| {
+                    move |Decided { value, because, by, .. }| {
                         let because = || because.as_ref().unwrap_or(&unknown).to_string();
-                        (value != Value::Bool(true)).then(|| Off { span, because: because() })
+                        let off = (value != Value::Bool(true)).then(|| Off { span, because: because() });
+                        Condition { off, by }
                     },
                 )
             }
             Quoted::Expression(condition) => FieldValue::computed(move |evaluator| {
                 let outcome = evaluator.evaluate(&condition)?;
-                let Some(failed) = &outcome.failed else { return Some(None) };
-                let because = outcome.because();
-                let because = if because.is_empty() { format!("`{}` does not hold", failed.text) } else { because };
-                Some(Some(Off { span, because }))
+                let off = outcome.failed.as_ref().map(|failed| {
+                    let because = outcome.because();
+                    let unknown = || format!("`{}` does not hold", failed.text);
+                    Off { span, because: if because.is_empty() { unknown() } else { because } }
+                });
+                Some(Condition { off, by: Decisions::new(outcome.decided) })
             }),
         })
     }

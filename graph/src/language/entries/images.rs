@@ -7,7 +7,7 @@ use crate::base::{Diagnostic, Span};
 use crate::expression::Wanted;
 use crate::frame::{SAMPLE_COUNTS, ViewIndex};
 use crate::language::model::{
-    Decided, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
+    Decided, Decisions, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
 };
 use crate::language::scope::{Context, FieldValue, Kept, Parameter, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
@@ -171,6 +171,7 @@ impl Context<'_> {
                 layers,
                 shape,
                 lifetime,
+                repeat: Decisions::default(),
                 eyes: None,
                 per_eye,
                 view: ViewIndex::default(),

@@ -4,7 +4,7 @@ use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
 use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
-use crate::language::scope::{Context, FieldValue, Kept, combined};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
 use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -286,6 +286,15 @@ impl Context<'_> {
     ) -> Option<FieldValue<Decided<T>>> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
         let span = leaf.span();
-        Some(self.image(image)?.map(move |image| Decided::said(span, make(image))))
+        let image = self.image(image)?;
+        if let FieldValue::Constant(image) = image {
+            return Some(FieldValue::Constant(Decided::said(span, make(image))));
+        }
+        Some(FieldValue::computed(move |evaluator| {
+            let others = std::mem::take(&mut evaluator.chosen);
+            let image = image.evaluate(evaluator);
+            let by = std::mem::replace(&mut evaluator.chosen, others);
+            Some(Decided { by, ..Decided::said(span, make(image?)) })
+        }))
     }
 }

@@ -1,12 +1,13 @@
 //! A pass: its work, bindings and targets, and the stand-ins for its targets when it is off.
 
+use super::condition::Condition;
 use super::firsts::Firsts;
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
 use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
-use crate::language::model::{Color, Depth, Pass};
+use crate::language::model::{Color, Depth, Pass, PassDecisions};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, IfRead, reported};
 use crate::ron::{Name, Reader};
 use std::fmt::{Display, Formatter};
@@ -16,9 +17,9 @@ impl Context<'_> {
     /// A pass. An expression that has no value is no mistake if the pass is off.
     pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> FieldValue<Arc<Pass>> {
         let name = self.reader.name(fields.name, "a pass");
-        let off = self.off(fields.when);
+        let condition = self.condition(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
-        let is_always_on = matches!((&off, &otherwise), (Some(FieldValue::Constant(None)), Some(None)));
+        let is_always_on = matches!((&condition, &otherwise), (Some(FieldValue::Constant(_)), Some(None)));
         let parts = match self.pass_parts(fields, name.clone()) {
             Some(FieldValue::Constant(pass)) if is_always_on => {
                 bindings_differ(self.reader, &pass);
@@ -27,8 +28,8 @@ impl Context<'_> {
             parts => parts,
         };
         FieldValue::computed(move |evaluator| {
-            let off = evaluator.put_in(&off);
-            let is_off = matches!(off, Some(Some(_)));
+            let condition = evaluator.put_in(&condition);
+            let is_off = condition.as_ref().is_some_and(|condition| condition.off.is_some());
             // Stand-ins of a pass that runs need no values.
             evaluator.forgave = false;
             let stand_ins = evaluator.leniently(!is_off, |evaluator| match otherwise.as_ref()? {
@@ -40,13 +41,15 @@ impl Context<'_> {
             let before = evaluator.reader.errors.len();
             let pass = evaluator.leniently(is_off, |evaluator| evaluator.put_in(&parts));
             let idle = pass.is_none() && is_off && evaluator.forgave && evaluator.reader.errors.len() == before;
-            let (name, off, stand_ins) = (name.clone()?, off?, stand_ins?);
+            let (name, Condition { off, by }, stand_ins) = (name.clone()?, condition?, stand_ins?);
+            let images = std::mem::take(&mut evaluator.chosen);
+            let decided = PassDecisions { runs: by, images, ..PassDecisions::default() };
             if idle {
-                return Some(Arc::new(Pass { off, otherwise: stand_ins, ..Pass::idle(name) }));
+                return Some(Arc::new(Pass { off, decided, otherwise: stand_ins, ..Pass::idle(name) }));
             }
             let mut pass = pass?;
             let parts = Arc::make_mut(&mut pass);
-            (parts.off, parts.otherwise) = (off, stand_ins);
+            (parts.off, parts.decided, parts.otherwise) = (off, decided, stand_ins);
             bindings_differ(evaluator.reader, &pass);
             if let Some(Some(otherwise)) = &otherwise {
                 stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
@@ -83,6 +86,7 @@ impl Context<'_> {
             Some(Arc::new(Pass {
                 name: name.clone()?,
                 off: None,
+                decided: PassDecisions::default(),
                 work: work?,
                 sample,
                 left_out,

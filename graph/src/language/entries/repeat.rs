@@ -2,6 +2,7 @@
 
 use super::diagnosed::Diagnosed;
 use crate::base::Span;
+use crate::language::model::Decided;
 use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Form, Leaf, Name, Plain, Reader};
 
@@ -28,7 +29,7 @@ pub(crate) struct Times {
     /// Where the number stands.
     pub(crate) span: Span,
     /// The number.
-    pub(crate) count: Diagnosed<FieldValue<u32>>,
+    pub(crate) count: Diagnosed<FieldValue<Decided<u32>>>,
 }
 
 impl Repeat {
@@ -43,8 +44,9 @@ impl Repeat {
         };
         scope.symbols.differs(reader, &index);
         let (span, most) = (count.span(), i64::from(MOST_THINGS));
-        let read =
-            |reader: &mut Reader| Context { reader, scope: *scope }.whole(count, "number of repetitions", 0..=most);
+        let read = |reader: &mut Reader| {
+            Context { reader, scope: *scope }.whole_because(count, "number of repetitions", 0..=most)
+        };
         Repeat::Times(Box::new(Times { index, span, count: Diagnosed::read(reader, read) }))
     }
 

@@ -4,7 +4,7 @@ use super::parameters;
 use super::values::{self, optional};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
-use crate::language::model::{Decided, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
+use crate::language::model::{Decided, Decisions, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
 use crate::language::scope::{Context, FieldValue};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
 use crate::{fields, vulkan};
@@ -117,6 +117,7 @@ fn image(
         layers: Decided::said(span, Layers::Default),
         shape: Decided::said(fields.shape.unwrap_or(from).span(), shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
+        repeat: Decisions::default(),
         per_eye: Some(Spanned { value: false, span }),
         eyes: None,
         view: ViewIndex::default(),

@@ -1,7 +1,7 @@
 //! `use`: a fragment is put in under a name of its own, with arguments for its parameters.
 
 use super::body::Tables;
-use super::condition::CONDITION;
+use super::condition::{CONDITION, Condition};
 use super::fragments::Fragments;
 use super::repeat::REPEAT;
 use super::stand_ins::{OTHERWISE, Otherwise};
@@ -9,7 +9,7 @@ use super::{parameters, views};
 use crate::base::{Diagnostic, Span, enumerated};
 use crate::expression::{Expression, Outcome, Type, Value, Wanted};
 use crate::fields;
-use crate::language::model::{Off, SettingKind};
+use crate::language::model::SettingKind;
 use crate::language::scope::{Context, DecidedValue, FieldValue, Parameter, ParameterKind, Symbols, joined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Shape};
 use std::collections::{HashMap, HashSet};
@@ -50,7 +50,7 @@ pub(crate) struct UseEntry {
     pub(crate) name: Name,
     /// The fragment, by number.
     pub(crate) fragment: usize,
-    pub(crate) off: FieldValue<Option<Off>>,
+    pub(crate) condition: FieldValue<Condition>,
     /// The stand-ins for when it is off.
     pub(crate) otherwise: Option<Otherwise>,
     /// Values for the fragment's parameters, in their order.
@@ -70,12 +70,12 @@ impl Context<'_> {
         let name = self.reader.name(fields.name, "a use");
         let fragment = self.reader.reference(fields.r#use, "a fragment");
         let fragment = fragment.and_then(|name| fragments.names.find(self.reader, &name));
-        let off = self.off(fields.when);
+        let condition = self.condition(fields.when);
         let otherwise = self.otherwise(fields.otherwise, fields.when);
         let found = fragment.and_then(|at| Some((fragments.called(at), &*fragments.get(at)?.symbols)));
         let arguments = found.map(|found| self.arguments(fields, found));
         let (fragment, arguments) = (fragment?, arguments?);
-        Some(UseEntry { name: name?, fragment, off: off?, otherwise: otherwise?, arguments })
+        Some(UseEntry { name: name?, fragment, condition: condition?, otherwise: otherwise?, arguments })
     }
 
     /// Values for the parameters of the fragment `called` so, in their order; `None` where there is none, which was reported.

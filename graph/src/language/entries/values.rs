@@ -221,7 +221,7 @@ pub(crate) fn typed<T: Kept>(
     value: FieldValue<Decided<Value>>,
     make: impl Fn(Value) -> Option<T> + Send + Sync + 'static,
 ) -> Option<FieldValue<Decided<T>>> {
-    value.then(move |Decided { value, span, because }| Some(Decided { value: make(value)?, span, because }))
+    value.then(move |Decided { value, span, because, by }| Some(Decided { value: make(value)?, span, because, by }))
 }
 
 /// The value as a whole number, if it is one.

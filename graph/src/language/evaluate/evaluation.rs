@@ -8,6 +8,7 @@ use crate::language::entries::fragments::Fragments;
 use crate::language::entries::repeat::{MOST_THINGS, Repeat, Times};
 use crate::language::entries::views::Views;
 use crate::language::inputs::Surroundings;
+use crate::language::model::{Decisions, PassDecisions};
 use crate::language::scope::{DecidedValue, Elements, Evaluator, FieldValueTuple, LevelValues, ScopeValues};
 use crate::ron::{Name, Reader};
 use std::collections::HashSet;
@@ -56,11 +57,17 @@ pub(super) struct Level<'b> {
     pub(super) instance: Option<u32>,
     /// Whether it is off, so that an expression without a value is no mistake.
     pub(super) off: bool,
+    /// The settings and facts that decided about its passes: those of the uses that it is within.
+    pub(super) decided: PassDecisions,
+    /// The settings and facts that decided how often an image is repeated, with the image's number in the body, in rising
+    /// order.
+    pub(super) repeats: Vec<(usize, Decisions)>,
 }
 
 /// How often an entry is repeated.
 pub(super) enum Count {
-    Known(u32),
+    /// This often, which these settings and facts decided.
+    Known(u32, Decisions),
     /// It depends on images whose properties aren't known yet.
     Later,
     /// A mistake in the number was reported.
@@ -77,6 +84,8 @@ impl<'b> Level<'b> {
             view: ViewIndex::default(),
             instance: None,
             off: false,
+            decided: PassDecisions::default(),
+            repeats: Vec::new(),
         }
     }
 
@@ -86,9 +95,11 @@ impl<'b> Level<'b> {
         (body, values): (&'b Body, Vec<Option<DecidedValue>>),
         (whole, view, instance): (&Name, ViewIndex, Option<u32>),
         off: bool,
+        decided: &PassDecisions,
     ) -> Level<'b> {
         let prefix = format!("{}.", whole.text).into();
-        Level { body, values: below(body, values), prefix, view, instance, off: outer.off || off }
+        let (off, decided) = (outer.off || off, decided.within(&outer.decided));
+        Level { body, values: below(body, values), prefix, view, instance, off, decided, repeats: Vec::new() }
     }
 
     /// Whether its entries, or those with this number, are called as they were declared, and belong to no fragment.
@@ -147,6 +158,7 @@ impl<'a> Evaluation<'a> {
                 .map_or(&level.values.values, |inputs| &inputs.values),
             surroundings: inputs.map_or(self.surroundings, |inputs| &inputs.surroundings),
             properties: Some(&self.flat.properties),
+            images: &self.flat.images,
             index,
             view: self.views.name(view),
         };
@@ -163,8 +175,8 @@ impl<'a> Evaluation<'a> {
         early: bool,
     ) -> Count {
         let is_check = self.purpose != Purpose::Pipeline;
-        let (count, span) = match repeat {
-            None | Some(Repeat::Once) => (1, None),
+        let (count, by, span) = match repeat {
+            None | Some(Repeat::Once) => (1, Decisions::default(), None),
             Some(Repeat::Broken) => return Count::Failed,
             Some(Repeat::Times(times)) => {
                 let Times { count, span, .. } = &**times;
@@ -173,15 +185,15 @@ impl<'a> Evaluation<'a> {
                 let mut evaluator = self.evaluator(reader, level, view, None);
                 evaluator.scope.properties = evaluator.scope.properties.filter(|_| !early);
                 match count.and_then(|count| count.evaluate(&mut evaluator)) {
-                    Some(number) => (number.max(u32::from(is_check)), Some(*span)),
+                    Some(number) => (number.value.max(u32::from(is_check)), number.by, Some(*span)),
                     None if reader.errors.len() > before => return Count::Failed,
                     None if early => return Count::Later,
-                    None if is_check => (1, Some(*span)),
+                    None if is_check => (1, Decisions::default(), Some(*span)),
                     None => return Count::Failed,
                 }
             }
         };
-        if self.makes(reader, count, span.unwrap_or(Span::NONE)) { Count::Known(count) } else { Count::Failed }
+        if self.makes(reader, count, span.unwrap_or(Span::NONE)) { Count::Known(count, by) } else { Count::Failed }
     }
 
     /// Counts `count` more; `false` if that is more than a pipeline may have, which is reported once.

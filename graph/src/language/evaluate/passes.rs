@@ -2,7 +2,7 @@
 
 use super::evaluation::{Count, Evaluation, Level};
 use crate::language::entries::body::{Entry, Item};
-use crate::language::model::Pass;
+use crate::language::model::{Pass, PassDecisions};
 use crate::language::scope::FieldValueTuple;
 use crate::ron::Reader;
 use std::sync::Arc;
@@ -21,7 +21,11 @@ impl<'a> Evaluation<'a> {
     /// Passes, or a fragment that is put in. `None` if that was reported.
     fn item(&mut self, reader: &mut Reader, level: &Level<'a>, entry: &'a Entry<Item>) -> Option<()> {
         let view = entry.view(reader, level.view)?;
-        let Count::Known(count) = self.count(reader, level, view, Some(&entry.repeat), false) else { return None };
+        let Count::Known(count, repeat) = self.count(reader, level, view, Some(&entry.repeat), false) else {
+            return None;
+        };
+        let repeated = PassDecisions { repeat, ..PassDecisions::default() };
+        let decided = repeated.within(&level.decided);
         for number in 0..count {
             let before = reader.errors.len();
             let number = entry.repeat.is_list().then_some(number);
@@ -33,10 +37,15 @@ impl<'a> Evaluation<'a> {
                         let pass = Arc::make_mut(pass);
                         pass.name = level.full(&pass.name, number);
                         (pass.view, pass.instance) = (view, level.instance);
+                        if !decided.is_empty() {
+                            pass.decided = pass.decided.within(&decided);
+                        }
                     }
                     self.flat.passes.push(pass);
                 }
-                Item::Use(fields) if reader.errors.len() == before => self.put_in(reader, level, view, number, fields),
+                Item::Use(fields) if reader.errors.len() == before => {
+                    self.put_in(reader, level, (view, number, &repeated), fields)
+                }
                 Item::Use(_) | Item::Anchor => {}
             }
             if reader.errors.len() > before || self.is_full {

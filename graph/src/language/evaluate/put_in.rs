@@ -5,9 +5,10 @@ use crate::base::{Diagnostic, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
 use crate::language::compose::origins::USED_HERE;
+use crate::language::entries::condition::Condition;
 use crate::language::entries::stand_ins::{self, Of};
 use crate::language::entries::uses::{Argument, UseEntry};
-use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, Work};
+use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Instance, Part, Pass, PassDecisions, Work};
 use crate::language::scope::{DecidedValue, FieldValueTuple};
 use crate::ron::{Name, Reader};
 use std::sync::Arc;
@@ -24,14 +25,13 @@ impl<'a> Evaluation<'a> {
         &mut self,
         reader: &mut Reader,
         level: &Level<'a>,
-        view: ViewIndex,
-        number: Option<u32>,
+        (view, number, repeated): (ViewIndex, Option<u32>, &PassDecisions),
         entry: &UseEntry,
     ) {
         let before = reader.errors.len();
         let mut evaluator = self.evaluator(reader, level, view, number);
-        let off = entry.off.evaluate(&mut evaluator);
-        let is_off = matches!(off, Some(Some(_)));
+        let condition = entry.condition.evaluate(&mut evaluator);
+        let is_off = condition.as_ref().is_some_and(|condition| condition.off.is_some());
         let otherwise = evaluator.leniently(!is_off, |evaluator| {
             entry.otherwise.as_ref().map(|otherwise| otherwise.stand_ins.evaluate(evaluator))
         });
@@ -40,8 +40,9 @@ impl<'a> Evaluation<'a> {
             Some((evaluator.leniently(is_off, |evaluator| value.evaluate(evaluator))?, *span))
         });
         let values: Vec<Option<(DecidedValue, Option<Span>)>> = arguments.collect();
+        let images = std::mem::take(&mut evaluator.chosen);
         let (name, at, fragments) = (&entry.name, entry.fragment, self.fragments);
-        let (Some(found), Some(off)) = (fragments.get(at), off) else {
+        let (Some(found), Some(Condition { off, by })) = (fragments.get(at), condition) else {
             self.flat.fail();
             return;
         };
@@ -65,7 +66,8 @@ impl<'a> Evaluation<'a> {
         let whole = level.full(name, number);
         let start = self.flat.lengths();
         let instance = u32::try_from(self.flat.instances.len()).ok();
-        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off);
+        let decided = PassDecisions { runs: by, images, repeat: repeated.repeat.clone() };
+        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off, &decided);
         self.flat.instances.push(Instance { name: whole.text.clone(), span: name.span, within: level.instance });
         self.used.insert(at);
         self.path.push((at, name.clone()));
@@ -84,7 +86,7 @@ impl<'a> Evaluation<'a> {
             otherwise => otherwise.flatten().unwrap_or_default(),
         };
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
-        let pass = Pass { off, work, otherwise, view, instance: level.instance, ..Pass::idle(whole) };
+        let pass = Pass { off, decided, work, otherwise, view, instance: level.instance, ..Pass::idle(whole) };
         // A pass that is wrong may write anything.
         let is_whole = self.flat.passes[start.passes..].iter().all(Option::is_some);
         if let Some(otherwise) = entry.otherwise.as_ref().filter(|_| is_whole) {

@@ -31,7 +31,10 @@ impl<'a> Evaluation<'a> {
             }
             let next = if at < images { &mut next_image } else { &mut next_buffer };
             let elements = match (count, u32::try_from(*next)) {
-                (Count::Known(count), Ok(first)) => {
+                (Count::Known(count, by), Ok(first)) => {
+                    if !by.is_empty() {
+                        level.repeats.push((at, by));
+                    }
                     *next += count as usize;
                     Elements::At { first, count }
                 }
@@ -83,6 +86,9 @@ impl<'a> Evaluation<'a> {
                 let image = Arc::make_mut(image);
                 image.name = level.full(&image.name, number);
                 (image.view, image.instance) = (view, level.instance);
+                if let Ok(found) = level.repeats.binary_search_by_key(&at, |(at, _)| *at) {
+                    image.repeat = level.repeats[found].1.clone();
+                }
             }
             self.flat.properties.push(known.flatten());
             self.flat.images.push(image);

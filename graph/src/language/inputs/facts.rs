@@ -17,6 +17,8 @@ pub struct Facts {
     pub has_cross_fade: bool,
     /// See [`Fact::CastsShadows`].
     pub casts_shadows: bool,
+    /// See [`Fact::ShadowCascades`].
+    pub shadow_cascades: u32,
     /// See [`Fact::PeakRadiance`].
     pub peak_radiance: f64,
     /// See [`Fact::Suns`].
@@ -45,6 +47,8 @@ pub enum Fact {
     HasCrossFade,
     /// Any light casts shadows, and there is something to cast them.
     CastsShadows,
+    /// How many cascades the sun's shadows need: 0 where it casts none.
+    ShadowCascades,
     /// The most radiance that a pixel can show before any effect, linear.
     PeakRadiance,
     /// How many suns shine.
@@ -83,12 +87,13 @@ pub enum FactValue {
 
 impl Fact {
     /// Every fact.
-    pub const ALL: [Fact; 11] = [
+    pub const ALL: [Fact; 12] = [
         Fact::HasOpaque,
         Fact::HasAlphaClip,
         Fact::HasTransparent,
         Fact::HasCrossFade,
         Fact::CastsShadows,
+        Fact::ShadowCascades,
         Fact::PeakRadiance,
         Fact::Suns,
         Fact::PointLights,
@@ -108,6 +113,12 @@ impl Fact {
             Fact::CastsShadows => {
                 ("scene.casts_shadows", Bool, "a light casts shadows, and something stands in its light")
             }
+            Fact::ShadowCascades => (
+                "scene.shadow_cascades",
+                Integer,
+                "how many cascades the sun's shadows need, as far as the scene goes: 0, 1, 2 or 4. With these, no texel of a map \
+                 covers more of the picture than with four cascades in a scene of any depth",
+            ),
             Fact::PeakRadiance => (
                 "scene.peak_radiance",
                 Number,
@@ -149,6 +160,7 @@ impl Facts {
         has_transparent: true,
         has_cross_fade: true,
         casts_shadows: true,
+        shadow_cascades: 4,
         peak_radiance: 65504.0,
         suns: 1,
         point_lights: 4096,
@@ -166,6 +178,7 @@ impl Facts {
             Fact::HasTransparent => FactValue::Bool(self.has_transparent),
             Fact::HasCrossFade => FactValue::Bool(self.has_cross_fade),
             Fact::CastsShadows => FactValue::Bool(self.casts_shadows),
+            Fact::ShadowCascades => FactValue::Integer(self.shadow_cascades as i64),
             Fact::PeakRadiance => FactValue::Number(self.peak_radiance),
             Fact::Suns => FactValue::Integer(self.suns as i64),
             Fact::PointLights => FactValue::Integer(self.point_lights as i64),
@@ -186,6 +199,7 @@ impl Facts {
             (Fact::HasTransparent, FactValue::Bool(value)) => self.has_transparent = value,
             (Fact::HasCrossFade, FactValue::Bool(value)) => self.has_cross_fade = value,
             (Fact::CastsShadows, FactValue::Bool(value)) => self.casts_shadows = value,
+            (Fact::ShadowCascades, FactValue::Integer(value)) => self.shadow_cascades = count(value),
             (Fact::PeakRadiance, FactValue::Number(value)) => self.peak_radiance = value,
             (Fact::Suns, FactValue::Integer(value)) => self.suns = count(value),
             (Fact::PointLights, FactValue::Integer(value)) => self.point_lights = count(value),

@@ -14,11 +14,11 @@ mod view;
 pub(crate) use area::{Area, LARGEST_SIZE, area, times};
 pub use choices::{Choice, ChosenBy, InForce, Preset, SettingsFile};
 pub(crate) use choices::{in_force, unknown_preset};
-pub use decided::Decided;
+pub use decided::{Decided, Decisions};
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub use pass::{
-    Color, Depth, Draw, Face, Forward, Groups, LeftOut, Off, Param, Pass, Sample, StandIn, Storage, StorageAccess,
-    Uniform, Work,
+    Color, Depth, Draw, Face, Forward, Groups, LeftOut, Off, Param, Pass, PassDecisions, Sample, StandIn, Storage,
+    StorageAccess, Uniform, Work,
 };
 pub use pipeline::{Instance, Output, Pipeline, RemovedPass};
 pub use references::{BufferRef, ImageRef, ResourceRef};

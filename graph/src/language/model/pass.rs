@@ -1,5 +1,6 @@
 //! Passes as a pipeline file declares them: their work, their images and buffers, and their conditions.
 
+use super::decided::Decisions;
 use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
@@ -16,6 +17,8 @@ pub struct Pass {
     pub name: Name,
     /// Why the pass does not run; `None`: it runs.
     pub off: Option<Off>,
+    /// The settings and facts that decided about it.
+    pub decided: PassDecisions,
     /// The work of the pass.
     pub work: Work,
     /// Images that its shaders sample.
@@ -46,6 +49,33 @@ pub struct Pass {
     pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
+}
+
+/// The settings and facts that decided about a pass.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PassDecisions {
+    /// They decided whether it runs.
+    pub runs: Decisions,
+    /// They decided how often it is repeated.
+    pub repeat: Decisions,
+    /// They decided which images and buffers it uses.
+    pub images: Decisions,
+}
+
+impl PassDecisions {
+    /// Whether there are none.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.runs.is_empty() && self.repeat.is_empty() && self.images.is_empty()
+    }
+
+    /// The decisions about a pass that runs in a fragment, with those about the use of the fragment first.
+    pub(crate) fn within(&self, outer: &PassDecisions) -> PassDecisions {
+        PassDecisions {
+            runs: outer.runs.and(&self.runs),
+            repeat: outer.repeat.and(&self.repeat),
+            images: outer.images.and(&self.images),
+        }
+    }
 }
 
 /// Why a pass does not run.
@@ -311,6 +341,7 @@ impl Pass {
         Pass {
             name,
             off: None,
+            decided: PassDecisions::default(),
             work,
             sample: Vec::new(),
             left_out: Vec::new(),

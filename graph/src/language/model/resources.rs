@@ -1,8 +1,9 @@
 //! Images and buffers as a pipeline file declares them: their properties and lifetimes.
 
-use super::decided::Decided;
+use super::decided::{Decided, Decisions};
 use super::references::{BufferRef, ImageRef, ResourceRef};
 use crate::base::Span;
+use crate::expression::Property;
 use crate::frame::{EyeForm, ResolveWay, TextureFile, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan;
@@ -29,6 +30,8 @@ pub struct Image {
     pub shape: Decided<Shape>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
+    /// The settings and facts that decided how often it is repeated.
+    pub repeat: Decisions,
     /// Whether each eye has one of its own, if the file says so; `None`: as the image whose size it follows, else not.
     pub per_eye: Option<Spanned<bool>>,
     /// The form in which it holds both eyes' parts, if it does; no file says it.
@@ -37,6 +40,56 @@ pub struct Image {
     pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
+}
+
+impl Image {
+    /// The decisions about a property, and the image that it follows in it, if it follows one.
+    pub(crate) const fn decided(&self, property: Property) -> (&Decisions, Option<ImageRef>) {
+        match property {
+            Property::Width | Property::Height => (&self.size.by, self.size.value.follows()),
+            Property::Mips => (&self.mips.by, self.mips.value.follows()),
+            Property::Layers => (&self.layers.by, self.layers.value.follows()),
+            Property::Samples => (&self.samples.by, self.samples.value.follows()),
+        }
+    }
+}
+
+impl Format {
+    /// The image that it follows.
+    pub(crate) const fn follows(&self) -> Option<ImageRef> {
+        if let Format::Like(of) = self { Some(*of) } else { None }
+    }
+}
+
+impl Size {
+    /// The image that it follows.
+    pub(crate) const fn follows(&self) -> Option<ImageRef> {
+        match self {
+            Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(*of),
+            _ => None,
+        }
+    }
+}
+
+impl Samples {
+    /// The image that it follows.
+    pub(crate) const fn follows(&self) -> Option<ImageRef> {
+        if let Samples::Like(of) = self { Some(*of) } else { None }
+    }
+}
+
+impl Mips {
+    /// The image that it follows.
+    pub(crate) const fn follows(&self) -> Option<ImageRef> {
+        if let Mips::Like(of) = self { Some(*of) } else { None }
+    }
+}
+
+impl Layers {
+    /// The image that it follows.
+    pub(crate) const fn follows(&self) -> Option<ImageRef> {
+        if let Layers::Like(of) = self { Some(*of) } else { None }
+    }
 }
 
 /// How several samples become one value, and the words that say so.

@@ -6,7 +6,7 @@ use super::lookup::{Scope, is_expression};
 use super::parameter::{Parameter, ParameterKind};
 use crate::base::{Diagnostic, Span};
 use crate::expression::{Expression, Value, Wanted};
-use crate::language::model::{Decided, SettingKind};
+use crate::language::model::{Decided, Decisions, SettingKind};
 use crate::ron::{Leaf, Reader, Shape};
 
 /// The context of an entry: the reader that mistakes are reported to, and the scope that names are looked up in. The files
@@ -113,6 +113,7 @@ impl<'c> Context<'c> {
 pub(crate) fn decided(expression: Expression, span: Span) -> FieldValue<Decided<Value>> {
     FieldValue::computed(move |evaluator| {
         let outcome = evaluator.evaluate(&expression)?;
-        Some(Decided { value: outcome.value, span, because: joined(&outcome.decided) })
+        let (because, by) = (joined(&outcome.decided), Decisions::new(outcome.decided));
+        Some(Decided { value: outcome.value, span, because, by })
     })
 }

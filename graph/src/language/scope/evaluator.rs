@@ -5,10 +5,10 @@ use super::level::{DecidedValue, Elements, LevelValues, Properties};
 use super::lookup::Declared;
 use super::symbols::Symbols;
 use crate::base::{Diagnostic, Label, Span};
-use crate::expression::{Decision, Expression, Outcome, Value};
+use crate::expression::{Decision, Expression, Origin, Outcome, Value};
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::language::inputs::{Read, Surroundings};
-use crate::language::model::Decided;
+use crate::language::model::{Decided, Decisions, Image};
 use crate::ron::{Name, Reader};
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub(crate) struct ScopeValues<'a> {
     pub(crate) surroundings: &'a Surroundings<'a>,
     /// Properties of the images that were evaluated so far, each `None` where a mistake was reported; `None`: they are put off.
     pub(crate) properties: Option<&'a [Option<Properties>]>,
+    /// The images that were evaluated so far.
+    pub(crate) images: &'a [Option<Arc<Image>>],
     /// The number of the repetition at hand.
     pub(crate) index: Option<u32>,
     /// The view that the entry is for, unless it is the main one.
@@ -46,11 +48,13 @@ pub(crate) struct Evaluator<'e, 'a> {
     pub(crate) lenient: bool,
     /// Whether an expression had no value, and that was no mistake.
     pub(crate) forgave: bool,
+    /// The decisions behind the images and buffers that the entry uses.
+    pub(crate) chosen: Decisions,
 }
 
 impl<'e, 'a> Evaluator<'e, 'a> {
-    pub(crate) const fn new(reader: &'e mut Reader, scope: ScopeValues<'a>, lenient: bool) -> Evaluator<'e, 'a> {
-        Evaluator { reader, scope, lenient, forgave: false }
+    pub(crate) fn new(reader: &'e mut Reader, scope: ScopeValues<'a>, lenient: bool) -> Evaluator<'e, 'a> {
+        Evaluator { reader, scope, lenient, forgave: false, chosen: Decisions::default() }
     }
 
     /// Evaluates something that may be `off`: then an expression without a value is no mistake.
@@ -96,13 +100,13 @@ impl<'e, 'a> Evaluator<'e, 'a> {
     /// The value of a setting or parameter that is named at `span`.
     pub(crate) fn parameter(&self, at: usize, span: Span) -> Option<Decided<Value>> {
         let DecidedValue { value, decided } = self.scope.parameter(at)?;
-        let because = if self.scope.symbols.settings {
-            let parameter = self.scope.symbols.parameters.get(at)?.as_ref()?;
-            Some(format!("{} = {value}", parameter.name.text).into())
+        let decided = if self.scope.symbols.settings {
+            let name = self.scope.symbols.parameters.get(at)?.as_ref()?.name.text.clone();
+            vec![Decision { name, origin: Origin::Setting, value: value.clone() }]
         } else {
-            joined(decided)
+            decided.clone()
         };
-        Some(Decided { value: value.clone(), span, because })
+        Some(Decided { value: value.clone(), span, because: joined(&decided), by: Decisions::new(decided) })
     }
 
     /// The image or buffer that a declaration of this level stands for.
@@ -119,7 +123,11 @@ impl<'e, 'a> Evaluator<'e, 'a> {
 
     /// The image or buffer that an expression means.
     pub(super) fn resource(&mut self, expression: &Expression) -> Option<Resource> {
-        match self.evaluate(expression)?.value {
+        let Outcome { value, decided, .. } = self.evaluate(expression)?;
+        if !decided.is_empty() {
+            self.chosen = self.chosen.and(&Decisions::new(decided));
+        }
+        match value {
             Value::Image(index) => Some(Resource::Image(index)),
             Value::Buffer(index) => Some(Resource::Buffer(index)),
             _ => None,
@@ -137,8 +145,10 @@ pub(crate) fn within_view(view: Option<&Name>, because: &str) -> String {
 
 /// The decisions behind a value, for people: "msaa = 4, hdr = true".
 pub(crate) fn joined(decided: &[Decision]) -> Option<Arc<str>> {
-    if decided.is_empty() {
-        return None;
+    let (first, others) = decided.split_first()?;
+    let mut words = first.to_string();
+    for other in others {
+        words += &format!(", {other}");
     }
-    Some(decided.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ").into())
+    Some(words.into())
 }

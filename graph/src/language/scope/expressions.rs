@@ -157,6 +157,20 @@ impl Values for ScopeValues<'_> {
         value.map(i64::from).ok_or_else(below)
     }
 
+    fn property_decided_by(&self, image: ImageIndex, property: Property) -> &[Decision] {
+        let mut at = Some(image);
+        // An image follows images above it, so this ends; a circle is a mistake that is reported elsewhere.
+        for _ in 0..=image.0 {
+            let image = at.and_then(|at| self.images.get(at.0 as usize)?.as_deref());
+            let Some((by, follows)) = image.map(|image| image.decided(property)) else { break };
+            if !by.is_empty() {
+                return by.all();
+            }
+            at = follows.map(|of| of.index);
+        }
+        &[]
+    }
+
     fn decided_by(&self, id: u32) -> &[Decision] {
         match split(id) {
             (PARAMETER, at) => self.values.get(at).and_then(Option::as_ref).map_or(&[], |value| &value.decided),

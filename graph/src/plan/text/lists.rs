@@ -57,7 +57,7 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
     }
 }
 
-pub(super) fn image(plan: &Plan, image: &Image) -> Node {
+pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Node>) -> Node {
     let whole = image.allocated.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
     let mut text = format!("`{}` {} {}{whole}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
@@ -76,7 +76,7 @@ pub(super) fn image(plan: &Plan, image: &Image) -> Node {
     }
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
     text += &role(&image.role, &image.name, next);
-    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).collect())
+    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).chain(decided).collect())
 }
 
 fn chosen(chosen: &ChosenFormat) -> Node {

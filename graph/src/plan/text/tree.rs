@@ -1,16 +1,20 @@
 //! The tree form of a Plan, for people: the steps in order, with inserted work at its place and why.
 
 use super::changes;
+use super::decided::Decisions;
 use super::lists::{buffer, image, note, output, totals, view};
 use super::outline::Node;
-use super::words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
-use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, StencilState, Stereo};
+use super::words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_list};
+use crate::frame::{
+    Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, Property, StencilState, Stereo, Subject,
+};
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
+    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
     RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
 use crate::vulkan::{Subresources, name_of};
+use std::sync::Arc;
 
 /// How many objects of a scene are in a draw list.
 type Objects<'p> = &'p dyn Fn(DrawList) -> usize;
@@ -44,8 +48,11 @@ fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
     if !plan.views.is_empty() {
         parts.push(Node::new("views", plan.views.iter().map(view).collect()));
     }
-    parts.extend((0..).map(StepId).zip(&plan.steps).map(|(id, step)| Tree { plan, objects, id }.step(step)));
-    parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it)).collect()));
+    let decisions = &Decisions::of(plan);
+    let step = |(id, step): (StepId, &Step)| Tree { plan, objects, decisions, id }.step(step);
+    parts.extend((0..).map(StepId).zip(&plan.steps).map(step));
+    let about = |it: &Image| decisions.about(&Subject::Image(it.name.clone()));
+    parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it, about(it))).collect()));
     if !plan.buffers.is_empty() {
         parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
     }
@@ -63,6 +70,7 @@ fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
 struct Tree<'p> {
     plan: &'p Plan,
     objects: Option<Objects<'p>>,
+    decisions: &'p Decisions<'p>,
     id: StepId,
 }
 
@@ -87,10 +95,11 @@ impl Tree<'_> {
                 parts.push(self.pass(pass));
                 "custom".to_owned()
             }
-            Work::Resolve(transfer) => self.transfer("resolve", transfer),
-            Work::Copy(transfer) => self.transfer("copy", transfer),
-            Work::Blit(transfer) => self.transfer("blit", transfer),
+            Work::Resolve(transfer) => self.transfer("resolve", transfer, &mut parts),
+            Work::Copy(transfer) => self.transfer("copy", transfer, &mut parts),
+            Work::Blit(transfer) => self.transfer("blit", transfer, &mut parts),
             Work::Fill(fill) => {
+                parts.extend(fill.name.iter().flat_map(|name| self.about_pass(name)));
                 let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
                 let value = fill_value(&fill.value);
                 format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
@@ -143,7 +152,8 @@ impl Tree<'_> {
                 let [from, to] = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
                 let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
                 let mode = name_of(&resolve.mode);
-                parts.push(Node::leaf(format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause))));
+                let text = format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause));
+                parts.push(Node::new(text, self.about_samples(attachment.image)));
             }
         }
     }
@@ -166,7 +176,7 @@ impl Tree<'_> {
         let work = match (pass.draw, pass.groups) {
             (Some(Draw::Objects(list)), _) => format!("draws {}", self.objects(list)),
             (Some(Draw::Casters(cascade)), _) => {
-                format!("draws {} as the sun sees them, {}", self.objects(cascade.list), words_of_cascade(cascade))
+                format!("draws {} as the sun sees them, {}", self.objects(cascade.list), cascade.in_words())
             }
             (Some(Draw::Sky), _) => "draws the sky".to_owned(),
             (Some(Draw::FullScreen), _) => "draws the full screen".to_owned(),
@@ -207,7 +217,8 @@ impl Tree<'_> {
             text += &format!(", for view `{}`", Shown(&view.name));
         }
         text += &cause(&pass.cause);
-        let mut parts: Vec<Node> = pass.accesses.iter().filter_map(|access| self.binding(access)).collect();
+        let mut parts = self.about_pass(&pass.name);
+        parts.extend(pass.accesses.iter().filter_map(|access| self.binding(access)));
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
         for param in &pass.params {
             let value = match param.value {
@@ -259,7 +270,23 @@ impl Tree<'_> {
         Node::leaf(format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer))))
     }
 
-    fn transfer(self, word: &str, transfer: &Transfer) -> String {
+    /// The settings and facts that decided about a pass.
+    fn about_pass(self, name: &Arc<str>) -> Vec<Node> {
+        self.decisions.about(&Subject::Pass(name.clone()))
+    }
+
+    /// The settings and facts that decided how many samples an image has, and so whether it is resolved.
+    fn about_samples(self, image: ImageId) -> Vec<Node> {
+        let image = self.plan.images.get(image.0 as usize);
+        let about = |image: &Image| self.decisions.about_one(&Subject::Image(image.name.clone()), Property::Samples);
+        image.map(about).unwrap_or_default()
+    }
+
+    fn transfer(self, word: &str, transfer: &Transfer, parts: &mut Vec<Node>) -> String {
+        parts.extend(transfer.name.iter().flat_map(|name| self.about_pass(name)));
+        if let ("resolve", Side::Image { image, .. }) = (word, transfer.source) {
+            parts.extend(self.about_samples(image));
+        }
         let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", Shown(name)));
         let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", name_of(&filter)));
         let [from, to] = [self.side(&transfer.source), self.side(&transfer.target)];

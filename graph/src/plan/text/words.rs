@@ -3,7 +3,7 @@
 pub(super) use crate::base::amount::bytes;
 
 use crate::base::Place;
-use crate::frame::{Cascade, DrawList};
+use crate::frame::DrawList;
 use crate::plan::names::Shown;
 use crate::plan::{Cause, Hazard, StepId};
 use crate::vulkan::{AddressMode, FillValue, Filter, Sampler, name_of};
@@ -28,11 +28,6 @@ pub(super) fn words_of_list(list: DrawList) -> &'static str {
         DrawList::Masked => "masked",
         DrawList::Transparent => "transparent",
     }
-}
-
-pub(super) fn words_of_cascade(cascade: Cascade) -> String {
-    let Cascade { index, of, .. } = cascade;
-    format!("cascade {index} of {of} through {}", cascade.reach_in_words())
 }
 
 /// A sampler in words, without its usual values.

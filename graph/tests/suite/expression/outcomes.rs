@@ -20,7 +20,7 @@ fn failed(text: &str) -> (String, String) {
 fn settings_facts_views_and_devices_decide_each_once_in_the_order_of_reading() {
     assert_eq!(decided("view.width * levels + levels"), "view.width = 1920, levels = 5");
     assert_eq!(decided("scene.has_opaque || device.local_read"), "scene.has_opaque = true");
-    assert_eq!(decided("device.local_read || scene.has_opaque"), "device.local_read = false, scene.has_opaque = true");
+    assert_eq!(decided("device.local_read || bloom"), "device.local_read = false, bloom = false");
     assert_eq!(decided("quality == 'high' && radius > 1"), "quality = 'high', radius = 1.5");
     assert_eq!(decided("1 + 1"), "");
     assert_eq!(decided("weights[1] + weights[i - 1] + weights[1]"), "weights[1] = 2, weights[i - 1] = 0.5");
@@ -30,6 +30,18 @@ fn settings_facts_views_and_devices_decide_each_once_in_the_order_of_reading() {
 fn what_was_not_evaluated_did_not_decide() {
     assert_eq!(decided("if(hdr, levels, none)"), "hdr = true, levels = 5");
     assert_eq!(decided("bloom && hdr"), "bloom = false");
+}
+
+/// NU-6: a fact that alone decided stands alone.
+#[test]
+fn an_operand_that_changes_nothing_did_not_decide() {
+    assert_eq!(decided("hdr && bloom"), "bloom = false");
+    assert_eq!(decided("bloom || hdr"), "hdr = true");
+    assert_eq!(decided("hdr && scene.has_opaque && levels > 9"), "levels = 5");
+    assert_eq!(decided("hdr && scene.has_opaque && levels > 1"), "hdr = true, scene.has_opaque = true, levels = 5");
+    assert_eq!(decided("(hdr || bloom) && levels > 9"), "levels = 5");
+    assert_eq!(decided("if(hdr && bloom, 1, levels)"), "bloom = false, levels = 5");
+    assert_eq!(decided("!(bloom || hdr && scene.has_opaque)"), "hdr = true, scene.has_opaque = true");
 }
 
 #[test]
@@ -55,10 +67,7 @@ fn of_a_disjunction_and_of_a_choice_the_whole_made_it_fail() {
     let either = "scene.has_transparent || bloom";
     assert_eq!(failed(either), part(either, "scene.has_transparent = false, bloom = false"));
     assert_eq!(failed(&format!("hdr && ({either})")), part(either, "scene.has_transparent = false, bloom = false"));
-    assert_eq!(
-        failed("hdr && bloom || levels == 1"),
-        part("hdr && bloom || levels == 1", "hdr = true, bloom = false, levels = 5")
-    );
+    assert_eq!(failed("hdr && bloom || levels == 1"), part("hdr && bloom || levels == 1", "bloom = false, levels = 5"));
     assert_eq!(failed("hdr && if(bloom, true, false)"), part("if(bloom, true, false)", "bloom = false"));
 }
 

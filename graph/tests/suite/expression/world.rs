@@ -53,7 +53,11 @@ impl World {
         world.list("lone", Origin::Image, Type::Image, vec![image(7)]);
         world.list("empty", Origin::Image, Type::Image, Vec::new());
         world.list("weights", Origin::Setting, Type::Number, vec![Value::Number(0.5), Value::Integer(2)]);
-        world.strength_decided_by.push(Decision { name: "glow".into(), value: Value::Integer(25) });
+        world.strength_decided_by.push(Decision {
+            name: "glow".into(),
+            origin: Origin::Setting,
+            value: Value::Integer(25),
+        });
         world
     }
 

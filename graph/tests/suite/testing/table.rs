@@ -270,13 +270,18 @@ impl ShaderInterfaces for Table {
                 ShaderInterface { outputs: outputs(1, float, 2), ..lit(name == "motion_masked") }
             }
             "motion_sky" => ShaderInterface { outputs: outputs(1, float, 2), ..full_screen(vec![]) },
-            "taa" => full_screen(vec![
-                texture("now", 0, false, float),
-                texture("before", 1, false, float),
-                texture("depth", 2, false, float),
-                texture("motion", 3, false, float),
-                params(&[("share", "float"), ("deviations", "float")]),
-            ]),
+            "taa" => ShaderInterface {
+                outputs: [outputs(1, float, 4), vec![FragmentOutput { location: 1, ..outputs(1, float, 2).remove(0) }]]
+                    .concat(),
+                ..full_screen(vec![
+                    texture("now", 0, false, float),
+                    texture("before", 1, false, float),
+                    texture("depth", 2, false, float),
+                    texture("motion", 3, false, float),
+                    texture("record_before", 4, false, float),
+                    params(&[("share", "float"), ("deviations", "float")]),
+                ])
+            },
             "snow" => full_screen(vec![
                 block("flakes", 0, true, false, Stages::VERTEX_SHADER),
                 block("seen", 1, true, false, Stages::VERTEX_SHADER),

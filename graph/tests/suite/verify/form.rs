@@ -233,8 +233,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 9", "\"format_version\": 10"),
-        "the Plan has format version 10, this program reads version 9: compile it again"
+        changed("\"format_version\": 10", "\"format_version\": 11"),
+        "the Plan has format version 11, this program reads version 10: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");

@@ -211,6 +211,8 @@ pub(super) struct Camera {
 pub(super) struct Perspective {
     pub(super) yfov: f64,
     pub(super) znear: f64,
+    /// Left out where the camera sees infinitely far.
+    pub(super) zfar: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

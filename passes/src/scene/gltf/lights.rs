@@ -35,7 +35,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                 let color = color.map(|part| (part * intensity).min(limits::RADIANCE) as f32);
                 if sun.is_none() {
                     let direction = direction.as_vec3().to_array();
-                    sun = Some(Sun { direction, color, shadows: false });
+                    sun = Some(Sun { direction, color, shadows: true });
                 } else {
                     notes.add(format!("{at}: only one directional light is used"));
                 }
@@ -69,6 +69,6 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
     }
     at_most("point lights", points.len() as u64, limits::POINT_LIGHTS as u64, "")?;
     let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
-    let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });
+    let sun = sun.unwrap_or(if points.is_empty() { Sun { shadows: true, ..defaults::SUN } } else { dark });
     Ok(Lights { sun, points })
 }

@@ -43,6 +43,7 @@ use glam::{DMat4, DVec3};
 use nodes::Placed;
 use picture::Textures;
 use problem::{at_most, within};
+use std::ops::Bound;
 
 /// Reads a scene from the bytes of a GLB file. Files that it names are read from `beside`, and without that not at all.
 ///
@@ -196,8 +197,14 @@ fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Res
         };
         let fov = within("the vertical field of view", perspective.yfov, 1e-4..3.1, "1e-4 to 3.1 radians", &at)?;
         let near = within("the near distance", perspective.znear, 1e-6..=1e9, "1e-6 to 1e9 m", &at)?;
+        let beyond_near = (Bound::Excluded(f64::from(near as f32)), Bound::Included(f64::from(f32::MAX)));
+        let far = perspective
+            .zfar
+            .map(|far| within("the far distance", far, beyond_near, "more than the near distance", &at));
+        let far = far.transpose()?.map(|far| far as f32);
         match looking(*to_world, fov as f32, near as f32) {
             Some(camera) => {
+                let camera = Camera { far, ..camera };
                 let name = node.name.clone().unwrap_or_else(|| at.clone());
                 cameras.push(NamedCamera { name, camera });
             }

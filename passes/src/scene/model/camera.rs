@@ -4,7 +4,7 @@ use super::bounds::Bounds;
 use super::movement::Movement;
 use glam::{DMat4, DVec3, DVec4, Mat4};
 
-/// A perspective camera without a far plane.
+/// A perspective camera, with a far plane or without.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// From the camera's space to the world's: a rotation and a shift. The camera looks along its −z, its y is up.
@@ -13,6 +13,9 @@ pub struct Camera {
     pub vertical_fov: f32,
     /// Distance of the near plane in metres, more than 0.
     pub near: f32,
+    /// Distance of the far plane in metres, more than `near`: nothing beyond it is drawn but the sky. `None`: it is infinitely
+    /// far.
+    pub far: Option<f32>,
     /// How it moves from where `transform` says that it is at frame 0.
     pub movement: Movement,
 }
@@ -27,8 +30,8 @@ pub struct NamedCamera {
 }
 
 impl Camera {
-    /// A camera at `position` that looks at `target`, with `up` (any length, not along the view) upwards in the picture.
-    /// `None` where these leave the direction open or aren't finite.
+    /// A camera at `position` that looks at `target`, with `up` (any length, not along the view) upwards in the picture,
+    /// without a far plane. `None` where these leave the direction open or aren't finite.
     #[must_use]
     pub fn look_at(position: DVec3, target: DVec3, up: DVec3, vertical_fov: f32, near: f32) -> Option<Camera> {
         Camera::facing(position, target - position, up, vertical_fov, near)
@@ -43,7 +46,13 @@ impl Camera {
         let right = if right.length() > 1e-6 { right.normalize() } else { return None };
         let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
         let transform = DMat4::from_cols(axes[0], axes[1], axes[2], position.extend(1.0));
-        transform.is_finite().then_some(Camera { transform, vertical_fov, near, movement: Movement::default() })
+        transform.is_finite().then_some(Camera {
+            transform,
+            vertical_fov,
+            near,
+            far: None,
+            movement: Movement::default(),
+        })
     }
 
     /// Frames a box: seen from the front right, somewhat above. The sphere around the box touches the picture's upper and
@@ -61,6 +70,7 @@ impl Camera {
             transform: DMat4::from_cols(axes[0], axes[1], axes[2], position),
             vertical_fov: FRAMING_FOV as f32,
             near: (radius * FRAMING_NEAR).max(f64::from(f32::MIN_POSITIVE)) as f32,
+            far: None,
             movement: Movement::default(),
         }
     }
@@ -77,16 +87,20 @@ impl Camera {
         self.transform.inverse()
     }
 
-    /// From the camera's space to Vulkan's clip space: y down, depth reversed (1 on the near plane, 0 infinitely far).
+    /// From the camera's space to Vulkan's clip space: y down, depth reversed (1 on the near plane, 0 on the far
+    /// plane, or infinitely far if there is none).
     /// `aspect` is width over height.
     #[must_use]
     pub fn projection(&self, aspect: f64) -> Mat4 {
         let focal = 1.0 / (f64::from(self.vertical_fov) * 0.5).tan();
+        // Depth at a distance is offset / distance - slope.
+        let near = f64::from(self.near);
+        let slope = self.far.map_or(0.0, |far| near / (f64::from(far) - near));
         DMat4::from_cols(
             DVec4::new(focal / aspect, 0.0, 0.0, 0.0),
             DVec4::new(0.0, -focal, 0.0, 0.0),
-            DVec4::new(0.0, 0.0, 0.0, -1.0),
-            DVec4::new(0.0, 0.0, f64::from(self.near), 0.0),
+            DVec4::new(0.0, 0.0, slope, -1.0),
+            DVec4::new(0.0, 0.0, near + near * slope, 0.0),
         )
         .as_mat4()
     }

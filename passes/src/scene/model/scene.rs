@@ -123,3 +123,38 @@ impl Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::text;
+    use framewright_graph::base::Sources;
+
+    fn passing() -> Scene {
+        let file = include_str!("../../../../examples/scenes/passing.ron");
+        text::read(&mut Sources::default(), "passing.ron", "passing.ron", file.to_owned()).expect("a scene")
+    }
+
+    #[test]
+    fn a_scene_that_is_held_still_stands_where_it_was_at_that_frame_ever_after() {
+        let moving = passing();
+        assert!(moving.moves());
+        for frame in [0, 1, 29] {
+            let (still, then) = (moving.still_at(frame), moving.at(frame));
+            assert!(!still.moves());
+            for later in [0, 1, 100] {
+                assert_eq!(still.at(later), still, "{frame}, then {later}");
+                assert_eq!(still.still_at(later), still, "{frame}, then {later}");
+            }
+            let places = |scene: &Scene| scene.objects.iter().map(|object| object.transform).collect::<Vec<_>>();
+            assert_eq!(places(&still), places(&then));
+            // Where an object was at the frame before is where it is.
+            assert!(still.objects.iter().all(|object| object.transform_at(1) == object.transform));
+            assert_eq!(still.camera.transform, then.camera.transform);
+            // Nothing else of it is another.
+            assert_eq!((&still.meshes, &still.materials, &still.sky), (&moving.meshes, &moving.materials, &moving.sky));
+        }
+        let camera = |frame| moving.still_at(frame).camera.transform;
+        assert!(camera(0) != camera(29) && moving.still_at(0).objects != moving.still_at(29).objects);
+    }
+}

@@ -3,7 +3,7 @@
 //! ```ron
 //! Scene(
 //!     version: 1,
-//!     camera: (position: (4, 3, 8), target: (0, 1, 0), fov: 40),
+//!     camera: (position: (4, 3, 8), target: (0, 1, 0), fov: 40, near: 0.1, far: 500),
 //!     cameras: [(name: "top", position: (0, 9, 0), target: (0, 0, 0), up: (0, 0, -1))],
 //!     sun: (direction: (1, -2, -1), color: "#fff0d0", intensity: 1.2),
 //!     ambient: (0.1, 0.1, 0.12),
@@ -29,6 +29,9 @@
 //! position; a ring lies around it, beginning in front (+z), and turns each copy with it. Copies take several materials
 //! by turns. A sun or light with `shadows: true` casts shadows, where a pipeline draws any. An object with `cross_fade: 0.3`
 //! is seen in three tenths of its pixels, one with `-0.3` in the others.
+//!
+//! A camera sees from the distance `near` on, 0.1 m if it says nothing, to the distance `far`: infinitely far if that is left
+//! out.
 //!
 //! Cameras and objects move steadily with `velocity: (1, 0, 0)`, metres a second, and turn about their own place with
 //! `spin: (0, 90, 0)`: the axis, as long as the degrees a second. A frame lasts [`super::FRAME_SECONDS`]; the first shows
@@ -171,6 +174,7 @@ fields! {
         up: Option<Leaf<'s>>,
         fov: Option<Leaf<'s>>,
         near: Option<Leaf<'s>>,
+        far: Option<Leaf<'s>>,
         velocity: Option<Leaf<'s>>,
         spin: Option<Leaf<'s>>,
     }
@@ -192,14 +196,31 @@ fn standing(reader: &mut Reader, fields: CameraFields<'_>) -> Option<Camera> {
     let up = fields.up.map_or(Some(DVec3::Y), |leaf| direction(reader, leaf, "the upward direction"));
     let fov = fields.fov.map_or(Some(FOV), |leaf| number(reader, leaf, "the field of view", 1.0, 170.0));
     let near = fields.near.map_or(Some(NEAR), |leaf| number(reader, leaf, "the near distance", 1e-6, 1e9));
+    let far = fields.far.map(|leaf| (leaf, number(reader, leaf, "the far distance", 1e-6, 1e12)));
     let movement = movement(reader, fields.velocity, fields.spin);
+    let far = match far {
+        None => None,
+        Some((leaf, far)) => {
+            let (far, near) = (far? as f32, near? as f32);
+            if far <= near {
+                let help = "a far plane lies behind the near plane; without `far` the camera sees infinitely far";
+                reader.wrong(
+                    leaf,
+                    format!("the far distance ({far}) isn't greater than the near distance ({near})"),
+                    help,
+                );
+                return None;
+            }
+            Some(far)
+        }
+    };
     let (position, target, up, movement) = (position?, target?, up?, movement?);
     let camera = Camera::look_at(position, target, up, fov?.to_radians() as f32, near? as f32);
     if camera.is_none() {
         let help = "position and target must differ, and the view must not run along `up`";
         reader.wrong(fields.target, "this leaves the camera's direction open", help);
     }
-    camera.map(|camera| Camera { movement, ..camera })
+    camera.map(|camera| Camera { far, movement, ..camera })
 }
 
 fields! {
@@ -210,6 +231,7 @@ fields! {
         up: Option<Leaf<'s>>,
         fov: Option<Leaf<'s>>,
         near: Option<Leaf<'s>>,
+        far: Option<Leaf<'s>>,
         velocity: Option<Leaf<'s>>,
         spin: Option<Leaf<'s>>,
     }
@@ -224,8 +246,8 @@ fn cameras<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<NamedCamera>> 
         let written = name.as_ref().map(|name| name.text.to_string());
         names.give(reader, name);
         cameras.push(entry.and_then(|entry| {
-            let NamedCameraFields { position, target, up, fov, near, velocity, spin, .. } = entry;
-            let camera = standing(reader, CameraFields { position, target, up, fov, near, velocity, spin })?;
+            let NamedCameraFields { position, target, up, fov, near, far, velocity, spin, .. } = entry;
+            let camera = standing(reader, CameraFields { position, target, up, fov, near, far, velocity, spin })?;
             Some(NamedCamera { name: written?, camera })
         }));
     }

@@ -204,7 +204,7 @@ fn a_camera_in_the_file_is_used_without_its_scale() {
     let scene = fixture("camera_and_lights.glb");
     let camera = scene.camera;
     assert_eq!(scene.camera_named(Some("eye")), Some(&camera));
-    assert_eq!((camera.vertical_fov, camera.near), (0.8, 0.05));
+    assert_eq!((camera.vertical_fov, camera.near, camera.far), (0.8, 0.05, Some(100.0)));
     let (sin, cos) = 0.4f64.sin_cos();
     assert!(camera.position().abs_diff_eq(DVec3::new(1.0 + 5.0 * sin, 0.25, 5.0 * cos), 1e-5), "{}", camera.position());
     let forward = camera.transform.transform_vector3(DVec3::NEG_Z);

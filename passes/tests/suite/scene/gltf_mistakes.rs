@@ -240,7 +240,7 @@ fn numbers_that_are_not_finite_or_out_of_range() {
     let far = verdict(&pack(&json.to_string(), &binary));
     let expected = "node 0: its place in the world is [-0.5, -0.5, 0.0] to [1e30, 0.5, 0.0]; expected at most 1e9 m";
     assert_eq!(far, expected);
-    let cases: [(Lie, &str); 8] = [
+    let cases: [(Lie, &str); 9] = [
         (
             |json| json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 2.0, 0.0, 1.0]),
             "material 0: a base colour factor is 2; expected 0 to 1",
@@ -281,6 +281,14 @@ fn numbers_that_are_not_finite_or_out_of_range() {
                 json["nodes"][0]["camera"] = json!(0);
             },
             "camera 0: the near distance is 0; expected 1e-6 to 1e9 m",
+        ),
+        (
+            |json| {
+                let perspective = json!({"yfov": 1.0, "znear": 0.1, "zfar": 0.1});
+                json["cameras"] = json!([{"perspective": perspective, "type": "perspective"}]);
+                json["nodes"][0]["camera"] = json!(0);
+            },
+            "camera 0: the far distance is 0.1; expected more than the near distance",
         ),
     ];
     for (lie, expected) in cases {

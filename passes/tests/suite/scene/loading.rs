@@ -1,6 +1,7 @@
 //! Files as a whole, the shipped scene, and the camera's matrices.
 
 use framewright_passes::scene::{Camera, Scene, SceneError, load};
+use framewright_passes::twin::distance::{depth_at, distance_at};
 use glam::{DVec3, DVec4, Vec3};
 use std::path::{Path, PathBuf};
 
@@ -103,6 +104,26 @@ fn depth_is_one_on_the_near_plane_and_falls_to_zero() {
     assert!((depth(0.5) - 1.0).abs() < 1e-6);
     assert!((depth(5.0) - 0.1).abs() < 1e-6);
     assert!(depth(1e9) > 0.0 && depth(1e9) < 1e-9);
+}
+
+#[test]
+fn depth_is_zero_on_a_far_plane_and_between_what_the_twin_says() {
+    for (near, far) in [(0.5_f32, 40.0_f32), (1e-4, 1e8), (1.0, 1.5)] {
+        let camera = Camera { near, far: Some(far), ..camera() };
+        let to_clip = camera.projection(2.0).as_dmat4() * camera.view();
+        let (near, far) = (f64::from(near), f64::from(far));
+        for share in [0.0, 0.25, 0.5, 0.9, 1.0] {
+            let distance = near * (far / near).powf(share);
+            let clip = to_clip * DVec4::new(1.0, 2.0, 3.0 - distance, 1.0);
+            let expected = depth_at(distance, near, Some(far));
+            // The projection's numbers have 24 bits.
+            let close = (clip.z / clip.w - expected).abs() <= 2e-7 * near / distance;
+            assert!(close, "{near} to {far}: {} at {distance}, not {expected}", clip.z / clip.w);
+            let back = distance_at(expected, near, Some(far));
+            assert!(share == 1.0 || (back - distance).abs() <= 1e-6 * distance, "{distance} is seen at {back}");
+        }
+        assert_eq!((depth_at(near, near, Some(far)), depth_at(far, near, Some(far))), (1.0, 0.0));
+    }
 }
 
 #[test]

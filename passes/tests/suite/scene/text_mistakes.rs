@@ -186,6 +186,9 @@ fn cameras_and_suns_need_a_direction() {
     let sun = mistakes(&scene("sun: (direction: (0, 0, 0)),", "Plane(material: \"grey\", size: 1)"));
     assert_eq!(sun, ["2:18 the sun's direction has no length, so it points nowhere"]);
     let wide = mistakes(&scene("camera: (position: (0, 9, 0), target: (1, 1, 0), fov: 180),", ""));
+    let short = mistakes(&scene("camera: (position: (0, 9, 0), target: (1, 1, 0), near: 2, far: 2),", ""));
+    let help = "a far plane lies behind the near plane; without `far` the camera sees infinitely far";
+    assert_eq!(short, [format!("2:64 the far distance (2) isn't greater than the near distance (2) / {help}")]);
     assert_eq!(wide, ["2:55 the field of view is 180; expected 1 to 170"]);
 }
 

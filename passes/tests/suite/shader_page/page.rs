@@ -1,7 +1,7 @@
 //! The page: a text with one place for each kind of shader.
 
 use crate::shader_page::comments;
-use framewright_graph::frame::{Cascade, Draw, DrawList};
+use framewright_graph::frame::{Cascade, Draw, DrawList, Share};
 use framewright_graph::shader::{Binding, BindingKind, PASS_SET, ShaderInterface, Variant};
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
@@ -14,7 +14,16 @@ const DRAWS: [(&str, Draw); 5] = [
     ("FullScreen", Draw::FullScreen),
     ("Sky", Draw::Sky),
     ("Objects", Draw::Objects(DrawList::Opaque)),
-    ("Casters", Draw::Casters(Cascade { list: DrawList::Opaque, index: 0, of: 1, reach: None })),
+    (
+        "Casters",
+        Draw::Casters(Cascade {
+            list: DrawList::Opaque,
+            index: 0,
+            of: 1,
+            reach: None,
+            logarithmic: Share::OF_CASCADES,
+        }),
+    ),
     ("Indirect", Draw::Indirect),
 ];
 

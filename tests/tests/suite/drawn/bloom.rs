@@ -11,7 +11,7 @@ use std::error::Error;
 
 impl Image {
     /// Light at a place in texels, between the middles of texels mixed linearly along both axes.
-    fn light(&self, x: f64, y: f64) -> [f64; 3] {
+    pub(super) fn light(&self, x: f64, y: f64) -> [f64; 3] {
         let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
         let (across, down) = (x - 0.5 - left, y - 0.5 - top);
         let (left, top) = (left as i32, top as i32);
@@ -23,18 +23,18 @@ impl Image {
 }
 
 /// The pipeline's outputs.
-struct Filtered {
-    noise: Image,
-    plain: Image,
-    calm: Image,
-    grown: Image,
+pub(super) struct Filtered {
+    pub(super) noise: Image,
+    pub(super) plain: Image,
+    pub(super) calm: Image,
+    pub(super) grown: Image,
     mixed: Image,
-    blurred: Image,
+    pub(super) blurred: Image,
     shrunk_values: Image,
     grown_values: Image,
 }
 
-fn filtered(radius: &str, share: &str) -> Result<Option<Filtered>, Box<dyn Error>> {
+pub(super) fn filtered(radius: &str, share: &str) -> Result<Option<Filtered>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let set = [("radius", radius), ("share", share)];
     let scene = empty_scene();

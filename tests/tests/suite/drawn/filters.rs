@@ -30,16 +30,16 @@ impl Image {
 }
 
 /// Noise, and what the filters made of it, in the order of the pipeline's outputs.
-struct Filtered {
-    noise: Image,
-    half: Image,
-    across: Image,
+pub(super) struct Filtered {
+    pub(super) noise: Image,
+    pub(super) half: Image,
+    pub(super) across: Image,
     down: Image,
     mixed: Image,
     copied: Image,
 }
 
-fn filtered(strength: &str) -> Result<Option<Filtered>, Box<dyn Error>> {
+pub(super) fn filtered(strength: &str) -> Result<Option<Filtered>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let set = [("strength", strength)];
     let scene = empty_scene();

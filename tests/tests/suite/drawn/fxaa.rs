@@ -7,10 +7,10 @@ use std::error::Error;
 
 const EXTENT: [usize; 2] = [64, 48];
 
-type Picture = Vec<[f64; 3]>;
+pub(super) type Picture = Vec<[f64; 3]>;
 
 /// The halves, the halves smoothed, noise, and that smoothed.
-fn smoothed(set: &[(&str, &str)]) -> Result<Option<[Picture; 4]>, Box<dyn Error>> {
+pub(super) fn smoothed(set: &[(&str, &str)]) -> Result<Option<[Picture; 4]>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let (scene, extent) = (empty_scene(), EXTENT.map(|side| side as u32));
     let setup = Setup { pipeline: "tests/pipelines/fxaa.ron", set, scene: &scene, extent };
@@ -19,7 +19,7 @@ fn smoothed(set: &[(&str, &str)]) -> Result<Option<[Picture; 4]>, Box<dyn Error>
     Ok(Some(pictures.try_into().map_err(|_| "not four outputs")?))
 }
 
-fn texel(picture: &Picture, x: i32, y: i32) -> [f64; 3] {
+pub(super) fn texel(picture: &Picture, x: i32, y: i32) -> [f64; 3] {
     let [width, height] = EXTENT.map(|side| side as i32);
     picture[(y.clamp(0, height - 1) * width + x.clamp(0, width - 1)) as usize]
 }

@@ -7,13 +7,14 @@ use framewright_vulkan::Texels;
 use std::error::Error;
 
 const SCALES: [&str; 8] = ["0.25", "0.5", "0.7", "1", "1.5", "2", "3", "4"];
-const TARGETS: [[u32; 2]; 2] = [[37, 23], [16, 10]];
+/// NU-4: down to a single pixel, of which a scale of 0.25 is a single texel.
+const TARGETS: [[u32; 2]; 5] = [[37, 23], [16, 10], [1, 1], [1, 9], [9, 1]];
 /// The largest number that `noise_of_texels.frag` draws into each channel.
 const BRIGHTEST: [f64; 3] = [1.0, 1.0, 40.0];
 const OUTPUTS: usize = 7;
 
-struct Image {
-    extent: [u32; 2],
+pub(super) struct Image {
+    pub(super) extent: [u32; 2],
     channels: Vec<f64>,
 }
 
@@ -29,7 +30,7 @@ impl Image {
     }
 
     /// A channel of a texel; beyond the border that of the border.
-    fn at(&self, x: i32, y: i32, channel: usize) -> f64 {
+    pub(super) fn at(&self, x: i32, y: i32, channel: usize) -> f64 {
         let [width, height] = self.extent.map(u32::cast_signed);
         let texel = y.clamp(0, height - 1) * width + x.clamp(0, width - 1);
         self.channels[4 * texel as usize + channel]
@@ -37,7 +38,7 @@ impl Image {
 }
 
 /// The source, and what each filter made of it.
-fn scaled(scale: &str, extent: [u32; 2]) -> Result<Option<[Image; OUTPUTS]>, Box<dyn Error>> {
+pub(super) fn scaled(scale: &str, extent: [u32; 2]) -> Result<Option<[Image; OUTPUTS]>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let (set, scene) = ([("scale", scale)], empty_scene());
     let setup = Setup { pipeline: "tests/pipelines/scale.ron", set: &set, scene: &scene, extent };

@@ -1,10 +1,11 @@
 //! The sun's shadows (IQ-25) are held against rays from what the ray-caster sees to the sun.
 
-use framewright_graph::frame::{Cascade, DrawList};
+use framewright_graph::frame::{Cascade, DrawList, Share};
 use framewright_graph::vulkan::Filter;
 use framewright_passes::draw::cascades::sun_view;
 use framewright_passes::scene::{AlphaMode, Camera, Sampler, Scene, Sun, Texture, Wrap};
 use framewright_passes::twin::lighting::{lit_surface, reflect_light};
+use framewright_passes::twin::sun_shadow::faded;
 use framewright_tests::raycast::RayCaster;
 use framewright_tests::raycast::triangle::Ray;
 use framewright_tests::render::{Setup, device, render};
@@ -16,6 +17,8 @@ use std::error::Error;
 const EXTENT: [u32; 2] = [120, 90];
 /// Width and height of the maps of `tests/pipelines/shadows.ron`.
 const MAP: u32 = 1024;
+/// The distance of the yard's near plane.
+const NEAR: f32 = 0.05;
 /// Largest error of a channel, relative to it.
 const RELATIVE: f64 = 1e-3;
 
@@ -42,7 +45,7 @@ fn yard() -> Scene {
         ],
     );
     yard.textures = vec![bars()];
-    yard.camera = Camera::look_at(DVec3::new(2.5, 4.0, 6.0), DVec3::new(0.0, 0.4, 0.0), DVec3::Y, 0.8, 0.05)
+    yard.camera = Camera::look_at(DVec3::new(2.5, 4.0, 6.0), DVec3::new(0.0, 0.4, 0.0), DVec3::Y, 0.8, NEAR)
         .expect("a direction");
     yard.ambient = [0.1, 0.15, 0.2];
     yard.sun =
@@ -59,18 +62,28 @@ fn bars() -> Texture {
 }
 
 /// Holds the sun's light against rays, and counts pixels: in light, without it, and those that neither can be said of.
-fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3], Box<dyn Error>> {
+fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32, reach: f32) -> Result<[usize; 3], Box<dyn Error>> {
     let Some(device) = device() else { return Ok([usize::MAX; 3]) };
     let (number, width) = (cascades.to_string(), taps.to_string());
-    let set = [("cascades", &*number), ("taps", &*width)];
+    let far = reach.to_string();
+    let set = [("cascades", &*number), ("taps", &*width), ("reach", &*far)];
     let setup = Setup { pipeline: "tests/pipelines/shadows.ron", set: &set, scene, extent: EXTENT };
     let outputs = render(device, &setup)?;
     let (texels, _) = outputs[0].bytes.as_chunks::<16>();
-    let caster = RayCaster::new(scene);
+    // Rays to the sun begin at surfaces: the camera's near plane must hide nothing from them.
+    let mut judged = scene.clone();
+    judged.camera.near = NEAR;
+    let caster = RayCaster::new(&judged);
     let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
     let (right, up) = to_sun.any_orthonormal_pair();
     // Where no blocker begins or ends within this, the coarsest map can tell.
-    let coarsest = Cascade { list: DrawList::Opaque, index: cascades - 1, of: cascades, reach: 14.0.try_into().ok() };
+    let coarsest = Cascade {
+        list: DrawList::Opaque,
+        index: cascades - 1,
+        of: cascades,
+        reach: reach.try_into().ok(),
+        logarithmic: Share::OF_CASCADES,
+    };
     let aspect = f64::from(EXTENT[0]) / f64::from(EXTENT[1]);
     let blur = sun_view(scene, &scene.camera, aspect, coarsest, MAP).texel * f64::from(taps + 3);
     let mut counts = [0; 3];
@@ -104,14 +117,17 @@ fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3
             counts[2] += 1;
             continue;
         }
-        let sunlit = if here { 0.0 } else { 1.0 };
+        let share = position.distance(scene.camera.position()) / f64::from(reach);
+        let sunlit = faded(if here { 0.0 } else { 1.0 }, share);
         counts[usize::from(here)] += 1;
+        // Drivers snap corners to a 16th of a pixel, which is some millimetres of the way along which shadows fade.
+        let fading = if sunlit > 0.0 && sunlit < 1.0 { 0.01 } else { 0.0 };
         let material = &scene.materials[scene.objects[hit.object as usize].material];
         let expected = lit_surface(material, hit.base_color, &reflect_light(scene, position, hit.normal, sunlit));
         for channel in 0..3 {
             let word: [u8; 4] = texel[4 * channel..4 * channel + 4].try_into()?;
             let found = f64::from(f32::from_ne_bytes(word));
-            let close = (found - expected[channel]).abs() <= RELATIVE * expected[channel] + 1e-3;
+            let close = (found - expected[channel]).abs() <= RELATIVE * expected[channel] + 1e-3 + fading;
             assert!(
                 close,
                 "{cascades} cascades, {taps} taps, {at}: object {} shows {found}, not {} (sunlit {sunlit})",
@@ -126,8 +142,39 @@ fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3
 fn what_the_sun_does_not_reach_lies_in_shadow_whatever_the_cascades_and_the_filter() -> Result<(), Box<dyn Error>> {
     let yard = yard();
     for (cascades, taps) in [(1, 1), (2, 3), (4, 1), (4, 7)] {
-        let [lit, dark, between] = hold_against_rays(&yard, cascades, taps)?;
+        let [lit, dark, between] = hold_against_rays(&yard, cascades, taps, 14.0)?;
         assert!(lit > 1000 && dark > 50, "{cascades} cascades, {taps} taps: {lit} lit, {dark} dark, {between} between");
+    }
+    Ok(())
+}
+
+/// NU-5: along the last tenth of the reach shadows fade as the twin says; beyond it there are none.
+#[test]
+fn shadows_fade_along_the_last_tenth_of_their_reach() -> Result<(), Box<dyn Error>> {
+    let yard = yard();
+    for reach in [6.5, 7.5, 8.5] {
+        let [lit, dark, between] = hold_against_rays(&yard, 2, 3, reach)?;
+        assert!(lit > 1000 && dark > 50, "to {reach} m: {lit} lit, {dark} dark, {between} between");
+    }
+    Ok(())
+}
+
+/// NU-6: with as many cascades as a scene needs, rays find the shadows as right as with four, in as many pixels.
+#[test]
+fn as_many_cascades_as_a_scene_needs_draw_shadows_as_right_as_four_do() -> Result<(), Box<dyn Error>> {
+    for (near, needed) in [(0.75, 2), (3.75, 1)] {
+        let mut yard = yard();
+        yard.camera.near = near;
+        assert_eq!(yard.facts().shadow_cascades, u32::from(needed), "near {near}");
+        let [few, four] = [needed, 4].map(|cascades| hold_against_rays(&yard, cascades, 3, 14.0));
+        let [[lit, dark, _], [lit_by_four, dark_by_four, _]] = [few?, four?];
+        assert!(lit > 1000 && dark > 50, "near {near}: {lit} lit, {dark} dark");
+        let [lit_share, dark_share] =
+            [(lit, lit_by_four), (dark, dark_by_four)].map(|(few, all)| few as f64 / all as f64);
+        assert!(
+            lit_share > 0.97 && dark_share > 0.9,
+            "near {near}: {lit_share} of what is lit, {dark_share} of what is dark"
+        );
     }
     Ok(())
 }

@@ -1,8 +1,9 @@
 //! The sky is held against its formula (NU-5) along rays that the ray-caster casts.
 
-use framewright_passes::scene::{Camera, Scene, Sky};
+use framewright_passes::scene::{Camera, Scene, Sky, Sun};
+use framewright_passes::twin::sky::sun_share;
 use framewright_tests::raycast::RayCaster;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use glam::{DVec2, DVec3};
 use std::error::Error;
@@ -38,6 +39,37 @@ fn without_a_sun_the_sky_is_its_gradient_everywhere_in_the_picture() -> Result<(
                 assert!((found - expected).abs() < 1e-3, "({x}, {y}) channel {channel}: {found} instead of {expected}");
             }
         }
+    }
+    Ok(())
+}
+
+/// The sun high up, at the horizon, and far below it, where no glow is left (NU-5).
+#[test]
+fn the_sun_and_its_glow_are_their_twins() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    for sine in [0.4, 0.01, -0.01, -0.5] {
+        let to_sun = DVec3::new(0.3, 0.0, -1.0).normalize() * (1.0_f64 - sine * sine).sqrt() + DVec3::Y * sine;
+        let mut scene = scene(DVec3::new(0.3, 0.15, -1.0))?;
+        let color = [3.0, 2.0, 0.5];
+        scene.sun = Sun { direction: (-to_sun).as_vec3().to_array(), color, shadows: false };
+        let setup = Setup { pipeline: "tests/pipelines/sky.ron", set: &[], scene: &scene, extent: EXTENT };
+        let found = rgb(&render(device, &setup)?[0]);
+        let caster = RayCaster::new(&scene);
+        let mut bright = 0;
+        for (at, found) in found.into_iter().enumerate() {
+            let middle = DVec2::new((at % EXTENT[0] as usize) as f64, (at / EXTENT[0] as usize) as f64) + 0.5;
+            let direction = caster.camera_ray(middle, EXTENT).direction.normalize();
+            let share = sun_share(direction.y, direction.dot(to_sun));
+            let sky = scene.sky.towards(direction.to_array());
+            bright += usize::from(share > 0.05);
+            for channel in 0..3 {
+                let expected = sky[channel] + share * f64::from(color[channel]);
+                // A power of 2048 makes 10⁻⁴ of a rounding of 2⁻²⁴; the horizon is a root.
+                let close = (found[channel] - expected).abs() <= 2e-3 * (1.0 + expected);
+                assert!(close, "sun at {sine}, {middle}: {} instead of {expected}", found[channel]);
+            }
+        }
+        assert_eq!(bright > 20, sine > -0.1, "sun at {sine}: {bright} pixels glow");
     }
     Ok(())
 }

@@ -24,6 +24,7 @@ pub(crate) fn empty() -> Plan {
         device: DeviceUsed { name: "built by hand".to_owned(), exact_memory: true },
         settings: Vec::new(),
         changes: Vec::new(),
+        decided: [].into(),
         stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),

@@ -269,6 +269,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
         changes: Vec::new(),
+        decided: [].into(),
         stereo: Stereo::Off,
         views: Vec::new(),
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],

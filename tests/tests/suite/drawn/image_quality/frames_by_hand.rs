@@ -26,7 +26,7 @@ fn with_everything_off_it_is_the_scene_alone() -> Result<(), Box<dyn Error>> {
 /// The scene (3 passes), its samples averaged at the end of the scope; tone mapping of that into the screen (1).
 #[test]
 fn samples_and_tone_mapping_take_one_resolve_and_one_draw() -> Result<(), Box<dyn Error>> {
-    demand(&[], [2, 4, 1])
+    demand(&[("mapped", "pixels")], [2, 4, 1])
 }
 
 /// The scene (3), averaged; then five blurs (5), each in a scope of its own, since it reads what the one before drew.
@@ -39,14 +39,20 @@ fn a_blur_takes_one_resolve_and_its_own_draws() -> Result<(), Box<dyn Error>> {
 /// that are blended, and glass (4), averaged; tone mapping (1).
 #[test]
 fn stripes_that_are_blended_stay_in_the_scope_of_the_scene() -> Result<(), Box<dyn Error>> {
-    demand(&[("depth_stripes", "blended")], [3, 6, 1])
+    demand(&[("mapped", "pixels"), ("depth_stripes", "blended")], [3, 6, 1])
 }
 
 /// Opaque objects and sky (2), averaged; depth of one sample (1); stripes that sample both (1); those back into all samples
 /// and glass (2), averaged; tone mapping (1).
 #[test]
 fn stripes_that_sample_the_colour_take_two_scopes_and_a_resolve_more() -> Result<(), Box<dyn Error>> {
-    demand(&[("depth_stripes", "copied")], [5, 7, 2])
+    demand(&[("mapped", "pixels"), ("depth_stripes", "copied")], [5, 7, 2])
+}
+
+/// The choice of the file itself: the scene (3), whose samples are kept; the draw that maps each of them and averages (1).
+#[test]
+fn tone_mapping_of_samples_takes_no_resolve_and_one_draw() -> Result<(), Box<dyn Error>> {
+    demand(&[], [2, 4, 0])
 }
 
 /// The scene (3), whose samples are kept; the draw that maps each of them and averages (1); three blurs (3).

@@ -27,6 +27,7 @@
 //! | IQ-12: refused | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
 //! | IQ-12, IQ-24 | `cli/tests/suite/image_quality.rs`, `depth_stripes`, `frames_by_hand` | `depth_stripes.ron`: `"depth"` for `Resolved("depth")` |
 //! | IQ-13 | `cli/tests/suite/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
+//! | IQ-13 | `depth_only::depth_drawn_again_keeps_instances_holes_and_fading` | `material.glsl`: without the object's own colour; `lit_masked.frag`: no cut-off with `DEPTH_ONLY` |
 //! | IQ-14 | `cli/tests/suite/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
 //! | IQ-14 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: modes that were refuted are taken |
 //! | IQ-14 | `depth::each_way_to_see_depth_has_its_error_and_every_sample_the_least` | `each_sample` left out |

@@ -18,9 +18,8 @@ fn the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen() 
         [("0.25", [16, 11]), ("0.7", [45, 32]), ("1.5", [97, 70]), ("2", [130, 94]), ("4", [260, 188])]
     {
         for filter in ["nearest", "bilinear", "area", "catmull_rom"] {
-            let Some(plan) = plan(&[("render_scale", scale), ("filter", filter), ("tone_mapping", "clip")])? else {
-                return Ok(());
-            };
+            let set = [("render_scale", scale), ("filter", filter), ("tone_mapping", "clip"), ("mapped", "pixels")];
+            let Some(plan) = plan(&set)? else { return Ok(()) };
             let size = |pass: &str| drawn_by(&plan, pass).map(|image| image.extent);
             let (draws, last) = (listing(&plan), format!("scale_light.{filter}"));
             assert_eq!(size("opaque"), Some([extent[0], extent[1], 1]), "{scale}");
@@ -74,9 +73,10 @@ fn a_view_brings_effects_of_its_own_or_takes_the_users() -> Result<(), Box<dyn E
 /// IQ-7.
 #[test]
 fn multisampled_colour_is_resolved_before_what_samples_it() -> Result<(), Box<dyn Error>> {
-    let Some(plan) = plan(&[])? else { return Ok(()) };
+    let mapped = ("mapped", "pixels");
+    let Some(plan) = plan(&[mapped])? else { return Ok(()) };
     assert_eq!(listing(&plan), ["opaque", "sky", "transparent", "(resolve)", "map.curve.tone_map"]);
-    let Some(plan) = crate::drawn::image_quality::plan(&[("msaa", "1")])? else { return Ok(()) };
+    let Some(plan) = crate::drawn::image_quality::plan(&[mapped, ("msaa", "1")])? else { return Ok(()) };
     assert_eq!(listing(&plan), ["opaque", "sky", "transparent", "map.curve.tone_map"]);
     Ok(())
 }
@@ -116,7 +116,7 @@ fn a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three() -> Res
 #[test]
 fn stripes_take_one_resolve_as_a_blend_and_two_as_a_copy() -> Result<(), Box<dyn Error>> {
     for (form, resolves) in [("blended", 1), ("copied", 2)] {
-        let Some(plan) = plan(&[("depth_stripes", form)])? else { return Ok(()) };
+        let Some(plan) = plan(&[("mapped", "pixels"), ("depth_stripes", form)])? else { return Ok(()) };
         assert_eq!(plan.totals.resolves, resolves, "{}", plan.tree());
         let glass = plan.steps.iter().find_map(|step| match &step.work {
             Work::Render(scope) => {
@@ -218,7 +218,7 @@ fn tone_mapping_is_the_resolving_draw_if_samples_are_mapped() -> Result<(), Box<
 /// IQ-24: as a frame debugger would list it.
 #[test]
 fn the_listing_shows_resolves_in_their_place() -> Result<(), Box<dyn Error>> {
-    let Some(stripes) = plan(&[("depth_stripes", "copied")])? else { return Ok(()) };
+    let Some(stripes) = plan(&[("mapped", "pixels"), ("depth_stripes", "copied")])? else { return Ok(()) };
     let expected = [
         "opaque",
         "sky",

@@ -92,8 +92,8 @@ fn errors(otherwise: (&'static str, &'static str)) -> Result<Option<[f64; 2]>, B
     let common = [("tone_mapping", "reinhard"), ("msaa", "4")];
     let Some(exact) = converged(&common[..1], LAMP)? else { return Ok(None) };
     let [Some(plain), Some(remedied)] = [
-        picture(&common, &shining([LAMP; 3]), EXTENT)?,
-        picture(&[common[0], common[1], otherwise], &shining([LAMP; 3]), EXTENT)?,
+        picture(&[common[0], common[1], ("mapped", "pixels")], &shining([LAMP; 3]), EXTENT)?,
+        picture(&[common[0], common[1], ("mapped", "pixels"), otherwise], &shining([LAMP; 3]), EXTENT)?,
     ] else {
         return Ok(None);
     };
@@ -115,6 +115,35 @@ fn a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped() -> Result<(), Box
     let Some([plain, mapped]) = errors(("mapped", "samples"))? else { return Ok(()) };
     println!("plain average {plain:.4}, samples tone-mapped {mapped:.4}");
     assert!(mapped < 0.5 * plain, "mapped {mapped}, plain {plain}");
+    Ok(())
+}
+
+/// NU-2: as the file stands, samples make edges before a lamp smoother than one sample does.
+#[test]
+fn samples_smooth_edges_before_a_lamp_without_being_asked() -> Result<(), Box<dyn Error>> {
+    const LAMP: f32 = 60.0;
+    let Some(exact) = converged(&[], LAMP)? else { return Ok(()) };
+    let [Some(one), Some(four)] =
+        [picture(&[("msaa", "1")], &shining([LAMP; 3]), EXTENT)?, picture(&[], &shining([LAMP; 3]), EXTENT)?]
+    else {
+        return Ok(());
+    };
+    let (one, four) = (one.error_from(&exact), four.error_from(&exact));
+    assert!(four < 0.6 * one, "4 samples {four}, one {one}");
+    Ok(())
+}
+
+/// IQ-20: light in physical units is shown, by an exposure that fits it.
+#[test]
+fn exposure_brings_bright_light_back() -> Result<(), Box<dyn Error>> {
+    for (tone_mapping, mapped) in [("white_point", "samples"), ("white_point", "pixels"), ("clip", "texels")] {
+        let set = [("tone_mapping", tone_mapping), ("mapped", mapped)];
+        let Some(usual) = picture(&set, &shining([0.5; 3]), EXTENT)? else { return Ok(()) };
+        let exposed = [&set[..], &[("exposure", "0.0001")]].concat();
+        let Some(bright) = picture(&exposed, &shining([5000.0; 3]), EXTENT)? else { return Ok(()) };
+        let error = bright.error_from(&usual);
+        assert!(error < 0.01, "{set:?}: {error}");
+    }
     Ok(())
 }
 

@@ -154,3 +154,60 @@ fn eyes_far_from_the_origin_see_what_they_see_near_it() -> Result<(), Box<dyn Er
     }
     Ok(())
 }
+
+/// NU-4: sky, motion and stripes of each eye are what they are without a far plane, which lies close behind the scene.
+#[test]
+fn a_far_plane_changes_nothing_of_what_each_eye_sees_before_it() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    // So far apart that the direction of the sky would be off by a sixth.
+    let eyes = Eyes::apart(20.0);
+    for (pipeline, scene, set) in [
+        ("image_quality", "spheres_and_cubes", &[("depth_stripes", "copied")] as Set<'_>),
+        ("temporal", "passing", &[]),
+    ] {
+        let mut scene = load(&in_repository(&format!("examples/scenes/{scene}.ron")))?;
+        let file = shipped(pipeline);
+        let (_, without) = pictures(device, (&file, set), &scene, TWO, &eyes)?;
+        scene.camera.far = Some(60.0);
+        let (_, with) = pictures(device, (&file, set), &scene, TWO, &eyes)?;
+        assert_eq!((without.len(), with.len()), (2, 2), "{pipeline}");
+        for (without, with) in without.iter().zip(&with) {
+            let apart = apart(without, with);
+            assert!(apart <= 12, "{pipeline}: {apart} of {} pixels differ", without.len() / 4);
+        }
+    }
+    Ok(())
+}
+
+/// NU-4: eyes at one place see the same, bit by bit; each of two that are a kilometre apart sees what a camera in its place
+/// sees.
+#[test]
+fn eyes_at_one_place_and_a_kilometre_apart_see_what_a_camera_there_sees() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    let set: Set<'_> = &[("msaa", "1")];
+    let file = shipped("forward");
+    let (_, alone) = pictures(device, (&file, set), &scene, Ways::default(), &Eyes::default())?;
+    let (_, together) = pictures(device, (&file, set), &scene, TWO, &Eyes::apart(0.0))?;
+    assert!(together.len() == 2 && together.iter().all(|eye| *eye == alone[0]), "eyes at one place differ");
+
+    // The same things stand around each eye.
+    let right = DMat3::from_mat4(scene.camera.transform) * DVec3::new(500.0, 0.0, 0.0);
+    let things = std::mem::take(&mut scene.objects);
+    for side in [-1.0, 1.0] {
+        scene.objects.extend(things.iter().cloned().map(|mut thing| {
+            thing.transform.w_axis += (right * side).extend(0.0);
+            thing
+        }));
+    }
+    let (_, both) = pictures(device, (&file, set), &scene, TWO, &Eyes::apart(1000.0))?;
+    for (picture, place) in both.iter().zip([-500.0, 500.0]) {
+        let (_, alone) = pictures(device, (&file, set), &beside(&scene, place), Ways::default(), &Eyes::default())?;
+        let colors: std::collections::HashSet<_> = picture.chunks(4).collect();
+        assert!(colors.len() > 200, "an eye sees {} colours", colors.len());
+        // Half a kilometre from the origin of the shaders' world places are rounded to 1/32,768 of a metre.
+        let apart = apart(picture, &alone[0]);
+        assert!(apart * 100 < picture.len() / 4, "{apart} of {} pixels differ at {place} m", picture.len() / 4);
+    }
+    Ok(())
+}

@@ -1,6 +1,6 @@
 //! The cost of both eyes' pictures: images, passes and draws.
 
-use super::{Case, Drawn, EXTENT, apart_within, at_once, casters, drawn, form, read, rendered, shipped, upright};
+use super::{Case, Drawn, EVEN, EXTENT, apart_within, at_once, casters, drawn, form, read, rendered, shipped, upright};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan::{Image, Plan};
@@ -90,6 +90,42 @@ fn a_pass_draws_for_both_eyes_what_two_draw_for_each() -> Result<(), Box<dyn Err
         }
     }
     Ok(())
+}
+
+/// ST-15: what recording a frame takes, counted: draw calls of the objects, and allocations on this side of the driver where
+/// the camera moves and all that depends on it is prepared again. Both eyes in one pass take at most half the draw calls and
+/// four fifths of the allocations of one eye after the other.
+#[test]
+fn recording_both_eyes_at_once_takes_a_share_of_the_draw_calls_and_allocations() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = load(&in_repository("examples/scenes/passing.ron"))?;
+    let case = Case { pipeline: &shipped("forward"), set: &[], scene: &scene, extent: EVEN, frames: 1 };
+    let taken = |stereo| -> Result<[u64; 2], Box<dyn Error>> {
+        let plan = planned(device, &case, upright(stereo))?;
+        let mut draws = SceneDrawSource::for_eyes(device, &scene, EVEN, &plan, &Eyes::default())?;
+        let mut executor = Executor::new(device, &plan, &mut library(), &ExecutorOptions::default())?;
+        let mut last = None;
+        let mut allocations = u64::MAX;
+        for _ in 0..6 {
+            let mut frame = None;
+            let taken = allocation_counter::measure(|| frame = Some(executor.frame(&mut draws)));
+            allocations = allocations.min(taken.count_total);
+            last = Some(frame.ok_or("no frame")??);
+        }
+        let report = executor.report(last.ok_or("no frame")?)?;
+        let passes = report.steps.iter().flat_map(|step| &step.passes);
+        Ok([passes.map(|pass| u64::from(pass.draws)).sum(), allocations])
+    };
+    let [draws, allocations] = taken(Stereo::MultiPass)?;
+    for stereo in at_once(device) {
+        let [draws_at_once, allocations_at_once] = taken(stereo)?;
+        let name = stereo.name();
+        println!("{name}: {draws_at_once} of {draws} draw calls, {allocations_at_once} of {allocations} allocations");
+        assert!(2 * draws_at_once <= draws, "{name}: {draws_at_once} draw calls, {draws} for one eye after the other");
+        let fewer = 5 * allocations_at_once <= 4 * allocations;
+        assert!(fewer, "{name}: {allocations_at_once} allocations, {allocations} for one eye after the other");
+    }
+    silent(device)
 }
 
 /// ST-3: what one eye alone may see is a part of what either may.

@@ -1,0 +1,146 @@
+//! The pictures that choices are held against: still ones, and those of a moving scene.
+
+use super::digest::Digest;
+use super::reference;
+use super::references::{self, Reference, References};
+use super::run::{Bench, settings};
+use super::subjects::{self, Choice};
+use crate::command_line::measuring::MeasureArguments;
+use crate::drawing::{Prepared, pictures};
+use crate::error::Error;
+use crate::files::inputs;
+use crate::metric::{Changes, Flicker};
+use crate::picture::{FileFormat, Light};
+use crate::system::{interrupt, text};
+use framewright_graph::base::ReadFiles;
+use framewright_vulkan::ExecutorOptions;
+use std::path::Path;
+use std::rc::Rc;
+
+/// The values of `--reference` that are no files.
+pub(super) const AUTO: &str = "auto";
+const NONE: &str = "none";
+/// The key of a reference that is a file.
+pub(super) const GIVEN: &str = "given";
+
+/// The value of `--reference`.
+pub(super) enum Given {
+    Auto,
+    None,
+    /// A picture's file.
+    Picture(Light),
+}
+
+impl Given {
+    /// Reads the picture, if one is named.
+    pub(super) fn of(arguments: &MeasureArguments, read: &ReadFiles) -> Result<Given, Error> {
+        match arguments.reference.to_str() {
+            Some(AUTO) => Ok(Given::Auto),
+            Some(NONE) => Ok(Given::None),
+            _ => inputs::picture(&arguments.reference, read).map(Given::Picture),
+        }
+    }
+
+    /// Its name in results.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Given::Auto => AUTO.to_owned(),
+            Given::None => NONE.to_owned(),
+            Given::Picture(picture) => Digest::of_value(picture),
+        }
+    }
+}
+
+impl Bench<'_> {
+    /// Says once if a given reference and the pictures hold light of different ranges.
+    pub(super) fn tell_of_light(&mut self, reference: &Light, shown: &Light) {
+        if let (Given::Picture(_), false) = (&self.given, self.told_of_light)
+            && reference.is_light != shown.is_light
+        {
+            self.told_of_light = true;
+            let file = text::path(&self.arguments.reference);
+            let (with, without) = if reference.is_light { (&*file, "the output") } else { ("the output", &*file) };
+            text::say(&format!(
+                "note: FLIP is HDR-FLIP here: {with} holds light without an upper end, and {without} doesn't"
+            ));
+        }
+    }
+
+    /// The picture that a choice is held against at a frame of its scene; `None` if there is none.
+    pub(super) fn reference(&mut self, choice: &Choice, frame: u32) -> Result<Option<(Rc<Reference>, String)>, Error> {
+        let Some(key) = self.reference_key(choice, frame)? else { return Ok(None) };
+        if let Some(known) = self.references.lately(&key) {
+            return Ok(Some((known, key)));
+        }
+        let reference = match self.references.read(&key) {
+            Some(kept) => kept,
+            None => {
+                let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
+                let scene = choice.scene.still_at(frame);
+                let planned = self.planned(choice, &scene, &more)?;
+                let drawn = reference::draw(&self.device, &planned, &mut self.pipeline, &scene, choice.size)?;
+                let Some(drawn) = drawn else { return Ok(None) };
+                self.references.keep(&key, drawn)?
+            }
+        };
+        Ok(Some((self.references.remember(&key, reference), key)))
+    }
+
+    /// A digest of all that a reference is drawn from; `None` without references.
+    fn reference_key(&mut self, choice: &Choice, frame: u32) -> Result<Option<String>, Error> {
+        match &self.given {
+            Given::None => return Ok(None),
+            Given::Picture(_) => return Ok(Some(GIVEN.to_owned())),
+            Given::Auto => {}
+        }
+        let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
+        let scene = choice.scene.still_at(frame);
+        let planned = self.planned(choice, &scene, &more)?;
+        let texts: Vec<String> = settings(&planned).into_iter().flat_map(|(name, value)| [name, value]).collect();
+        let summary = self.device.summary();
+        let frame = if choice.scene.moving.moves() { frame } else { 0 };
+        let rest = [
+            env!("CARGO_PKG_VERSION").to_owned(),
+            self.pipeline_digest.clone(),
+            summary.name.clone(),
+            summary.driver.clone(),
+            choice.scene.digest.clone(),
+            frame.to_string(),
+            choice.size.to_string(),
+            planned.plan.stereo.name().to_owned(),
+        ];
+        Ok(Some(Digest::of(texts.iter().chain(&rest).map(|it| &**it))))
+    }
+
+    /// The flicker of a choice over the first frames of its scene; `None` if there is no picture.
+    pub(super) fn flicker(&mut self, choice: &Choice, frames: u32) -> Result<Option<Flicker>, Error> {
+        let moving = &choice.scene.moving;
+        let planned = self.planned(choice, moving, &[])?;
+        let Some(request) = pictures::of_first_output(&planned) else { return Ok(None) };
+        let options = ExecutorOptions::default();
+        let mut drawn = Prepared::new(&self.device, &planned, &mut self.pipeline, moving, choice.size, &options)?;
+        let mut changes = Changes::default();
+        for frame in 0..frames {
+            if interrupt::asked() {
+                return Err(Error::Interrupted { frames: frame, wanted: frames });
+            }
+            drawn.draw()?;
+            let file = request.encode(&mut drawn.executor, &planned.plan)?;
+            let shown = light(&file.contents, &file.path)?;
+            let Some((reference, _)) = self.reference(choice, frame)? else { return Ok(None) };
+            changes.add(&reference.picture, &shown);
+        }
+        Ok(Some(changes.flicker()))
+    }
+
+    /// Writes a reference as a display shows it, and answers with its path within the folder.
+    pub(super) fn shown(&self, key: &str, picture: &Light) -> Result<String, Error> {
+        let file = references::encoded(picture, FileFormat::Png)?;
+        self.written(References::name(key, "png"), &file)
+    }
+}
+
+/// The light in a picture's file.
+pub(super) fn light(contents: &[u8], path: &Path) -> Result<Light, Error> {
+    Light::decode(contents).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })
+}

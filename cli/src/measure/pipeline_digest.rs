@@ -1,0 +1,25 @@
+//! A digest of all files that a pipeline is made of, shaders and pictures of the user's own among them.
+
+use super::digest::Digest;
+use crate::planning::Loaded;
+use crate::variants::mentions::Mentions;
+use framewright_graph::base::FilePath;
+use std::collections::BTreeSet;
+
+/// The digest. It is that of the whole pipeline, whatever a choice leaves out of it: a shader is part of it if a string of a file
+/// is its name. Shipped shaders are no part of it, nor are files that can't be read.
+pub(super) fn of(pipeline: &Loaded) -> String {
+    let files: Vec<_> = (0..).map_while(|file| pipeline.sources.file(file)).collect();
+    let texts = files.iter().map(|file| file.text.as_bytes().to_vec());
+    let own = files.iter().filter(|file| matches!(file.path, FilePath::Own(_)));
+    let shaders: BTreeSet<String> = own
+        .flat_map(|file| {
+            // A sky without a word is drawn by the shader of that name.
+            let names = Mentions::of_text(&file.text).strings().chain(["sky"]).collect::<Vec<_>>();
+            names.into_iter().flat_map(|name| pipeline.shaders.own_texts(&file.path, name)).collect::<Vec<_>>()
+        })
+        .collect();
+    let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.textures.bytes(path).ok());
+    let parts: Vec<Vec<u8>> = texts.chain(shaders.into_iter().map(String::into_bytes)).chain(pictures).collect();
+    Digest::of_bytes(parts.iter().map(|part| &**part))
+}

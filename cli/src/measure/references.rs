@@ -1,0 +1,130 @@
+//! The references of a sweep: each is drawn once, and kept in the folder of the results for the next time.
+
+use super::digest::Digest;
+use super::reference::Drawn;
+use crate::error::Error;
+use crate::files::inputs::{self, FileRole};
+use crate::files::outputs;
+use crate::metric::{Errors, PIXELS_PER_DEGREE};
+use crate::picture::{FileFormat, Light, Picture};
+use framewright_graph::base::ReadFiles;
+use framewright_graph::vulkan::Format;
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// The version of the form in which references are kept.
+const FORMAT_VERSION: u32 = 1;
+
+/// References that stay in memory.
+const REMEMBERED: usize = 8;
+
+/// The file of a reference's errors has at most this many bytes.
+const LARGEST: usize = 1 << 16;
+
+/// A picture that choices are held against.
+#[derive(Debug)]
+pub(super) struct Reference {
+    pub(super) picture: Light,
+    /// Its own errors beside one of half as many samples; `None`: it was given.
+    pub(super) errors: Option<Errors>,
+}
+
+/// The references in the folder of a sweep, by the digest of all that they are drawn from.
+#[derive(Debug)]
+pub(super) struct References {
+    folder: PathBuf,
+    /// Those that were asked for last, by key, the last one first.
+    latest: VecDeque<(String, Rc<Reference>)>,
+}
+
+/// The file beside a reference's picture.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Beside {
+    format_version: u32,
+    /// A digest of the picture's file and of all that is said here.
+    digest: String,
+    /// Whether light isn't limited to what a display shows.
+    is_light: bool,
+    errors: Errors,
+}
+
+impl References {
+    /// Those in `pictures` in a folder.
+    pub(super) fn of(folder: PathBuf) -> References {
+        References { folder, latest: VecDeque::new() }
+    }
+
+    /// A reference that was asked for lately.
+    pub(super) fn lately(&self, key: &str) -> Option<Rc<Reference>> {
+        self.latest.iter().find(|(latest, _)| latest == key).map(|(_, reference)| Rc::clone(reference))
+    }
+
+    /// Remembers a reference for those that ask for it soon.
+    pub(super) fn remember(&mut self, key: &str, reference: Reference) -> Rc<Reference> {
+        let reference = Rc::new(reference);
+        self.latest.push_front((key.to_owned(), Rc::clone(&reference)));
+        self.latest.truncate(REMEMBERED);
+        reference
+    }
+
+    /// The path of a reference's file within the folder.
+    pub(super) fn name(key: &str, ending: &str) -> String {
+        format!("pictures/reference_{key}.{ending}")
+    }
+
+    /// The reference that was kept under a key; `None` if there is none, or it is damaged.
+    pub(super) fn read(&self, key: &str) -> Option<Reference> {
+        // It isn't recorded as read: one that is damaged is written again.
+        let read = ReadFiles::default();
+        let [picture, beside] = ["exr", "json"].map(|ending| self.folder.join(References::name(key, ending)));
+        let beside = inputs::text(FileRole::RESULTS, &beside, LARGEST, &read).ok()?;
+        let Beside { format_version: _, digest, is_light, errors } = serde_json::from_str(&beside).ok()?;
+        let file = inputs::measured_picture(&picture, &read).ok()?;
+        if digest != self::digest(&file, is_light, &errors).ok()? {
+            return None;
+        }
+        let picture = Light { is_light, ..Light::decode(&file).ok()? };
+        Some(Reference { picture, errors: Some(errors) })
+    }
+
+    /// Keeps a reference that was drawn.
+    ///
+    /// # Errors
+    /// If it can't be written.
+    pub(super) fn keep(&self, key: &str, drawn: Drawn) -> Result<Reference, Error> {
+        let Drawn { picture, of_half } = drawn;
+        let errors = Errors::between(&picture, &of_half, PIXELS_PER_DEGREE);
+        let file = encoded(&picture, FileFormat::OpenExr)?;
+        let is_light = picture.is_light;
+        let digest = digest(&file, is_light, &errors)?;
+        let beside = Beside { format_version: FORMAT_VERSION, digest, is_light, errors };
+        let text = serde_json::to_string_pretty(&beside)? + "\n";
+        let files = [("exr", &*file), ("json", text.as_bytes())];
+        for (ending, contents) in files {
+            let path = self.folder.join(References::name(key, ending));
+            outputs::write(&[(&path, contents)], &ReadFiles::default())?;
+        }
+        Ok(Reference { picture, errors: Some(beside.errors) })
+    }
+}
+
+/// A digest of a reference's file and of what is said beside it.
+fn digest(file: &[u8], is_light: bool, errors: &Errors) -> serde_json::Result<String> {
+    let said = serde_json::to_string(&(FORMAT_VERSION, is_light, errors))?;
+    Ok(Digest::of_bytes([file, said.as_bytes()]))
+}
+
+/// A picture of light as a file.
+///
+/// # Errors
+/// If the encoder fails.
+pub(super) fn encoded(picture: &Light, file_format: FileFormat) -> Result<Vec<u8>, Error> {
+    let texels = picture.texels.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 1.0]);
+    let bytes: Vec<u8> = texels.flat_map(f32::to_ne_bytes).collect();
+    let extent = picture.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
+    let floats = Picture { format: Format::R32G32B32A32_SFLOAT, encoding: None, extent, bytes: &bytes };
+    file_format.encode(&floats).map_err(|problem| Error::Picture { image: "reference".to_owned(), problem })
+}

@@ -1,0 +1,40 @@
+//! Results as a table for people, a line for each row.
+
+use super::results::{Cost, Outcome, Results};
+use crate::metric::Errors;
+use crate::system::text;
+
+/// The table.
+#[must_use]
+pub(super) fn table(results: &Results) -> String {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(["choice", "GPU ms", "of the baseline", "MiB", "moved MiB", "FLIP", "RMSE"]);
+    let mebibytes = |bytes: u64| format!("{:.1}", bytes as f64 / f64::from(1 << 20));
+    for row in &results.rows {
+        let values = row.choice.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ");
+        let choice = if values.is_empty() { "(as it is)".to_owned() } else { text::escape(&values) };
+        match &row.outcome {
+            Outcome::Measured(measured) => {
+                let Cost { gpu_milliseconds: time, gpu_ratio: ratio, transient_bytes, moved_bytes, .. } = measured.cost;
+                let figure = |figure: fn(&Errors) -> f64| {
+                    measured.errors.as_ref().map_or_else(|| "-".to_owned(), |errors| format!("{:.5}", figure(errors)))
+                };
+                table.add_row([
+                    choice,
+                    format!("{:.2}", time.median),
+                    format!("{:.2} ({:.2}–{:.2})", ratio.median, ratio.low, ratio.high),
+                    mebibytes(transient_bytes),
+                    mebibytes(moved_bytes),
+                    figure(|errors| errors.flip.mean),
+                    figure(|errors| errors.rmse),
+                ]);
+            }
+            Outcome::Failed(why) => {
+                let first = why.lines().next().unwrap_or_default();
+                table.add_row([choice, format!("failed: {}", text::escape(first))]);
+            }
+        }
+    }
+    format!("{table}\n")
+}

@@ -1,0 +1,122 @@
+//! The study `docs/trade-offs.md`: its tables are those of the results beside it, and `choose` answers as it says (NU-1, NU-3).
+
+use crate::testing::{Place, repository};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Writes tables and answers into the page instead of comparing them.
+const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
+const BEGIN: &str = "<!-- measured: ";
+const END: &str = "<!-- end of what was measured -->\n";
+const ASKED: &str = "```text\n$ framewright choose ";
+
+fn rows(sweep: &str) -> Vec<Value> {
+    let path = repository("docs/trade-offs").join(sweep).join("results.json");
+    let file = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let results: Value = serde_json::from_str(&file).expect("JSON");
+    results["rows"].as_array().expect("rows").clone()
+}
+
+/// A scene's name, as the page calls it.
+fn scene_of(row: &Value) -> &str {
+    row["scene"].as_str().expect("a scene").rsplit('/').next().expect("a name").trim_end_matches(".ron")
+}
+
+/// What the sweep chose, but for the scene.
+fn choice_of(row: &Value) -> String {
+    let chosen = row["choice"].as_object().expect("a choice").iter().filter(|(name, _)| *name != "@scene");
+    let chosen: Vec<String> =
+        chosen.map(|(name, value)| format!("`{name}={}`", value.as_str().expect("a text"))).collect();
+    chosen.join(" ")
+}
+
+fn digits(number: &Value, digits: usize) -> String {
+    number.as_f64().map_or("-".to_owned(), |number| format!("{number:.digits$}"))
+}
+
+/// A line for each choice: its cost on the first scene, and RMSE and FLIP on each.
+fn table(sweep: &str) -> String {
+    let rows = rows(sweep);
+    let mut scenes: Vec<&str> = Vec::new();
+    let mut by_choice: Vec<(String, BTreeMap<&str, &Value>)> = Vec::new();
+    for row in &rows {
+        let (scene, choice) = (scene_of(row), choice_of(row));
+        if !scenes.contains(&scene) {
+            scenes.push(scene);
+        }
+        let at = by_choice.iter().position(|(other, _)| *other == choice).unwrap_or_else(|| {
+            by_choice.push((choice, BTreeMap::new()));
+            by_choice.len() - 1
+        });
+        by_choice[at].1.insert(scene, row);
+    }
+    let flickers = rows.iter().any(|row| row["outcome"]["measured"]["flicker"].is_object());
+    let mut text = "| choice | of the baseline | MiB | moved MiB |".to_owned();
+    scenes.iter().for_each(|scene| write!(text, " {scene}: RMSE | FLIP |").expect("a string takes everything"));
+    text += if flickers { " flicker | 95 of 100 |" } else { "" };
+    let columns = 4 + 2 * scenes.len() + 2 * usize::from(flickers);
+    writeln!(text, "\n|{}", "---|".repeat(columns)).expect("a string takes everything");
+    for (choice, by_scene) in by_choice {
+        let first = &by_scene[scenes[0]]["outcome"];
+        write!(text, "| {choice} |").expect("a string takes everything");
+        if let Some(error) = first["failed"].as_str() {
+            let empty = " - |".repeat(columns - 2);
+            writeln!(text, " not measured: {} |{empty}", error.replace(['|', '\n'], " "))
+                .expect("a string takes everything");
+            continue;
+        }
+        let cost = &first["measured"]["cost"];
+        let mebibytes = |of: &Value| of.as_f64().map_or("-".to_owned(), |bytes| format!("{:.1}", bytes / 1048576.0));
+        let cells = [digits(&cost["gpu_ratio"]["median"], 2), mebibytes(&cost["transient_bytes"])];
+        write!(text, " {} | {} |", cells.join(" | "), mebibytes(&cost["moved_bytes"]))
+            .expect("a string takes everything");
+        for scene in &scenes {
+            let errors = &by_scene[scene]["outcome"]["measured"]["errors"];
+            write!(text, " {} | {} |", digits(&errors["rmse"], 4), digits(&errors["flip"]["mean"], 4))
+                .expect("a string takes everything");
+        }
+        if flickers {
+            let flicker = &first["measured"]["flicker"];
+            write!(text, " {} | {} |", digits(&flicker["mean"], 4), digits(&flicker["percentile_95"], 4))
+                .expect("a string takes everything");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The page with what stands between two marks made anew.
+fn made_anew(page: &str, begin: &str, end: &str, make: impl Fn(&str) -> String) -> String {
+    let mut pieces = page.split(begin);
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (first, rest) = piece.split_once('\n').expect("a line");
+        let (_, after) = rest.split_once(end).expect("an end");
+        text += &format!("{begin}{first}\n{}{end}{after}", make(first));
+    }
+    text
+}
+
+/// The page's tables are what was measured, and each `choose` in it answers what stands below.
+#[test]
+fn the_study_shows_what_was_measured_and_what_choose_recommends() {
+    let path = repository("docs/trade-offs.md");
+    let page = std::fs::read_to_string(&path).expect("the page");
+    let tables = made_anew(&page, BEGIN, END, |name| table(name.trim_end_matches(" -->")));
+    let made = made_anew(&tables, ASKED, "```\n", |arguments| {
+        let place = Place::new();
+        let (folder, limits) = arguments.split_once(' ').expect("limits");
+        let folder = repository("docs").join(folder);
+        let folder = folder.to_str().expect("a path");
+        let all: Vec<&str> = ["choose", folder].into_iter().chain(limits.split(' ')).collect();
+        place.run(&all).out
+    });
+    assert!(made.matches(BEGIN).count() > 5 && made.matches(ASKED).count() > 3, "tables and answers are there");
+    if std::env::var_os(UPDATE).is_some() {
+        std::fs::write(path, made).expect("written");
+        return;
+    }
+    let differs = page.lines().zip(made.lines()).find(|(there, made)| there != made);
+    assert!(page == made, "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study");
+}

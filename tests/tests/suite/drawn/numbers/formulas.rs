@@ -1,0 +1,318 @@
+//! Formulas that need nothing but numbers: `formulas.frag` draws each for 65,536 random arguments, which are the same here bit
+//! by bit.
+
+use super::Unit::{Steps, Ulp};
+use super::arguments::Arguments;
+use super::{Compared, Row};
+use framewright_passes::scene::PointLight;
+use framewright_passes::twin::radiance::{guard_alpha, guard_radiance, guard_signed};
+use framewright_passes::twin::stereo::Part;
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::{
+    alpha_coverage, ambient_occlusion, cross_fade, distance, effects, exposure, g_buffer, hdr10, lighting, motion,
+    overlay, scale, temporal, weighted_resolve,
+};
+use framewright_tests::render::{Setup, device, render, rgba};
+use framewright_tests::shapes::empty_scene;
+use framewright_vulkan::Device;
+use glam::{DVec2, DVec3};
+use std::error::Error;
+
+pub(super) const SIDE: u32 = 256;
+const NEAR: f32 = 0.1;
+const FAR: f32 = 50.0;
+
+/// The results of a formula on the GPU, each held against the twin.
+fn compared(
+    device: &Device,
+    formula: u32,
+    twin: impl Fn(&Arguments, [f64; 4]) -> Vec<Compared>,
+) -> Result<Vec<Compared>, Box<dyn Error>> {
+    let number = formula.to_string();
+    let mut scene = empty_scene();
+    (scene.camera.near, scene.camera.far) = (NEAR, Some(FAR));
+    let set = [("formula", &*number)];
+    let setup = Setup { pipeline: "tests/pipelines/formulas.ron", set: &set, scene: &scene, extent: [8, 8] };
+    let texels = rgba(&render(device, &setup)?[0]);
+    Ok((0..).zip(texels).flat_map(|(at, found)| twin(&Arguments { at }, found)).collect())
+}
+
+/// Each number held against its own, in steps of its own size, or of another.
+fn own(found: &[f64], expected: &[f64]) -> Vec<Compared> {
+    found.iter().zip(expected).map(|(found, expected)| Compared::own(*found, *expected)).collect()
+}
+
+fn beside(found: &[f64], expected: &[f64], scale: f64) -> Vec<Compared> {
+    own(found, expected).into_iter().map(|one| Compared { scale, ..one }).collect()
+}
+
+const LIGHT: &str = "light 2⁻²⁰ to 2¹⁶";
+
+pub(super) fn rows() -> Result<Option<Vec<Row>>, Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(None) };
+    let mut rows = tone(device)?;
+    rows.extend(light(device)?);
+    rows.extend(places(device)?);
+    Ok(Some(rows))
+}
+
+fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
+    let curve = |formula, name, curve: fn(f64) -> f64| -> Result<Row, Box<dyn Error>> {
+        let all = compared(device, formula, |of, found| own(&found[..3], &of.light(0).map(curve)))?;
+        Ok(Row::of(name, LIGHT, Ulp, all))
+    };
+    Ok(vec![
+        curve(0, "tone_mapping::reinhard", reinhard)?,
+        Row::of(
+            "tone_mapping::modified_reinhard",
+            "light 2⁻²⁰ to 2¹⁶, white points 1 to 2¹⁰⁰",
+            Ulp,
+            compared(device, 1, |of, found| {
+                own(&found[..3], &of.light(0).map(|light| modified_reinhard(light, of.wide(3, 0, 100))))
+            })?,
+        ),
+        curve(2, "tone_mapping::filmic", filmic)?,
+        Row::of(
+            "tone_mapping::neutral",
+            LIGHT,
+            Steps,
+            compared(device, 3, |of, found| own(&found[..3], &neutral(of.light(0))))?,
+        ),
+        Row::of(
+            "hdr10::encode_pq",
+            "0 to 1, and 2⁻⁶⁰ to 1",
+            Steps,
+            compared(device, 4, |of, found| {
+                own(&found[..2], &[hdr10::encode_pq(of.even(0)), hdr10::encode_pq(of.wide(1, -60, 0))])
+            })?,
+        ),
+        Row::of(
+            "hdr10::encode_hdr10",
+            "light 2⁻²⁰ to 2¹⁶, white at 203 cd/m²",
+            Steps,
+            compared(device, 5, |of, found| own(&found[..3], &hdr10::encode_hdr10(of.light(0), 203.0)))?,
+        ),
+        Row::of(
+            "exposure::luminance",
+            LIGHT,
+            Ulp,
+            compared(device, 6, |of, found| own(&found[..1], &[exposure::luminance(of.light(0))]))?,
+        ),
+        Row::of(
+            "exposure::place_of",
+            "luminance 2⁻³⁰ to 2¹⁶; a step is a bin",
+            Steps,
+            compared(device, 7, |of, found| {
+                let place = exposure::place_of(of.wide(0, -30, 16));
+                // How far outside of the bin that was found, which ends a whole number later.
+                let outside = (found[0] - place).max(place - (found[0] + 1.0)).max(0.0);
+                own(&[outside / 255.0], &[0.0])
+            })?,
+        ),
+        Row::of(
+            "weighted_resolve::compressed",
+            LIGHT,
+            Ulp,
+            compared(device, 19, |of, found| own(&found[..3], &weighted_resolve::compressed(of.light(0))))?,
+        ),
+        Row::of(
+            "temporal::mixed",
+            "light 2⁻²⁰ to 2¹⁶, shares 0 to 1",
+            Ulp,
+            compared(device, 20, |of, found| own(&found[..3], &temporal::mixed(of.light(0), of.light(3), of.even(6))))?,
+        ),
+        Row::of(
+            "temporal::allowed_history",
+            "light 0 to 1, one standard deviation, allowances 0 to 0.25",
+            Ulp,
+            compared(device, 25, |of, found| {
+                let around = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|number| of.even3(3 * number));
+                let allowance = 0.25 * of.even(30);
+                beside(&found[..3], &temporal::allowed_history(of.even3(27), &around, 1.0, allowance), 1.0)
+            })?,
+        ),
+        Row::of(
+            "temporal::change_allowed",
+            "changes 0 to 1, 0 to 2 texels a frame; share_after too",
+            Ulp,
+            compared(device, 26, |of, found| {
+                let allowed = temporal::change_allowed(of.even(0), 0.5 * of.even(1));
+                let share = temporal::share_after(0.01 + of.even(2), 0.25 * of.even(3), 2.0 * of.even(4));
+                beside(&found[..2], &[allowed, share], 1.0)
+            })?,
+        ),
+    ])
+}
+
+fn light(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
+    let light = |range| PointLight { position: [0.0; 3], color: [1.0; 3], intensity: 1.0, range, shadows: false };
+    Ok(vec![
+        Row::of(
+            "radiance::guard_radiance",
+            "every kind of 32-bit number; guard_signed and guard_alpha too",
+            Ulp,
+            compared(device, 23, |of, found| {
+                let [a, b, c] = [0, 1, 2].map(|which| of.float(which));
+                own(&found[..3], &[guard_radiance(a), guard_signed(b), guard_alpha(c)])
+            })?,
+        ),
+        Row::of(
+            "alpha_coverage::covered_by",
+            "alpha, cutoff and width 0 to 1",
+            Ulp,
+            compared(device, 8, |of, found| {
+                let [alpha, cutoff, width] = of.even3(0);
+                let expected = alpha_coverage::covered_by(alpha, cutoff, width);
+                beside(&found[..1], &[expected], 1.0)
+            })?,
+        ),
+        Row::of(
+            "cross_fade::fades_out",
+            "shares −1 to 1, 256 × 256 pixels; fade_threshold too",
+            Ulp,
+            compared(device, 9, |of, found| {
+                let pixel = of.texel();
+                let fades = f64::from(u8::from(cross_fade::fades_out(2.0 * of.even(0) - 1.0, pixel)));
+                own(&found[..2], &[cross_fade::fade_threshold(pixel), fades])
+            })?,
+        ),
+        Row::of(
+            "random::random",
+            "65,536 whole numbers",
+            Ulp,
+            compared(device, 10, |of, found| own(&found[..3], &of.even3(0)))?,
+        ),
+        Row::of(
+            "effects::grain",
+            "256 × 256 pixels",
+            Ulp,
+            compared(device, 10, |of, found| beside(&found[3..], &[effects::grain(of.texel(), 7)], 1.0))?,
+        ),
+        Row::of(
+            "effects::stripe",
+            "distances of 1/16 to 16 periods",
+            Steps,
+            compared(device, 11, |of, found| own(&found[..1], &[stripe(of.wide(0, -4, 4))]))?,
+        ),
+        Row::of(
+            "effects::stripe",
+            "distances of 16 to 32,768 periods",
+            Steps,
+            compared(device, 11, |of, found| own(&found[1..2], &[stripe(of.wide(1, 4, 15))]))?,
+        ),
+        Row::of(
+            "lighting::highlight",
+            "all directions",
+            Steps,
+            compared(device, 14, |of, found| {
+                own(&found[..1], &[lighting::highlight(of.unit(0), of.unit(3), of.unit(6))])
+            })?,
+        ),
+        Row::of(
+            "lighting::falloff",
+            "squared distances 2⁻²⁰ to 2²⁰ m² without range, to 1 m² with a range of 1 m",
+            Ulp,
+            compared(device, 15, |of, found| {
+                let squared = [of.wide(0, -20, 20), of.wide(1, -20, 0)];
+                let expected = [light(None).falloff(squared[0].sqrt()), light(Some(1.0)).falloff(squared[1].sqrt())];
+                let scale = squared[1].max(1e-4).recip();
+                [own(&found[..1], &expected[..1]), beside(&found[1..2], &expected[1..], scale)].concat()
+            })?,
+        ),
+        Row::of(
+            "ambient_occlusion::occlusion_by",
+            "places within the radius; as a share of what one touching it would count",
+            Ulp,
+            compared(device, 22, |of, found| {
+                let towards = DVec3::from(of.even3(0));
+                let expected = ambient_occlusion::occlusion_by(towards, of.unit(3), 1.0, 1.0);
+                beside(&found[..1], &[expected], (towards.length_squared() + 1e-4).recip())
+            })?,
+        ),
+        Row::of(
+            "ambient_occlusion::spiral_turn",
+            "256 × 256 texels",
+            Ulp,
+            compared(device, 22, |of, found| {
+                own(&found[2..3], &[ambient_occlusion::spiral_turn(of.texel().map(u32::cast_signed))])
+            })?,
+        ),
+    ])
+}
+
+/// Of a near distance of 0.1 m, and a period of 1 m.
+fn stripe(periods: f64) -> f64 {
+    effects::stripe(0.1 / periods, 0.1, 1.0)
+}
+
+fn places(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
+    let (near, far) = (f64::from(NEAR), f64::from(FAR));
+    Ok(vec![
+        Row::of(
+            "g_buffer::octahedral",
+            "all directions",
+            Ulp,
+            compared(device, 12, |of, found| beside(&found[..2], &g_buffer::octahedral(of.unit(0)).to_array(), 1.0))?,
+        ),
+        Row::of(
+            "g_buffer::from_octahedral",
+            "all directions, there and back",
+            Ulp,
+            compared(device, 13, |of, found| beside(&found[..3], &of.unit(0).to_array(), 1.0))?,
+        ),
+        Row::of(
+            "motion::motion",
+            "places in the picture",
+            Ulp,
+            compared(device, 16, |of, found| {
+                let place = |which| {
+                    let [x, y, w] = of.even3(which);
+                    DVec2::new(2.0 * x - 1.0, 2.0 * y - 1.0) / (1.0 + w) * 0.5
+                };
+                beside(&found[..2], &motion::motion(place(0), Some(place(3))).to_array(), 1.0)
+            })?,
+        ),
+        Row::of(
+            "overlay::shade_of_distance",
+            "depth 2⁻²⁰ to 1",
+            Ulp,
+            compared(device, 17, |of, found| {
+                own(&found[..1], &[overlay::shade_of_distance(of.wide(0, -20, 0), 0.1, 20.0)])
+            })?,
+        ),
+        Row::of(
+            "overlay::shade_of_signed",
+            "−1 to 1",
+            Ulp,
+            compared(device, 17, |of, found| {
+                beside(&found[1..], &of.even3(1).map(|it| overlay::shade_of_signed(2.0 * it - 1.0, 1.0)), 1.0)
+            })?,
+        ),
+        Row::of(
+            "distance::infinite_depth",
+            "depth 2⁻²⁰ to 1, planes at 0.1 and 50 m",
+            Ulp,
+            compared(device, 18, |of, found| {
+                own(&found[..2], &[near, distance::infinite_depth(of.wide(0, -20, 0), near, Some(far))])
+            })?,
+        ),
+        Row::of(
+            "scale::catmull_rom",
+            "−2 to 2",
+            Ulp,
+            compared(device, 21, |of, found| beside(&found[..1], &[scale::catmull_rom(4.0 * of.even(0) - 2.0)], 1.0))?,
+        ),
+        Row::of(
+            "stereo::screen_uv",
+            "places in the right eye's picture; screen_pos too",
+            Ulp,
+            compared(device, 24, |of, found| {
+                let [x, y, w] = of.even3(0);
+                let half = Part::half(true);
+                let clip = [2.0 * x - 1.0, 2.0 * y - 1.0, 0.0, 1.0 + 3.0 * w];
+                let ([a, b], [c, d]) = (half.screen_uv([x, y]), half.screen_pos(clip));
+                beside(&found, &[a, b, c, d], 1.0)
+            })?,
+        ),
+    ])
+}
