@@ -118,5 +118,8 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
         return;
     }
     let differs = page.lines().zip(made.lines()).find(|(there, made)| there != made);
-    assert!(page == made, "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study");
+    assert!(
+        page == made,
+        "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study"
+    );
 }
