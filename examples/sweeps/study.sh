@@ -29,7 +29,7 @@ sweep formats image_quality --scene spheres_and_cubes --sweep "$scenes" --sweep 
 sweep depth image_quality --scene spheres_and_cubes --sweep "$scenes" --set depth_stripes=blended \
     --sweep depth_resolve=DepthOnly,SampleZero,Min,Max,Average,Samples
 sweep curves image_quality --scene spheres_and_cubes --sweep "$scenes" \
-    --sweep tone_mapping=clip,reinhard,white_point,filmic,neutral
+    --sweep tone_mapping=clip,reinhard,reinhard_luminance,white_point,filmic,neutral
 sweep motion temporal --scene passing --flicker 16 --sweep taa=false,true --sweep render_scale=1,2
 sweep smoothing deferred --scene spheres_and_cubes --sweep "$scenes" --sweep anti_aliasing=false,true
 sweep shadows shadows --scene courtyard --sweep cascades=1,2,4 --sweep shadow_taps=1,3,7 --sweep shadow_size=512,1024,2048

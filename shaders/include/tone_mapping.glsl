@@ -2,12 +2,15 @@
 #ifndef FRAMEWRIGHT_TONE_MAPPING
 #define FRAMEWRIGHT_TONE_MAPPING
 
-// What library/tone_mapping.ron calls `clip`, `reinhard`, `white_point`, `filmic` and `neutral`.
+#include "include/luminance.glsl"
+
+// What library/tone_mapping.ron calls `clip`, `reinhard`, `white_point`, `filmic`, `neutral` and `reinhard_luminance`.
 const int CLIP = 0;
 const int REINHARD = 1;
 const int WHITE_POINT = 2;
 const int FILMIC = 3;
 const int NEUTRAL = 4;
+const int REINHARD_LUMINANCE = 5;
 
 // c / (1 + c), for each channel by itself: E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, "Photographic Tone Reproduction
 // for Digital Images", SIGGRAPH 2002, equation 3.
@@ -15,7 +18,13 @@ vec3 reinhard(vec3 radiance) {
     return radiance / (1.0 + radiance);
 }
 
-// c · (1 + c/w²) / (1 + c): radiance w becomes 1; equation 4 of the same. With w = 1 it is the identity on 0…1; as w grows
+// c / (1 + L) with L the luminance, at most 1: equation 3 of the same, where the luminance becomes L / (1 + L) and the channels
+// keep their ratios. A saturated channel may be brighter than white then; it is cut off.
+vec3 reinhard_luminance(vec3 radiance) {
+    return min(radiance / (1.0 + luminance(radiance)), 1.0);
+}
+
+// c · (1 + c/w²) / (1 + c): radiance w becomes 1; equation 4. With w = 1 it is the identity on 0…1; as w grows
 // it becomes reinhard(). A white point below 1 counts as 1.
 vec3 modified_reinhard(vec3 radiance, float white_point) {
     const float white = max(white_point, 1.0);
@@ -56,6 +65,7 @@ vec3 tone_mapped(vec3 radiance, int operator, float white_point) {
         case WHITE_POINT: return modified_reinhard(radiance, white_point);
         case FILMIC: return filmic(radiance);
         case NEUTRAL: return neutral(radiance);
+        case REINHARD_LUMINANCE: return reinhard_luminance(radiance);
         default: return min(radiance, 1.0);
     }
 }

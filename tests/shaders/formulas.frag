@@ -99,6 +99,7 @@ vec4 result(int formula) {
             return vec4(allowed_history(even3(27u), around, 1.0, 0.25 * even(30u)), 0.0);
         }
         case 26: return vec4(change_allowed(even(0u), 0.5 * even(1u)), share_after(0.01 + even(2u), 0.25 * even(3u), 2.0 * even(4u)), 0.0, 0.0);
+        case 27: return vec4(reinhard_luminance(wide3(0u, -20, 16)), 0.0);
         default: return vec4(0.0);
     }
 }

@@ -99,7 +99,10 @@ fn a_choice_that_makes_no_picture_is_refused_with_what_is_allowed() {
         ("blur=-1", "it is a whole number from 0 to 5"),
         ("blur=10000", "it is a whole number from 0 to 5"),
         ("msaa=3", "it is one of 1, 2, 4, 8"),
-        ("tone_mapping=sepia", "it is one of `clip`, `reinhard`, `white_point`, `filmic`, `neutral`, `over_bright`"),
+        (
+            "tone_mapping=sepia",
+            "it is one of `clip`, `reinhard`, `reinhard_luminance`, `white_point`, `filmic`, `neutral`, `over_bright`",
+        ),
     ];
     for (set, help) in cases {
         Place::new().run(&["check", "image_quality", "--set", set]).exits(2).mentions("doesn't allow").mentions(help);
@@ -113,7 +116,7 @@ fn a_tone_mapping_that_is_not_there_is_refused_with_those_that_are() {
         (
             "\"operator\": \"'sepia'\"",
             "error: parameter `operator` doesn't allow `'sepia'`",
-            "it is one of `clip`, `reinhard`, `white_point`, `filmic`, `neutral`",
+            "it is one of `clip`, `reinhard`, `reinhard_luminance`, `white_point`, `filmic`, `neutral`",
         ),
         (
             "\"white_point\": 0.5",

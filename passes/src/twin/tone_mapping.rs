@@ -1,9 +1,18 @@
 //! Twin of `shaders/include/tone_mapping.glsl`, where the sources of the curves are named.
 
+use super::exposure::luminance;
+
 /// `c / (1 + c)`: radiance in 0…65504 to 0…1.
 #[must_use]
 pub fn reinhard(radiance: f64) -> f64 {
     radiance / (1.0 + radiance)
+}
+
+/// `c / (1 + L)` with the luminance `L`, at most 1: red, green and blue in 0…65504 to 0…1. The ratios of the channels stay where
+/// none is cut off.
+#[must_use]
+pub fn reinhard_luminance(radiance: [f64; 3]) -> [f64; 3] {
+    radiance.map(|channel| (channel / (1.0 + luminance(radiance))).min(1.0))
 }
 
 /// `c · (1 + c/w²) / (1 + c)`, at most 1: radiance in 0…65504 to 0…1, where `white_point` is the radiance that becomes 1.

@@ -1,8 +1,9 @@
 //! Claims about the tone mapping curves (IQ-21), over everything that the guard lets through.
 
 use framewright_passes::srgb::{decode, encode};
+use framewright_passes::twin::exposure::luminance;
 use framewright_passes::twin::radiance::{LARGEST_HALF, guard_radiance};
-use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 
 /// Every finite half float from 0 on, smallest first.
 fn halves() -> impl Iterator<Item = f64> {
@@ -174,6 +175,24 @@ fn neutral_brightens_with_the_light_and_ends_in_white() {
         let white = neutral(shares.map(|share| share * LARGEST_HALF));
         assert!(white.iter().all(|channel| *channel > 0.999), "{white:?}");
     }
+}
+
+/// What the operator is for: the luminance becomes that of `reinhard`, and hues stay. The price is saturated colours that are cut off.
+#[test]
+fn reinhard_on_luminance_compresses_the_luminance_and_keeps_ratios() {
+    for radiance in colours() {
+        let mapped = reinhard_luminance(radiance);
+        assert!(mapped.iter().all(|channel| (0.0..=1.0).contains(channel)), "{radiance:?} became {mapped:?}");
+        if mapped.iter().all(|channel| *channel < 1.0) {
+            let (found, expected) = (luminance(mapped), reinhard(luminance(radiance)));
+            assert!((found - expected).abs() < 1e-12, "{radiance:?}: luminance {found} instead of {expected}");
+            let apart = (mapped[0] * radiance[1] - mapped[1] * radiance[0]).abs();
+            assert!(apart <= 1e-12 * (1.0 + radiance[0]), "{radiance:?} became {mapped:?}");
+        }
+    }
+    // Of grey it is the curve of each channel; of bright blue it is not.
+    assert_eq!(reinhard_luminance([1.0; 3]), [0.5; 3]);
+    assert_eq!(reinhard_luminance([0.0, 0.0, 4.0])[2], 1.0);
 }
 
 /// The number from 0 to 255 that an 8-bit sRGB image stores.

@@ -103,7 +103,7 @@ fn a_blur_is_two_passes_as_often_as_it_is_repeated() {
 
 #[test]
 fn tone_mapping_has_a_curve_for_each_operator() {
-    let operators = ["clip", "reinhard", "white_point", "filmic", "neutral"];
+    let operators = ["clip", "reinhard", "white_point", "filmic", "neutral", "reinhard_luminance"];
     for (number, operator) in operators.iter().enumerate() {
         for fragment in ["tone_mapping", "tone_mapping_of_samples"] {
             let uses = format!(

@@ -1,7 +1,7 @@
 //! Fragments of the shipped library are held against the twins of their shaders, texel by texel (NU-5).
 
 use framewright_passes::twin::filters::gauss;
-use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
@@ -54,13 +54,13 @@ fn blurring_several_times_is_as_many_gaussians_along_both_axes() -> Result<(), B
     Ok(())
 }
 
-/// Nine units in the last place, as in the tests of the shader itself; of `neutral`, which takes one number from another, half
-/// a thousandth of an 8-bit step.
+/// Nine units in the last place, as in the tests of the shader itself; of curves for three channels together, half a
+/// thousandth of an 8-bit step.
 #[test]
 fn each_operator_of_tone_mapping_is_its_curve() -> Result<(), Box<dyn Error>> {
     let Some(pictures) = drawn("1", "1.0")? else { return Ok(()) };
-    let [noise, _, clipped, compressed, bent, film, mapped] = &pictures[..] else {
-        return Err("not seven outputs".into());
+    let [noise, _, clipped, compressed, bent, film, mapped, ratios] = &pictures[..] else {
+        return Err("not eight outputs".into());
     };
     type Curve = fn(f64) -> f64;
     let curves: [(&Picture, Curve); 4] = [
@@ -75,10 +75,13 @@ fn each_operator_of_tone_mapping_is_its_curve() -> Result<(), Box<dyn Error>> {
             assert!((found - expected).abs() <= 9.0 / 8_388_608.0 * expected, "{light} became {found}, not {expected}");
         }
     }
-    for (light, found) in noise.iter().zip(mapped) {
-        let expected = neutral(*light);
-        let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() <= 2e-6);
-        assert!(close, "{light:?} became {found:?}, not {expected:?}");
+    let together: [(&Picture, fn([f64; 3]) -> [f64; 3]); 2] = [(mapped, neutral), (ratios, reinhard_luminance)];
+    for (picture, curve) in together {
+        for (light, found) in noise.iter().zip(picture) {
+            let expected = curve(*light);
+            let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() <= 2e-6);
+            assert!(close, "{light:?} became {found:?}, not {expected:?}");
+        }
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Resolves that tone-map each sample before they average are held against their twins (IQ-20, IQ-22).
 
 use framewright_passes::twin::radiance::guard_radiance;
-use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 use framewright_passes::twin::weighted_resolve::{compressed, expanded, mean_compressed, weighted_mean};
 use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
@@ -101,12 +101,13 @@ fn equal_samples_stay_what_they_are() -> Result<(), Box<dyn Error>> {
 #[test]
 fn tone_mapping_that_resolves_averages_what_each_sample_would_be_shown_as() -> Result<(), Box<dyn Error>> {
     type Operator = fn([f64; 3]) -> [f64; 3];
-    let operators: [(&str, Operator); 5] = [
+    let operators: [(&str, Operator); 6] = [
         ("clip", |light| light.map(|channel| channel.min(1.0))),
         ("reinhard", |light| light.map(reinhard)),
         ("white_point", |light| light.map(|channel| modified_reinhard(channel, 8.0))),
         ("filmic", |light| light.map(filmic)),
         ("neutral", neutral),
+        ("reinhard_luminance", reinhard_luminance),
     ];
     for (name, operator) in operators {
         let Some(Resolved { samples, shown, .. }) = resolved(name)? else { return Ok(()) };

@@ -1,7 +1,7 @@
 //! Each operator of tone mapping is held against its twin over everything that an image can hold (IQ-21, NU-4, NU-5).
 
 use framewright_passes::twin::radiance::guard_radiance;
-use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
@@ -10,12 +10,13 @@ use std::error::Error;
 const BOUND: f64 = 2e-6;
 
 /// Numbers of operators as in `include/tone_mapping.glsl`.
-const OPERATORS: [(&str, Operator); 5] = [
+const OPERATORS: [(&str, Operator); 6] = [
     ("0", |light, _| light.map(|channel| channel.min(1.0))),
     ("1", |light, _| light.map(reinhard)),
     ("2", |light, white_point| light.map(|channel| modified_reinhard(channel, white_point))),
     ("3", |light, _| light.map(filmic)),
     ("4", |light, _| neutral(light)),
+    ("5", |light, _| reinhard_luminance(light)),
 ];
 
 /// Light and a white point to what is shown.
@@ -93,7 +94,7 @@ fn off_is_the_identity_up_to_white_bit_for_bit() -> Result<(), Box<dyn Error>> {
 #[test]
 fn a_number_that_names_no_operator_cuts_off() -> Result<(), Box<dyn Error>> {
     let Some(off) = shown("0", "1.0", "1.0")? else { return Ok(()) };
-    for number in ["-1", "5"] {
+    for number in ["-1", "6"] {
         let Some(found) = shown(number, "1.0", "1.0")? else { return Ok(()) };
         assert!(found.iter().zip(&off).all(|(found, off)| found[1] == off[1]), "{number}");
     }

@@ -7,7 +7,7 @@ use super::{Compared, Row};
 use framewright_passes::scene::PointLight;
 use framewright_passes::twin::radiance::{guard_alpha, guard_radiance, guard_signed};
 use framewright_passes::twin::stereo::Part;
-use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 use framewright_passes::twin::{
     alpha_coverage, ambient_occlusion, cross_fade, distance, effects, exposure, g_buffer, hdr10, lighting, motion,
     overlay, scale, temporal, weighted_resolve,
@@ -77,6 +77,12 @@ fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
             LIGHT,
             Steps,
             compared(device, 3, |of, found| own(&found[..3], &neutral(of.light(0))))?,
+        ),
+        Row::of(
+            "tone_mapping::reinhard_luminance",
+            LIGHT,
+            Ulp,
+            compared(device, 27, |of, found| own(&found[..3], &reinhard_luminance(of.light(0))))?,
         ),
         Row::of(
             "hdr10::encode_pq",
