@@ -8,19 +8,26 @@ use std::path::PathBuf;
 /// `framewright choose`.
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("limit").required(true).multiple(true).args([
-    "max_ms", "max_mib", "max_flip", "max_rmse", "max_error", "max_relative_mse", "min_psnr", "min_ssim",
+    "max_ms", "max_ratio", "max_mib", "max_moved_mib",
+    "max_flip", "max_rmse", "max_error", "max_relative_mse", "min_psnr", "min_ssim",
 ])))]
 pub(crate) struct ChooseArguments {
     /// Folders of results, as `merge` joins them.
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
-    /// Most milliseconds that a frame may take on the device: the median of its times. With this or `--max-mib` the settings of
-    /// least error are chosen, without them the fastest.
+    /// Most milliseconds that a frame may take on the device: the median of its times. With this or another limit of cost the
+    /// settings of least error are chosen, without one the fastest.
     #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
     pub(crate) max_ms: Option<f64>,
+    /// Longest time of a frame on the device, relative to the baseline's.
+    #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
+    pub(crate) max_ratio: Option<f64>,
     /// Most MiB of transient memory.
     #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
     pub(crate) max_mib: Option<f64>,
+    /// Most MiB that loads, stores, resolves and copies move in a frame.
+    #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
+    pub(crate) max_moved_mib: Option<f64>,
     #[command(flatten, next_help_heading = HEADING)]
     pub(crate) errors: ErrorLimits,
     /// Settings file to write.

@@ -11,8 +11,12 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) enum Quantity {
     /// Milliseconds on the device.
     Milliseconds,
+    /// The time on the device relative to the baseline's.
+    Ratio,
     /// MiB of transient memory.
     Mebibytes,
+    /// MiB that loads, stores, resolves and copies move.
+    MovedMebibytes,
     /// An error beside the reference.
     Error(Metric),
 }
@@ -79,7 +83,9 @@ impl Quantity {
     pub(crate) fn option(self) -> &'static str {
         match self {
             Quantity::Milliseconds => "--max-ms",
+            Quantity::Ratio => "--max-ratio",
             Quantity::Mebibytes => "--max-mib",
+            Quantity::MovedMebibytes => "--max-moved-mib",
             Quantity::Error(Metric::Flip) => "--max-flip",
             Quantity::Error(Metric::Rmse) => "--max-rmse",
             Quantity::Error(Metric::MaxError) => "--max-error",
@@ -90,7 +96,7 @@ impl Quantity {
     }
 
     fn is_cost(self) -> bool {
-        matches!(self, Quantity::Milliseconds | Quantity::Mebibytes)
+        !matches!(self, Quantity::Error(_))
     }
 }
 
@@ -125,8 +131,9 @@ impl Candidate {
     pub(crate) fn of(&self, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::Milliseconds => self.milliseconds,
-            #[allow(clippy::cast_precision_loss, reason = "beyond 2^53 bytes nobody counts single ones")]
-            Quantity::Mebibytes => self.transient_bytes as f64 / f64::from(1 << 20),
+            Quantity::Ratio => self.ratio,
+            Quantity::Mebibytes => mebibytes(self.transient_bytes),
+            Quantity::MovedMebibytes => mebibytes(self.moved_bytes),
             Quantity::Error(metric) => {
                 let at = Metric::ALL.iter().position(|one| *one == metric);
                 at.map_or(f64::NAN, |at| self.errors[at])
@@ -216,6 +223,11 @@ impl Candidates {
         let fits = |candidate: &&Candidate| limits.iter().all(|limit| limit.overshoot(candidate) <= 0.0);
         self.all.iter().filter(fits).min_by(|a, b| a.compare(b, by_error))
     }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "beyond 2^53 bytes nobody counts single ones")]
+fn mebibytes(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 20)
 }
 
 /// The candidate whose largest overshoot is least, of equal ones the best.

@@ -193,7 +193,8 @@ fn reasons(left_out: LeftOut) -> impl Iterator<Item = (&'static str, &'static st
 fn figure(quantity: Quantity, value: f64) -> String {
     match quantity {
         Quantity::Milliseconds => format!("{value:.3} ms"),
-        Quantity::Mebibytes => format!("{value:.1} MiB"),
+        Quantity::Ratio => format!("{value:.3} × the baseline's time"),
+        Quantity::Mebibytes | Quantity::MovedMebibytes => format!("{value:.1} MiB"),
         Quantity::Error(Metric::Psnr) if value.is_infinite() => "no difference".to_owned(),
         Quantity::Error(Metric::Psnr) => format!("{value:.2} dB"),
         Quantity::Error(_) if value == 0.0 || (1e-4..1e6).contains(&value.abs()) => format!("{value:.5}"),

@@ -57,7 +57,12 @@ fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> 
 
 /// The limits that are stated.
 fn limits(arguments: &ChooseArguments) -> Vec<Limit> {
-    let costs = [(Quantity::Milliseconds, arguments.max_ms), (Quantity::Mebibytes, arguments.max_mib)];
+    let costs = [
+        (Quantity::Milliseconds, arguments.max_ms),
+        (Quantity::Ratio, arguments.max_ratio),
+        (Quantity::Mebibytes, arguments.max_mib),
+        (Quantity::MovedMebibytes, arguments.max_moved_mib),
+    ];
     let errors = Metric::ALL.map(|metric| (Quantity::Error(metric), arguments.errors.of(metric)));
     let limits = costs.into_iter().chain(errors);
     limits.filter_map(|(quantity, value)| Some(Limit { quantity, value: value? })).collect()

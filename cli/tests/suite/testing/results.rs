@@ -73,6 +73,10 @@ impl Row {
         })
     }
 
+    pub(crate) fn moved(self, bytes: u64) -> Row {
+        self.measured(|measured| measured["cost"]["moved_bytes"] = json!(bytes))
+    }
+
     pub(crate) fn errors(self, flip: f64, rmse: f64, ssim: f64) -> Row {
         let flip = json!({
             "exposures": null, "pixels_per_degree": 67.02, "mean": flip, "percentile_95": 1.0, "worst": 1.0,
