@@ -1,4 +1,4 @@
-//! The study `docs/trade-offs.md`: its tables are those of the results beside it, and `choose` answers as it says (NU-1, NU-3).
+//! The study `docs/trade-offs.md`: its tables are those of the results beside it, and `choose` answers as it says (NU-1, NU-3, NU-6).
 
 use crate::testing::{Place, repository};
 use serde_json::Value;
@@ -8,6 +8,7 @@ use std::fmt::Write;
 /// Writes tables and answers into the page instead of comparing them.
 const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
 const BEGIN: &str = "<!-- measured: ";
+const PLANNED: &str = "<!-- planned: ";
 const END: &str = "<!-- end of what was measured -->\n";
 const ASKED: &str = "```text\n$ framewright choose ";
 
@@ -86,6 +87,28 @@ fn table(sweep: &str) -> String {
     text
 }
 
+/// What Plans of some pipelines need for scenes of more and less, and for a scene that holds everything (NU-6).
+fn planned(pipelines: &str) -> String {
+    let place = Place::new();
+    let mut text = "| pipeline | scene | passes | image barriers | MiB |\n|---|---|---|---|---|\n".to_owned();
+    for pipeline in pipelines.split(' ') {
+        for scene in ["one_unlit_cube", "opaque_only", "everything"] {
+            let mut arguments = vec!["inspect", pipeline, "--size", "320x180", "--format", "json"];
+            let file = repository("examples/sweeps").join(scene).with_extension("ron");
+            if scene != "everything" {
+                arguments.extend(["--scene", file.to_str().expect("a path")]);
+            }
+            let plan: Value = serde_json::from_str(&place.run(&arguments).exits(0).out).expect("JSON");
+            let totals = &plan["totals"];
+            let mebibytes = totals["placed_bytes"].as_f64().expect("bytes") / 1048576.0;
+            let [passes, barriers] = [&totals["passes"], &totals["image_barriers"]];
+            writeln!(text, "| `{pipeline}` | {scene} | {passes} | {barriers} | {mebibytes:.1} |")
+                .expect("a string takes everything");
+        }
+    }
+    text
+}
+
 /// The page with what stands between two marks made anew.
 fn made_anew(page: &str, begin: &str, end: &str, make: impl Fn(&str) -> String) -> String {
     let mut pieces = page.split(begin);
@@ -104,6 +127,7 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
     let path = repository("docs/trade-offs.md");
     let page = std::fs::read_to_string(&path).expect("the page");
     let tables = made_anew(&page, BEGIN, END, |name| table(name.trim_end_matches(" -->")));
+    let tables = made_anew(&tables, PLANNED, END, |pipelines| planned(pipelines.trim_end_matches(" -->")));
     let made = made_anew(&tables, ASKED, "```\n", |arguments| {
         let place = Place::new();
         let (folder, limits) = arguments.split_once(' ').expect("limits");
