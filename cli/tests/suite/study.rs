@@ -9,6 +9,7 @@ use std::fmt::Write;
 const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
 const BEGIN: &str = "<!-- measured: ";
 const PLANNED: &str = "<!-- planned: ";
+const SHOWN: &str = "<!-- shown: ";
 const END: &str = "<!-- end of what was measured -->\n";
 const ASKED: &str = "```text\n$ framewright choose ";
 
@@ -109,6 +110,32 @@ fn planned(pipelines: &str) -> String {
     text
 }
 
+/// Pictures and heat maps of some choices of a sweep, side by side: `SWEEP | A=1 B=2 | A=2 B=2`.
+fn shown(wanted: &str) -> String {
+    let (sweep, choices) = wanted.split_once(" | ").expect("a sweep and choices");
+    let rows = rows(sweep);
+    let [mut names, mut pictures, mut maps] = ["|", "|", "|"].map(str::to_owned);
+    for choice in choices.split(" | ") {
+        let holds = |row: &&Value| {
+            choice.split(' ').all(|one| {
+                let (name, value) = one.split_once('=').expect("NAME=VALUE");
+                row["choice"][name] == value || (name == "@scene" && scene_of(row) == value)
+            })
+        };
+        let found: Vec<&Value> = rows.iter().filter(holds).collect();
+        let [row] = found[..] else { panic!("{} rows of {sweep} have {choice}", found.len()) };
+        let measured = &row["outcome"]["measured"];
+        let picture = |of: &str| {
+            format!(" ![{of} of {choice}](trade-offs/{sweep}/{}) |", measured[of].as_str().expect("a picture"))
+        };
+        names += &format!(" `{}` |", choice.replace(' ', "` `"));
+        pictures += &picture("picture");
+        maps += &picture("heat_map");
+    }
+    let columns = "---|".repeat(choices.split(" | ").count());
+    format!("{names}\n|{columns}\n{pictures}\n{maps}\n")
+}
+
 /// The page with what stands between two marks made anew.
 fn made_anew(page: &str, begin: &str, end: &str, make: impl Fn(&str) -> String) -> String {
     let mut pieces = page.split(begin);
@@ -128,6 +155,7 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
     let page = std::fs::read_to_string(&path).expect("the page");
     let tables = made_anew(&page, BEGIN, END, |name| table(name.trim_end_matches(" -->")));
     let tables = made_anew(&tables, PLANNED, END, |pipelines| planned(pipelines.trim_end_matches(" -->")));
+    let tables = made_anew(&tables, SHOWN, END, |wanted| shown(wanted.trim_end_matches(" -->")));
     let made = made_anew(&tables, ASKED, "```\n", |arguments| {
         let place = Place::new();
         let (folder, limits) = arguments.split_once(' ').expect("limits");

@@ -63,6 +63,7 @@ fn each_operator_of_tone_mapping_is_its_curve() -> Result<(), Box<dyn Error>> {
         return Err("not eight outputs".into());
     };
     type Curve = fn(f64) -> f64;
+    type Together = fn([f64; 3]) -> [f64; 3];
     let curves: [(&Picture, Curve); 4] = [
         (clipped, |light| (2.0 * light).min(1.0)),
         (compressed, reinhard),
@@ -75,7 +76,7 @@ fn each_operator_of_tone_mapping_is_its_curve() -> Result<(), Box<dyn Error>> {
             assert!((found - expected).abs() <= 9.0 / 8_388_608.0 * expected, "{light} became {found}, not {expected}");
         }
     }
-    let together: [(&Picture, fn([f64; 3]) -> [f64; 3]); 2] = [(mapped, neutral), (ratios, reinhard_luminance)];
+    let together: [(&Picture, Together); 2] = [(mapped, neutral), (ratios, reinhard_luminance)];
     for (picture, curve) in together {
         for (light, found) in noise.iter().zip(picture) {
             let expected = curve(*light);
