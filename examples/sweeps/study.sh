@@ -30,7 +30,8 @@ quality() {
 sweep edges image_quality --scene spheres_and_cubes --sweep "$scenes,one_unlit_cube.ron" --size 320x180 \
     --sweep msaa=1,4 --sweep render_scale=1,2
 quality scale --set msaa=1 --sweep render_scale=0.5,1,1.5,2,3,4 --sweep filter=bilinear,area,catmull_rom
-quality light --sweep msaa=1,4 --sweep light_resolve=Average,Weighted --sweep mapped=pixels,samples
+sweep light image_quality --scene spheres_and_cubes --sweep "$scenes,bright_cubes.ron" --size 320x180 --sweep msaa=1,4 --sweep light_resolve=Average,Weighted \
+    --sweep mapped=pixels,samples
 quality formats --sweep hdr=true,false --sweep color_precision=Smallest,Balanced,Exact \
     --sweep depth_precision=Smallest,Balanced,Exact
 quality depth --set depth_stripes=blended --sweep depth_resolve=DepthOnly,SampleZero,Min,Max,Average,Samples
