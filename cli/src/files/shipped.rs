@@ -22,6 +22,8 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "library/ambient_occlusion.ron",
     "library/bloom.ron",
     "library/blur.ron",
+    "library/color_grading.ron",
+    "library/depth_of_field.ron",
     "library/depth_stripes.ron",
     "library/film.ron",
     "library/fxaa.ron",

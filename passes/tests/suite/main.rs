@@ -10,5 +10,6 @@ mod scene;
 mod shader_page;
 mod shipped;
 mod texture_files;
+mod twin_grading;
 mod twin_radiance;
 mod twin_tone_mapping;

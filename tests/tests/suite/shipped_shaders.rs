@@ -24,8 +24,10 @@ const DRAWN: &[(&str, Draw)] = &[
     ("blur_tent", Draw::FullScreen),
     ("casters", OPAQUE),
     ("casters_masked", MASKED),
+    ("color_grade", Draw::FullScreen),
     ("copy", Draw::FullScreen),
     ("deferred_lighting", Draw::FullScreen),
+    ("depth_of_field", Draw::FullScreen),
     ("depth_resolve_average", Draw::FullScreen),
     ("depth_resolve_max", Draw::FullScreen),
     ("depth_resolve_min", Draw::FullScreen),
@@ -156,7 +158,7 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 33] = [
+    let cases: [(&str, &[&str], &[&str]); 35] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
         ("ambient_occlusion_blur", &["source", "depth"], &[]),
@@ -165,8 +167,10 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("bloom_shrink", &["source"], &["partial"]),
         ("blur", &["source"], &["direction_x", "direction_y"]),
         ("blur_tent", &["source"], &[]),
+        ("color_grade", &["source", "table"], &["strength"]),
         ("copy", &["source"], &[]),
         ("deferred_lighting", &["base_color", "normal", "emissive", "depth"], &[]),
+        ("depth_of_field", &["source", "depth"], &["focus", "spread", "largest"]),
         ("depth_resolve_average", &["source"], &[]),
         ("depth_resolve_max", &["source"], &[]),
         ("depth_resolve_min", &["source"], &[]),

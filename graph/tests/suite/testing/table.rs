@@ -243,6 +243,15 @@ impl ShaderInterfaces for Table {
                 params(&[("radius", "float"), ("strength", "float")]),
                 of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
             ]),
+            "color_grade" => {
+                full_screen(vec![source(), texture("table", 1, false, float), params(&[("strength", "float")])])
+            }
+            "depth_of_field" => full_screen(vec![
+                source(),
+                texture("depth", 1, false, float),
+                params(&[("focus", "float"), ("spread", "float"), ("largest", "int")]),
+                of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
+            ]),
             "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
             "ambient_occlusion_blur" => full_screen(vec![source(), texture("depth", 1, false, float)]),
             "bloom_shrink" => full_screen(vec![source(), params(&[("partial", "uint")])]),
