@@ -227,6 +227,9 @@ fn the_choice_from_the_study_is_what_an_exhaustive_search_finds() {
         let file = std::fs::read_to_string(sweep.expect("a sweep").path().join("results.json")).expect("results");
         let results: Value = serde_json::from_str(&file).expect("JSON");
         let all = candidates(&results);
+        if all.is_empty() {
+            continue;
+        }
         let place = Place::new();
         write(&place, ".", &results);
         for _ in 0..8 {
