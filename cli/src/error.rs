@@ -102,6 +102,12 @@ pub(crate) enum Error {
     /// Results that can't be joined.
     #[error("{0}")]
     Joining(Box<dyn std::error::Error>),
+    /// Results without flicker are asked for it.
+    #[error(
+        "the results in `{}` have no flicker, which `--max-flicker` limits\nhelp: measure it: `framewright measure … --flicker 16`",
+        text::path(folder)
+    )]
+    NoFlicker { folder: PathBuf },
     /// A picture of results lies elsewhere.
     #[error(
         "the picture `{}` lies outside of `{}`: a link leads there, and is not followed",
@@ -270,6 +276,7 @@ impl Error {
             | Error::NothingFinite { .. }
             | Error::Results { .. }
             | Error::Joining(_)
+            | Error::NoFlicker { .. }
             | Error::OutsideResults { .. }
             | Error::Csv(_)
             | Error::Profile { .. }

@@ -1,14 +1,14 @@
 //! The command line of `framewright choose`.
 
 use super::comparing::ErrorLimits;
-use super::values::{AnswerFormat, positive};
+use super::values::{AnswerFormat, number, positive};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
 /// `framewright choose`.
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("limit").required(true).multiple(true).args([
-    "max_ms", "max_ratio", "max_mib", "max_moved_mib",
+    "max_ms", "max_ratio", "max_mib", "max_moved_mib", "max_flicker",
     "max_flip", "max_rmse", "max_error", "max_relative_mse", "min_psnr", "min_ssim",
 ])))]
 pub(crate) struct ChooseArguments {
@@ -28,6 +28,9 @@ pub(crate) struct ChooseArguments {
     /// Most MiB that loads, stores, resolves and copies move in a frame.
     #[arg(long, value_name = "X", value_parser = positive, help_heading = HEADING)]
     pub(crate) max_moved_mib: Option<f64>,
+    /// Most that the mean of flicker may be: 0 is none. `measure --flicker N` measures it.
+    #[arg(long, value_name = "X", value_parser = number, help_heading = HEADING)]
+    pub(crate) max_flicker: Option<f64>,
     #[command(flatten, next_help_heading = HEADING)]
     pub(crate) errors: ErrorLimits,
     /// Settings file to write.

@@ -17,6 +17,8 @@ pub(crate) enum Quantity {
     Mebibytes,
     /// MiB that loads, stores, resolves and copies move.
     MovedMebibytes,
+    /// The mean flicker over frames of the moving scene.
+    Flicker,
     /// An error beside the reference.
     Error(Metric),
 }
@@ -38,6 +40,8 @@ pub(crate) struct Candidate {
     pub(crate) ratio: f64,
     pub(crate) transient_bytes: u64,
     pub(crate) moved_bytes: u64,
+    /// `None`: it wasn't measured.
+    pub(crate) flicker: Option<f64>,
     /// In the order of [`Metric::ALL`].
     errors: [f64; Metric::ALL.len()],
     /// Where they were measured.
@@ -86,6 +90,7 @@ impl Quantity {
             Quantity::Ratio => "--max-ratio",
             Quantity::Mebibytes => "--max-mib",
             Quantity::MovedMebibytes => "--max-moved-mib",
+            Quantity::Flicker => "--max-flicker",
             Quantity::Error(Metric::Flip) => "--max-flip",
             Quantity::Error(Metric::Rmse) => "--max-rmse",
             Quantity::Error(Metric::MaxError) => "--max-error",
@@ -96,7 +101,7 @@ impl Quantity {
     }
 
     fn is_cost(self) -> bool {
-        !matches!(self, Quantity::Error(_))
+        !matches!(self, Quantity::Error(_) | Quantity::Flicker)
     }
 }
 
@@ -121,6 +126,7 @@ impl Candidate {
             ratio: 0.0,
             transient_bytes: 0,
             moved_bytes: 0,
+            flicker: None,
             errors: Metric::ALL.map(|metric| if metric.is_likeness() { f64::INFINITY } else { 0.0 }),
             groups: BTreeSet::new(),
         }
@@ -134,6 +140,7 @@ impl Candidate {
             Quantity::Ratio => self.ratio,
             Quantity::Mebibytes => mebibytes(self.transient_bytes),
             Quantity::MovedMebibytes => mebibytes(self.moved_bytes),
+            Quantity::Flicker => self.flicker.unwrap_or(f64::INFINITY),
             Quantity::Error(metric) => {
                 let at = Metric::ALL.iter().position(|one| *one == metric);
                 at.map_or(f64::NAN, |at| self.errors[at])
@@ -178,7 +185,8 @@ impl Candidates {
                 self.left_out.without_errors += 1;
                 return;
             };
-            if errors.non_finite != [0, 0] {
+            let flicker = measured.flicker.as_ref();
+            if errors.non_finite != [0, 0] || flicker.is_some_and(|flicker| flicker.non_finite > 0) {
                 self.left_out.non_finite += 1;
                 return;
             }
@@ -187,6 +195,7 @@ impl Candidates {
             candidate.ratio = candidate.ratio.max(cost.gpu_ratio.median);
             candidate.transient_bytes = candidate.transient_bytes.max(cost.transient_bytes);
             candidate.moved_bytes = candidate.moved_bytes.max(cost.moved_bytes);
+            candidate.flicker = candidate.flicker.into_iter().chain(flicker.map(|it| it.mean)).reduce(f64::max);
             for (worst, metric) in candidate.errors.iter_mut().zip(Metric::ALL) {
                 let figure = errors.of(metric);
                 *worst = if metric.is_likeness() { worst.min(figure) } else { worst.max(figure) };

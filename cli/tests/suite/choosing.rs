@@ -21,7 +21,8 @@ struct Candidate {
 }
 
 const COSTS: [&str; 4] = ["--max-ms", "--max-ratio", "--max-mib", "--max-moved-mib"];
-const OPTIONS: [&str; 7] = [COSTS[0], COSTS[1], COSTS[2], COSTS[3], "--max-flip", "--max-rmse", "--min-ssim"];
+const OPTIONS: [&str; 8] =
+    [COSTS[0], COSTS[1], COSTS[2], COSTS[3], "--max-flip", "--max-rmse", "--min-ssim", "--max-flicker"];
 
 /// The figure of a row that an option limits.
 fn figure(row: &Value, option: &str) -> f64 {
@@ -33,7 +34,9 @@ fn figure(row: &Value, option: &str) -> f64 {
         "--max-moved-mib" => measured["cost"]["moved_bytes"].as_f64().map(|bytes| bytes / 1048576.0),
         "--max-flip" => measured["errors"]["flip"]["mean"].as_f64(),
         "--max-rmse" => measured["errors"]["rmse"].as_f64(),
-        _ => measured["errors"]["ssim"].as_f64(),
+        "--min-ssim" => measured["errors"]["ssim"].as_f64(),
+        // Of results without flicker nothing is asked.
+        _ => Some(measured["flicker"]["mean"].as_f64().unwrap_or(0.0)),
     };
     number.expect("a number")
 }
@@ -48,7 +51,8 @@ fn candidates(results: &Value) -> Vec<Candidate> {
         let own: Vec<&Value> = rows.iter().filter(|row| row["settings"] == settings).collect();
         let is_good = |row: &&Value| {
             let errors = &row["outcome"]["measured"]["errors"];
-            errors.is_object() && errors["non_finite"] == json!([0, 0])
+            let flicker = &row["outcome"]["measured"]["flicker"]["non_finite"];
+            errors.is_object() && errors["non_finite"] == json!([0, 0]) && (flicker.is_null() || flicker == 0)
         };
         if !own.iter().all(is_good) {
             return None;
@@ -117,10 +121,16 @@ fn choose(place: &Place, limits: &[Limit], others: &[&str]) -> Outcome {
     place.run(&arguments)
 }
 
+/// The options that limit something which results have.
+fn options(results: &Value) -> &'static [&'static str] {
+    if results["subject"]["flicker_frames"].is_null() { &OPTIONS[..7] } else { &OPTIONS }
+}
+
 /// Random results: few values, so that many figures are equal; several scenes; rows that fail, lack a reference or have
 /// pixels that aren't finite.
 fn random(numbers: &mut Numbers) -> Value {
     let [values, scenes, few] = [1 + numbers.below(4), 1 + numbers.below(3), 2 + numbers.below(8)];
+    let flickers = numbers.below(2) == 0;
     let mut rows = Vec::new();
     for (msaa, scale) in (0..values).flat_map(|msaa| (0..values).map(move |scale| (msaa, scale))) {
         for scene in 0..scenes {
@@ -130,6 +140,9 @@ fn random(numbers: &mut Numbers) -> Value {
                 .costs(step() / 4.0, (step() as u64 * 3) << 18)
                 .moved((step() as u64) << 20)
                 .errors(step() / 64.0, step() / 32.0, 1.0 - step() / 128.0);
+            if flickers {
+                row = row.flicker(step() / 16.0, u32::from(numbers.below(16) == 0));
+            }
             row = match numbers.below(16) {
                 0 => row.failed("no device has that"),
                 1 => row.not_finite(3),
@@ -140,7 +153,11 @@ fn random(numbers: &mut Numbers) -> Value {
             rows.push(row.value());
         }
     }
-    results(rows)
+    let mut results = results(rows);
+    if flickers {
+        results["subject"]["flicker_frames"] = json!(16);
+    }
+    results
 }
 
 /// How often something was chosen, nothing held the limits, and a limit bound.
@@ -181,10 +198,14 @@ impl Found {
 }
 
 /// Some limits by chance, at least one.
-fn some_limits(numbers: &mut Numbers, mut value: impl FnMut(&mut Numbers, &str) -> f64) -> Vec<Limit> {
+fn some_limits(
+    numbers: &mut Numbers,
+    options: &[&'static str],
+    mut value: impl FnMut(&mut Numbers, &str) -> f64,
+) -> Vec<Limit> {
     let mut limits = Vec::new();
     while limits.is_empty() {
-        for option in OPTIONS {
+        for option in options {
             if numbers.below(3) == 0 {
                 limits.push(Limit { option, value: value(numbers, option) });
             }
@@ -201,7 +222,7 @@ fn the_choice_is_what_an_exhaustive_search_finds() {
         let place = Place::new();
         let results = random(&mut numbers);
         write(&place, ".", &results);
-        let limits = some_limits(&mut numbers, |numbers, option| {
+        let limits = some_limits(&mut numbers, options(&results), |numbers, option| {
             let part = (1 + numbers.below(9)) as f64;
             match option {
                 "--max-ms" => part / 4.0,
@@ -210,6 +231,7 @@ fn the_choice_is_what_an_exhaustive_search_finds() {
                 "--max-moved-mib" => part,
                 "--max-flip" => part / 64.0,
                 "--max-rmse" => part / 32.0,
+                "--max-flicker" => part / 16.0,
                 _ => 1.0 - part / 128.0,
             }
         });
@@ -233,7 +255,7 @@ fn the_choice_from_the_study_is_what_an_exhaustive_search_finds() {
         let place = Place::new();
         write(&place, ".", &results);
         for _ in 0..8 {
-            let limits = some_limits(&mut numbers, |numbers, option| {
+            let limits = some_limits(&mut numbers, options(&results), |numbers, option| {
                 all[numbers.below(all.len() as u64) as usize].figures[option]
             });
             found.search(&place, &all, &limits);
@@ -310,6 +332,24 @@ fn rows_that_failed_or_are_not_finite_never_win() {
         out.starts_with("nothing that was measured can be chosen\n") && out.contains("without a reference"),
         "{out}"
     );
+}
+
+#[test]
+fn flicker_is_limited_where_it_was_measured() {
+    let place = Place::new();
+    let row = |msaa: &str, ms: f64| Row::new(&[("msaa", msaa)]).costs(ms, 4 << 20).errors(0.1, 0.1, 0.9);
+    let limit = [Limit { option: "--max-flicker", value: 0.02 }];
+    write(&place, ".", &results(vec![row("1", 1.0).value()]));
+    let err = choose(&place, &limit, &[]).exits(1).err;
+    assert!(err.contains("have no flicker, which `--max-flicker` limits\nhelp: measure it: "), "{err}");
+    let rows = [row("1", 1.0).flicker(0.05, 0), row("2", 2.0).flicker(0.01, 3), row("4", 3.0).flicker(0.015, 0)];
+    let mut measured = results(rows.map(Row::value).into());
+    measured["subject"]["flicker_frames"] = json!(16);
+    write(&place, ".", &measured);
+    let out = choose(&place, &limit, &[]).exits(0).out;
+    assert!(out.starts_with("best: msaa=4\n") && out.contains("ssim 0.90000, flicker 0.01500\n"), "{out}");
+    assert!(out.contains("--max-flicker 0.02: 0.01500; binds: without it msaa=1"), "{out}");
+    assert!(out.contains("left out: 1 with pixels that aren't finite\n"), "{out}");
 }
 
 #[test]

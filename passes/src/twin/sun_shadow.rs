@@ -1,5 +1,11 @@
-//! Twin of the filter in `shaders/include/sun_shadow.glsl`, by areas.
+//! Twin of `shaders/include/sun_shadow.glsl`: the filter by areas, and a plane's depth by what the map's axes are in the world.
 
+use glam::{DMat3, DMat4, DVec3};
+
+/// How much nearer to the sun a place is taken to be than it is, as a share of the depth that a map covers.
+pub const DEPTH_ROUNDING: f64 = 1.0 / 32768.0;
+/// The last share of a cascade's map at each border, along which the next cascade takes over.
+const BLENDING: f64 = 0.08;
 /// The last share of the reach, along which shadows fade.
 const FADING: f64 = 0.1;
 
@@ -30,4 +36,67 @@ pub fn uncovered(caster: impl Fn(i32, i32) -> f64, place: [f64; 2], depth: f64, 
 pub fn faded(uncovered: f64, distance_share: f64) -> f64 {
     let shadow = ((1.0 - distance_share) / FADING).clamp(0.0, 1.0);
     1.0 - shadow * (1.0 - uncovered)
+}
+
+/// A cascade of the sun's shadows.
+#[derive(Clone, Copy)]
+pub struct Cascade<'a> {
+    /// As in `SunView`.
+    pub world_to_clip: DMat4,
+    /// Width of a texel of its map, metres.
+    pub texel: f64,
+    /// The depth of the nearest caster in a texel of its map, reversed.
+    pub caster: &'a dyn Fn(i32, i32) -> f64,
+}
+
+/// All that tells how much of the sun's light arrives at a place.
+#[derive(Clone, Copy)]
+pub struct Shadows<'a> {
+    /// Unit vector.
+    pub to_sun: DVec3,
+    /// How far from the camera shadows reach, metres.
+    pub reach: f64,
+    /// The nearest first.
+    pub cascades: &'a [Cascade<'a>],
+    /// Width and height of each map, texels.
+    pub extent: f64,
+    /// Width of the filter, texels of a map.
+    pub taps: u32,
+}
+
+impl Shadows<'_> {
+    /// The share of the sun's light that arrives at `position`, seen from the camera, on a surface with the unit vector `normal`;
+    /// places are taken to be nearer to the sun by `nearer`, usually [`DEPTH_ROUNDING`].
+    #[must_use]
+    pub fn sunlit(&self, position: DVec3, normal: DVec3, nearer: f64) -> f64 {
+        let facing = normal.dot(self.to_sun);
+        let distance_share = position.length() / self.reach;
+        if facing <= 0.0 || distance_share >= 1.0 {
+            return 1.0;
+        }
+        let beside = normal.cross(self.to_sun).length();
+        let (mut share, mut rest) = (0.0, 1.0);
+        for (index, cascade) in self.cascades.iter().enumerate() {
+            let seen = cascade.world_to_clip.transform_point3(position + normal * (beside * cascade.texel));
+            let place = [seen.x, seen.y].map(|at| (at + 1.0) / 2.0 * self.extent);
+            let margin = f64::from(self.taps) / 2.0 + 1.0;
+            let inside = place.iter().flat_map(|at| [*at, self.extent - at]).fold(f64::MAX, f64::min) - margin;
+            if inside > 0.0 {
+                let last = index + 1 == self.cascades.len();
+                let part = if last { 1.0 } else { (inside / (BLENDING * self.extent)).min(1.0) };
+                let slope = self.slope(cascade, normal);
+                share += rest * part * uncovered(cascade.caster, place, seen.z + nearer, slope, self.taps);
+                rest *= 1.0 - part;
+            }
+        }
+        faded(share + rest, distance_share)
+    }
+
+    /// How much the depth of a plane changes from texel to texel. A step in clip space is one in the world; the one that stays
+    /// in the plane has as much depth as cancels what the other two take it away from it.
+    fn slope(&self, cascade: &Cascade<'_>, normal: DVec3) -> [f64; 2] {
+        let to_world = DMat3::from_mat4(cascade.world_to_clip).inverse();
+        let along = to_world.transpose() * normal;
+        [along.x, along.y].map(|across| -across / along.z * 2.0 / self.extent)
+    }
 }

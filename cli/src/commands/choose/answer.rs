@@ -46,6 +46,8 @@ struct Entry<'a> {
     gpu_ratio: f64,
     transient_bytes: u64,
     moved_bytes: u64,
+    /// The mean; `null`: it wasn't measured.
+    flicker: Option<f64>,
     /// By metric; `null`: no difference.
     errors: BTreeMap<&'static str, f64>,
     /// Where they were measured. Figures are the worst of all.
@@ -86,6 +88,7 @@ impl Answer<'_> {
             gpu_ratio: candidate.ratio,
             transient_bytes: candidate.transient_bytes,
             moved_bytes: candidate.moved_bytes,
+            flicker: candidate.flicker,
             errors: Metric::ALL.map(|metric| (metric.name(), candidate.of(Quantity::Error(metric)))).into(),
             groups: candidate.groups.iter().map(|group| group.name()).collect(),
             overshoot: missed.filter(|(_, overshoot)| *overshoot > 0.0).collect(),
@@ -120,15 +123,18 @@ impl Answer<'_> {
 
     /// Settings with all their figures.
     fn described(&self, what: &str, candidate: &Candidate) -> Vec<String> {
-        let errors = Metric::ALL.map(|metric| {
-            let quantity = Quantity::Error(metric);
-            format!("{} {}", metric.name(), figure(quantity, candidate.of(quantity)))
-        });
+        let errors =
+            Metric::ALL.map(|metric| (metric.name(), Quantity::Error(metric), candidate.of(Quantity::Error(metric))));
+        let flicker = candidate.flicker.map(|flicker| ("flicker", Quantity::Flicker, flicker));
+        let errors = errors
+            .into_iter()
+            .chain(flicker)
+            .map(|(name, quantity, value)| format!("{name} {}", figure(quantity, value)));
         let (moved, groups) = (text::bytes(candidate.moved_bytes), self.groups(candidate));
         vec![
             format!("{what}: {}", text::escape(&self.results.shown(&candidate.settings))),
             format!("  {}, {moved} moved, {:.3} × the baseline's time", self.cost(candidate), candidate.ratio),
-            format!("  {}", errors.join(", ")),
+            format!("  {}", errors.collect::<Vec<_>>().join(", ")),
             format!("  {groups}"),
         ]
     }
@@ -197,7 +203,9 @@ fn figure(quantity: Quantity, value: f64) -> String {
         Quantity::Mebibytes | Quantity::MovedMebibytes => format!("{value:.1} MiB"),
         Quantity::Error(Metric::Psnr) if value.is_infinite() => "no difference".to_owned(),
         Quantity::Error(Metric::Psnr) => format!("{value:.2} dB"),
-        Quantity::Error(_) if value == 0.0 || (1e-4..1e6).contains(&value.abs()) => format!("{value:.5}"),
-        Quantity::Error(_) => format!("{value:.3e}"),
+        Quantity::Error(_) | Quantity::Flicker if value == 0.0 || (1e-4..1e6).contains(&value.abs()) => {
+            format!("{value:.5}")
+        }
+        Quantity::Error(_) | Quantity::Flicker => format!("{value:.3e}"),
     }
 }

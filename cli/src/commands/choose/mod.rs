@@ -26,6 +26,9 @@ pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
     outputs::prepare(arguments.output.as_deref().into_iter(), &read)?;
     // The command line asks for at least one folder.
     let Some(results) = all(&arguments.folders, &read)? else { return Ok(Exit::Fine) };
+    if arguments.max_flicker.is_some() && results.subject.flicker_frames.is_none() {
+        return Err(Error::NoFlicker { folder: arguments.folders.first().cloned().unwrap_or_default() });
+    }
     let (candidates, limits) = (Candidates::of(&results), limits(arguments));
     let chosen = candidates.choose(&limits);
     if let (Chosen::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
@@ -57,13 +60,14 @@ fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> 
 
 /// The limits that are stated.
 fn limits(arguments: &ChooseArguments) -> Vec<Limit> {
-    let costs = [
+    let figures = [
         (Quantity::Milliseconds, arguments.max_ms),
         (Quantity::Ratio, arguments.max_ratio),
         (Quantity::Mebibytes, arguments.max_mib),
         (Quantity::MovedMebibytes, arguments.max_moved_mib),
+        (Quantity::Flicker, arguments.max_flicker),
     ];
     let errors = Metric::ALL.map(|metric| (Quantity::Error(metric), arguments.errors.of(metric)));
-    let limits = costs.into_iter().chain(errors);
+    let limits = figures.into_iter().chain(errors);
     limits.filter_map(|(quantity, value)| Some(Limit { quantity, value: value? })).collect()
 }

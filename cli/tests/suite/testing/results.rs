@@ -88,6 +88,12 @@ impl Row {
         self.measured(|measured| measured["errors"] = errors)
     }
 
+    pub(crate) fn flicker(self, mean: f64, non_finite: u32) -> Row {
+        let flicker =
+            json!({ "frames": 16, "mean": mean, "percentile_95": 1.0, "worst": 1.5, "non_finite": non_finite });
+        self.measured(|measured| measured["flicker"] = flicker)
+    }
+
     pub(crate) fn not_finite(self, pixels: u32) -> Row {
         self.measured(|measured| measured["errors"]["non_finite"] = json!([0, pixels]))
     }

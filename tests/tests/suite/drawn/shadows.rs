@@ -1,14 +1,15 @@
-//! The sun's shadows (IQ-25) are held against rays from what the ray-caster sees to the sun.
+//! The sun's shadows (IQ-25) are held against rays from what the ray-caster sees to the sun, and their edges against the twin of
+//! the filter.
 
 use framewright_graph::frame::{Cascade, DrawList, Share};
 use framewright_graph::vulkan::Filter;
 use framewright_passes::draw::cascades::sun_view;
 use framewright_passes::scene::{AlphaMode, Camera, Sampler, Scene, Sun, Texture, Wrap};
 use framewright_passes::twin::lighting::{lit_surface, reflect_light};
-use framewright_passes::twin::sun_shadow::faded;
+use framewright_passes::twin::sun_shadow::{self, DEPTH_ROUNDING, Shadows, faded};
 use framewright_tests::raycast::RayCaster;
 use framewright_tests::raycast::triangle::Ray;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, floats, render, rgba};
 use framewright_tests::shapes::{material, scene, square};
 use glam::{DVec2, DVec3, EulerRot, Mat4, Quat, Vec3};
 use std::error::Error;
@@ -155,6 +156,57 @@ fn shadows_fade_along_the_last_tenth_of_their_reach() -> Result<(), Box<dyn Erro
     for reach in [6.5, 7.5, 8.5] {
         let [lit, dark, between] = hold_against_rays(&yard, 2, 3, reach)?;
         assert!(lit > 1000 && dark > 50, "to {reach} m: {lit} lit, {dark} dark, {between} between");
+    }
+    Ok(())
+}
+
+/// NU-5: in every pixel, at the edges of shadows and between two cascades too, as much of the sun's light arrives as the twin finds
+/// in the same maps. It is asked with depth a little raised and lowered: what lies so near to a caster may be in light or not.
+#[test]
+fn as_much_of_the_sun_arrives_in_every_pixel_as_the_twin_finds_in_the_maps() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let yard = yard();
+    let aspect = f64::from(EXTENT[0]) / f64::from(EXTENT[1]);
+    for (of, taps, reach) in [(1, 1, 14.0), (1, 7, 9.0), (2, 3, 14.0), (4, 5, 9.0), (4, 7, 14.0)] {
+        let [number, width, far] = [of.to_string(), taps.to_string(), reach.to_string()];
+        let set = [("cascades", &*number), ("taps", &*width), ("reach", &*far)];
+        let setup = Setup { pipeline: "tests/pipelines/sunlit.ron", set: &set, scene: &yard, extent: EXTENT };
+        let outputs = render(device, &setup)?;
+        let extent = outputs[0].extent[0].cast_signed();
+        let maps = floats(&outputs[0]);
+        let views = (0..of).map(|index| {
+            let logarithmic = Share::OF_CASCADES;
+            let cascade = Cascade { list: DrawList::Opaque, index, of, reach: f32::try_into(reach).ok(), logarithmic };
+            sun_view(&yard, &yard.camera, aspect, cascade, extent.cast_unsigned())
+        });
+        let views: Vec<_> = views.collect();
+        let casters: Vec<_> = (0..i32::from(of))
+            .map(|layer| {
+                let maps = &maps;
+                move |x: i32, y: i32| maps[((layer * extent + y) * extent + x) as usize]
+            })
+            .collect();
+        let cascades: Vec<_> = views
+            .iter()
+            .zip(&casters)
+            .map(|(view, caster)| sun_shadow::Cascade { world_to_clip: view.world_to_clip, texel: view.texel, caster })
+            .collect();
+        let to_sun = -Vec3::from(yard.sun.direction).as_dvec3();
+        let shadows = Shadows { to_sun, reach: reach.into(), cascades: &cascades, extent: extent.into(), taps };
+        let [places, normals] = [1, 2].map(|output| rgba(&outputs[output]));
+        let (mut partly, mut drawn) = (0, 0);
+        for (pixel, ([x, y, z, found], [nx, ny, nz, there])) in places.into_iter().zip(normals).enumerate() {
+            if there == 0.0 {
+                continue;
+            }
+            let (position, normal) = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
+            let [least, most] = [-1e-6, 1e-6].map(|about| shadows.sunlit(position, normal, DEPTH_ROUNDING + about));
+            let asked = format!("{of} cascades, {taps} taps, to {reach} m, pixel {pixel}");
+            assert!((least - 1e-3..=most + 1e-3).contains(&found), "{asked}: {found}, not {least} to {most}");
+            drawn += 1;
+            partly += usize::from(found > 0.01 && found < 0.99);
+        }
+        assert!(drawn > 4000 && partly > 50, "{of} cascades, {taps} taps: {drawn} pixels, {partly} in half-light");
     }
     Ok(())
 }
