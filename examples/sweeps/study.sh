@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Measures the sweeps of docs/trade-offs.md: each is a folder in DIR. A run that was cut off goes on where it stopped.
 #
-# usage: study.sh DIR [SWEEP…]      SWEEP: edges, scale, light, formats, depth, curves, motion, smoothing, shadows or eyes; all by default
+# usage: study.sh DIR [SWEEP…]      SWEEP: edges, scale, light, formats, depth, curves, motion, smoothing, shadows, splits, lens
+#                                  or eyes; all by default
 set -euo pipefail
 
 results=$(realpath -m "${1:?usage: study.sh DIR [SWEEP…]}")
@@ -40,3 +41,5 @@ quality eyes --sweep @stereo=off,multi-pass,double-wide,instanced,multiview
 sweep motion temporal --scene passing --size 320x180 --flicker 16 --sweep taa=false,true --sweep render_scale=1,2
 sweep smoothing deferred --scene spheres_and_cubes --sweep "$scenes" --size 320x180 --sweep anti_aliasing=false,true
 sweep shadows shadows --scene courtyard --size 960x540 --sweep cascades=1,2,4 --sweep shadow_size=512,1024,2048,4096
+sweep splits shadows --scene courtyard --size 960x540 --sweep cascades=2,4 --sweep logarithmic=0,0.5,0.85,1
+sweep lens lens.ron --scene spheres_and_cubes --size 320x180 --sweep lens_radius=2,4,6,8,12
