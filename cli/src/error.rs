@@ -108,6 +108,15 @@ pub(crate) enum Error {
         text::path(folder)
     )]
     NoFlicker { folder: PathBuf },
+    /// A file is no Plan, or not a right one.
+    #[error("{}: {}", text::path(path), text::escape_lines(problem))]
+    NoPlan { path: PathBuf, problem: String },
+    /// A choice for a Plan that is made already.
+    #[error("{option} chooses something for `{}`, which is a Plan: choices are for pipelines", text::path(path))]
+    ChoiceForPlan { option: &'static str, path: PathBuf },
+    /// A choice for one of two Plans that none can be made of.
+    #[error("{option} {}: {}", text::escape(name), text::escape(problem))]
+    OwnChoice { option: &'static str, name: String, problem: String },
     /// A picture of results lies elsewhere.
     #[error(
         "the picture `{}` lies outside of `{}`: a link leads there, and is not followed",
@@ -277,6 +286,7 @@ impl Error {
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::NoFlicker { .. }
+            | Error::NoPlan { .. }
             | Error::OutsideResults { .. }
             | Error::Csv(_)
             | Error::Profile { .. }
@@ -307,6 +317,8 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::Sweep { .. }
+            | Error::ChoiceForPlan { .. }
+            | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }
             | Error::ReadAndWritten { .. }
             | Error::OtherResults { .. }

@@ -7,6 +7,7 @@
 pub mod base;
 pub mod compile;
 pub mod device;
+pub mod difference;
 pub mod expand;
 pub mod expression;
 pub mod frame;

@@ -2,6 +2,7 @@
 
 use crate::command_line::choosing::ChooseArguments;
 use crate::command_line::comparing::CompareArguments;
+use crate::command_line::differing::DiffArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 use crate::command_line::values::{
@@ -41,6 +42,9 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Print the Plan of a pipeline: its passes, scopes, resolves, memory and barriers, each with its cause. Needs no GPU.
     Inspect(InspectArguments),
+    /// Print the differences between two Plans: what another file, setting or device does to passes, resolves, barriers and memory.
+    /// Needs no GPU.
+    Diff(DiffArguments),
     /// Draw a scene through a pipeline.
     Run(RunArguments),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
@@ -219,7 +223,7 @@ pub(crate) struct CachingArguments {
 }
 
 /// A pipeline and its settings.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct PipelineArguments {
     /// Pipeline file; if there is none by that name, a shipped pipeline's name.
     #[arg(value_name = "PIPELINE")]
@@ -355,6 +359,7 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
     let limits = match &line.command {
         Command::Check(check) => Some(check.pipeline.limits),
         Command::Inspect(inspect) => Some(inspect.pipeline.limits),
+        Command::Diff(diff) => Some(diff.pipeline.limits),
         Command::Run(run) => Some(run.pipeline.limits),
         Command::Measure(measure) => Some(measure.pipeline.limits),
         _ => None,

@@ -5,6 +5,7 @@ mod check;
 mod choose;
 mod compare;
 mod devices;
+mod diff;
 mod facts;
 mod inspect;
 mod merge;
@@ -25,6 +26,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
     match command {
         Command::Check(arguments) => check::check(arguments),
         Command::Inspect(arguments) => inspect::inspect(arguments),
+        Command::Diff(arguments) => diff::diff(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),

@@ -35,6 +35,8 @@ impl FileRole {
     pub(crate) const PROFILE: FileRole = FileRole { name: "device profile", recorded: "the device profile itself" };
     /// A scene.
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
+    /// A Plan.
+    pub(crate) const PLAN: FileRole = FileRole { name: "Plan", recorded: "a Plan that is read" };
     /// A picture.
     const PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture that is compared" };
     /// The results of a sweep.

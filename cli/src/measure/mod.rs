@@ -12,7 +12,6 @@ mod digest;
 mod front;
 mod held_against;
 mod joining;
-mod moved_bytes;
 mod naming;
 mod page;
 pub(crate) mod pictures;

@@ -14,8 +14,8 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-/// The version of the form in which references are kept.
-const FORMAT_VERSION: u32 = 1;
+/// The version of the form in which references are kept, and of the way in which they are drawn.
+const FORMAT_VERSION: u32 = 2;
 
 /// References that stay in memory.
 const REMEMBERED: usize = 8;

@@ -1,7 +1,6 @@
 //! Measuring: choices are drawn in turns, a few at a time, and each batch is written as soon as it is done.
 
 use super::held_against::{AUTO, GIVEN, Given, light};
-use super::moved_bytes::moved_bytes;
 use super::references::{Reference, References};
 use super::results::{Cost, FORMAT_VERSION, Measured, Outcome, PassCost, Results, Row, Subject};
 use super::spread::spread;
@@ -272,7 +271,7 @@ impl Bench<'_> {
             gpu_ratio: spread(ratios.map(|(frame, baseline)| frame.milliseconds / baseline.milliseconds).collect()),
             recording_milliseconds: over(&|frame| frame.recording_milliseconds),
             transient_bytes: plan.totals.placed_bytes,
-            moved_bytes: moved_bytes(plan),
+            moved_bytes: plan.moved().sum(),
             fragment_invocations: middle(frames.iter().filter_map(|frame| frame.fragment_invocations).collect()),
         };
         let passes = by_frame.first().map_or_else(Vec::new, |rows| rows.iter().enumerate().map(pass).collect());

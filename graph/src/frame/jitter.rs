@@ -26,6 +26,14 @@ impl Jitter {
         Jitter { extent, offsets: (1..=length.max(1)).map(offset).collect() }
     }
 
+    /// The same shifts around their own middle: what is averaged over all of them is not shifted itself.
+    #[must_use]
+    pub fn centred(self) -> Jitter {
+        let count = self.offsets.len().max(1) as f64;
+        let [x, y] = [0, 1].map(|axis| self.offsets.iter().map(|offset| offset[axis]).sum::<f64>() / count);
+        Jitter { offsets: self.offsets.iter().map(|offset| [offset[0] - x, offset[1] - y]).collect(), ..self }
+    }
+
     /// The shift of a frame to the right and down, in texels.
     #[must_use]
     pub fn offset(&self, frame: u64) -> [f64; 2] {
@@ -65,6 +73,21 @@ fn radical_inverse(mut number: u32, base: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::Jitter;
+
+    #[test]
+    fn centred_shifts_have_no_shift_on_average_and_the_same_distances() {
+        for length in [1, 2, 16, 100] {
+            let (plain, centred) = (Jitter::halton(length, [8, 8]), Jitter::halton(length, [8, 8]).centred());
+            for axis in 0..2 {
+                let sum: f64 = centred.offsets.iter().map(|offset| offset[axis]).sum();
+                assert!(sum.abs() < 1e-12, "{length}: {sum}");
+                let first = plain.offsets[0][axis] - centred.offsets[0][axis];
+                let moved = plain.offsets.iter().zip(&centred.offsets).map(|(a, b)| a[axis] - b[axis]);
+                assert!(moved.into_iter().all(|it| (it - first).abs() < 1e-12), "{length}");
+            }
+            assert!(centred.is_sound(), "{length}");
+        }
+    }
 
     #[test]
     fn the_first_shifts_are_the_points_that_halton_lists() {

@@ -80,6 +80,14 @@ fn decided(plan: &Plan, subject: &Subject, what: Property) -> String {
     })
 }
 
+#[test]
+fn two_fields_of_a_format_decide_together() {
+    let text = TEXT
+        .replace("hdr && view.allows_hdr && scene.peak_radiance > 1\"", "scene.peak_radiance > 1\", alpha: \"!blur\"");
+    let plan = compiled(&right(&text, &Inputs { facts: FACTS, facts_known: true, ..INPUTS }));
+    assert_eq!(of_image(&plan, "color", Property::Format), "scene.peak_radiance = 0.75 | blur = false");
+}
+
 fn of_image(plan: &Plan, name: &str, what: Property) -> String {
     decided(plan, &Subject::Image(name.into()), what)
 }

@@ -9,6 +9,7 @@ mod compile_raster;
 mod decided;
 mod demotion;
 mod depth_ladder;
+mod difference;
 mod encodings;
 mod expression;
 mod format_fallback;

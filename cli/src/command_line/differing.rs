@@ -1,0 +1,52 @@
+//! The command line of `framewright diff`.
+
+use super::args::{PipelineArguments, PlanningArguments};
+use super::values::{Assignment, DEFAULT_SIZE, Size, assignment};
+use clap::{Args, ValueEnum};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// `framewright diff`. Both Plans are made in the same way but for what `--a` and `--b` choose.
+#[derive(Debug, Args)]
+pub(crate) struct DiffArguments {
+    #[command(flatten)]
+    pub(crate) pipeline: PipelineArguments,
+    /// Pipeline or Plan to compare it with; by default the same one. A file that ends with .json is a Plan, here and there.
+    #[arg(value_name = "OTHER")]
+    pub(crate) other: Option<PathBuf>,
+    /// A choice for the first Plan alone: a setting, or `@device`, `@scene`, `@size` or `@stereo`. Repeatable.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) a: Vec<Assignment>,
+    /// A choice for the second Plan alone. Repeatable.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) b: Vec<Assignment>,
+    /// Scene whose facts conditions see; without one they see a scene that holds everything.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+    /// Size of the output in pixels.
+    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
+    pub(crate) size: Size,
+    /// Device to compile for: the name of a shipped profile, or a profile file.
+    #[arg(long, value_name = "NAME|PROFILE.ron")]
+    pub(crate) device: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) planning: PlanningArguments,
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: DifferenceFormat,
+    /// File to write instead of printing.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Form of differences.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum DifferenceFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// For programs.
+    Json,
+    /// For a pull request.
+    Markdown,
+}

@@ -1,0 +1,129 @@
+//! `framewright diff`: the differences between two Plans, without a GPU.
+
+use crate::command_line::args::PipelineArguments;
+use crate::command_line::differing::{DiffArguments, DifferenceFormat};
+use crate::command_line::values::{self, Assignment, Modes, Size};
+use crate::error::Error;
+use crate::files::inputs::{self, FileRole};
+use crate::files::outputs;
+use crate::planning::{self, View, device};
+use crate::system::{Exit, text};
+use framewright_graph::base::ReadFiles;
+use framewright_graph::device::Estimated;
+use framewright_graph::difference::Differences;
+use framewright_graph::plan::Plan;
+use framewright_graph::verify;
+use framewright_passes::scene::Scene;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+
+/// A file of a Plan has at most this many bytes.
+const LARGEST_PLAN: usize = 1 << 30;
+
+/// Prints or writes the differences.
+///
+/// # Errors
+/// If a pipeline, a Plan, the scene or a profile is wrong, or the result can't be written.
+pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    inputs::expect(&arguments.pipeline, &read);
+    let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
+    spare()?;
+    let first = &arguments.pipeline.file;
+    let second = arguments.other.as_ref().unwrap_or(first);
+    let a = plan(arguments, first, "--a", &arguments.a, &read)?;
+    let b = plan(arguments, second, "--b", &arguments.b, &read)?;
+    spare()?;
+    let differences = Differences::between((&first.to_string_lossy(), &a), (&second.to_string_lossy(), &b));
+    let shown = match arguments.format {
+        DifferenceFormat::Human => text::escape_lines(&differences.text()) + "\n",
+        DifferenceFormat::Json => text::json(&differences)?,
+        DifferenceFormat::Markdown => text::escape_lines(&differences.markdown()) + "\n",
+    };
+    match &arguments.output {
+        Some(file) => outputs::write(&[(file, shown.as_bytes())], &read)?,
+        None => text::print(&shown).map_err(Error::Print)?,
+    }
+    Ok(Exit::Fine)
+}
+
+/// The Plan in a file, or that of a pipeline.
+fn plan(
+    arguments: &DiffArguments,
+    file: &Path,
+    option: &'static str,
+    own: &[Assignment],
+    read: &ReadFiles,
+) -> Result<Plan, Error> {
+    if file.extension().is_some_and(|end| end == "json") {
+        return match own.is_empty() {
+            true => plan_of(file, read),
+            false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),
+        };
+    }
+    let chosen = Choice::of(arguments, option, own)?;
+    let pipeline = PipelineArguments {
+        file: file.to_owned(),
+        set: chosen.settings,
+        stereo: chosen.stereo,
+        ..arguments.pipeline.clone()
+    };
+    let profile = device::choose(chosen.device.as_deref(), read)?;
+    let mut loaded = planning::load(&pipeline, read)?;
+    let scene = chosen.scene.as_deref().map(|file| inputs::scene(file, read)).transpose()?;
+    let view = View {
+        facts: scene.as_ref().map(Scene::facts),
+        size: chosen.size,
+        rotation: arguments.planning.rotate,
+        dump: &[],
+    };
+    let planned = loaded.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?;
+    Ok(planned.plan)
+}
+
+/// The Plan that a file holds, verified.
+fn plan_of(path: &Path, read: &ReadFiles) -> Result<Plan, Error> {
+    let text = inputs::text(FileRole::PLAN, path, LARGEST_PLAN, read)?;
+    let wrong = |problem: String| Error::NoPlan { path: path.to_owned(), problem };
+    let plan = Plan::from_json(&text).map_err(|problem| wrong(problem.to_string()))?;
+    match verify::verify(&plan).first() {
+        None => Ok(plan),
+        Some(first) => Err(wrong(format!("the Plan is not right: {first}"))),
+    }
+}
+
+/// The choices for one of the Plans.
+struct Choice {
+    settings: Vec<Assignment>,
+    device: Option<OsString>,
+    scene: Option<PathBuf>,
+    size: Size,
+    stereo: Modes,
+}
+
+impl Choice {
+    /// Those for both Plans, and on top of them its own.
+    fn of(arguments: &DiffArguments, option: &'static str, own: &[Assignment]) -> Result<Choice, Error> {
+        let mut choice = Choice {
+            settings: arguments.pipeline.set.clone(),
+            device: arguments.device.clone(),
+            scene: arguments.scene.clone(),
+            size: arguments.size,
+            stereo: arguments.pipeline.stereo.clone(),
+        };
+        for Assignment { name, value } in own {
+            let wrong = |problem: String| Error::OwnChoice { option, name: name.clone(), problem };
+            match &**name {
+                "@device" => choice.device = Some(OsStr::new(value).to_owned()),
+                "@scene" => choice.scene = Some(value.into()),
+                "@size" => choice.size = value.parse().map_err(wrong)?,
+                "@stereo" => choice.stereo = values::stereo(value).map_err(wrong)?,
+                other if other.starts_with('@') => {
+                    return Err(wrong("expected a setting, @device, @scene, @size or @stereo".to_owned()));
+                }
+                _ => choice.settings.push(Assignment { name: name.clone(), value: value.clone() }),
+            }
+        }
+        Ok(choice)
+    }
+}

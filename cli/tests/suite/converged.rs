@@ -1,0 +1,68 @@
+//! The reference of `measure` is held against rays: edges of a shining cube before a sky of one colour (NU-1).
+
+use crate::testing::{Place, Vulkan, repository};
+use framewright_passes::scene::load;
+use framewright_passes::srgb;
+use framewright_tests::raycast::RayCaster;
+use glam::DVec2;
+use serde_json::Value;
+
+const EXTENT: [u32; 2] = [48, 27];
+/// Rays along each side of a pixel.
+const RAYS: u32 = 32;
+
+/// The share of each pixel that the cube covers, after rays.
+fn coverage() -> Vec<f64> {
+    let scene = load(&repository("examples/sweeps/one_unlit_cube.ron")).expect("the scene");
+    let caster = RayCaster::new(&scene);
+    let hits = |at: DVec2| caster.cast(&caster.camera_ray(at, EXTENT)).is_some();
+    let within = (0..RAYS * RAYS)
+        .map(|ray| DVec2::new(f64::from(ray % RAYS) + 0.5, f64::from(ray / RAYS) + 0.5) / f64::from(RAYS));
+    let within: Vec<DVec2> = within.collect();
+    let pixels = (0..EXTENT[0] * EXTENT[1]).map(|at| DVec2::new((at % EXTENT[0]).into(), (at / EXTENT[0]).into()));
+    let share = |pixel: DVec2| within.iter().filter(|offset| hits(pixel + **offset)).count();
+    pixels.map(|pixel| share(pixel) as f64 / f64::from(RAYS * RAYS)).collect()
+}
+
+/// `forward` has no render scale: what makes its reference converge is how the picture is shifted from frame to frame.
+#[test]
+fn edges_of_a_reference_are_as_wide_as_rays_find_them() {
+    let place = Place::new();
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let scene = repository("examples/sweeps/one_unlit_cube.ron");
+    let arguments = [
+        "measure",
+        "forward",
+        "--scene",
+        scene.to_str().expect("a path"),
+        "--size",
+        "48x27",
+        "--frames",
+        "1",
+        "--set",
+        "tone_mapping=false",
+        "--sweep",
+        "msaa=1",
+        "-o",
+        "swept",
+    ];
+    place.run_with(&variables, &arguments).exits(0);
+    let results = std::fs::read_to_string(place.path("swept/results.json")).expect("results");
+    let results: Value = serde_json::from_str(&results).expect("JSON");
+    let picture = results["rows"][0]["outcome"]["measured"]["reference"].as_str().expect("a path").to_owned();
+    let picture = image::open(place.path("swept").join(picture)).expect("a picture").into_rgb8();
+    let red: Vec<f64> = picture.pixels().map(|pixel| srgb::decode(f64::from(pixel.0[0]) / 255.0)).collect();
+    let coverage = coverage();
+    let mean_where = |covered: f64| {
+        let found: Vec<f64> =
+            red.iter().zip(&coverage).filter(|(_, at)| **at == covered).map(|(red, _)| *red).collect();
+        found.iter().sum::<f64>() / found.len() as f64
+    };
+    let (sky, cube) = (mean_where(0.0), mean_where(1.0));
+    assert!(cube - sky > 0.5, "{cube} beside {sky}");
+    let edges = red.iter().zip(&coverage).filter(|(_, covered)| (0.02..0.98).contains(*covered));
+    let errors: Vec<f64> = edges.map(|(red, covered)| (red - sky) / (cube - sky) - covered).collect();
+    let rms = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+    println!("{} pixels on edges, {rms}", errors.len());
+    assert!(errors.len() > 50 && rms < 0.04, "{} pixels on edges, {rms}", errors.len());
+}

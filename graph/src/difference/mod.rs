@@ -1,0 +1,210 @@
+//! The differences between two Plans: what a change to a file, a setting or a device does to passes, resolves, barriers, memory
+//! and bytes.
+//!
+//! Each Plan is described as a list of entries: passes, images, barriers and others, each with its fields as text. Entries of one
+//! kind and name are compared with each other. Numbers of steps and offsets in memory are no part of it: they change with
+//! everything that is inserted before them.
+
+mod describe;
+mod markdown;
+mod text;
+
+use crate::base::Place;
+use crate::plan::{DeviceUsed, Plan, SettingUsed};
+use describe::{Description, describe, figures};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The version of the JSON form of [`Differences`].
+pub const FORMAT_VERSION: u32 = 1;
+
+/// The differences between two Plans, the first called A and the second B.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Differences {
+    /// [`FORMAT_VERSION`].
+    pub format_version: u32,
+    /// A.
+    pub a: Side,
+    /// B.
+    pub b: Side,
+    /// Sums, those that are equal too.
+    pub totals: Vec<Figure>,
+    /// The things that only one of them has, or that differ: kind by kind.
+    pub entries: Vec<Entry>,
+}
+
+/// The frame that a Plan is for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Side {
+    /// The name that the caller gave it.
+    pub name: String,
+    /// The device.
+    pub device: DeviceUsed,
+    /// The settings in force.
+    pub settings: Vec<SettingUsed>,
+}
+
+/// A sum over each Plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Figure {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it counts bytes.
+    pub bytes: bool,
+    /// In A.
+    pub a: u64,
+    /// In B.
+    pub b: u64,
+}
+
+/// Something that only one Plan has, or that differs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Entry {
+    /// Its kind.
+    pub kind: Kind,
+    /// Its name in words. Names from files stand between backticks, with control characters escaped.
+    pub name: String,
+    /// How it differs.
+    #[serde(flatten)]
+    pub change: Change,
+    /// Why it is there, if the compiler inserted it.
+    pub because: Option<String>,
+    /// The line that says so or caused it.
+    pub at: Option<Place>,
+}
+
+/// The kind of an entry. They are told in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A setting.
+    Setting,
+    /// A pass, an inserted one too.
+    Pass,
+    /// A resolve.
+    Resolve,
+    /// A copy, blit or fill.
+    Transfer,
+    /// The load and store operation of an attachment.
+    Attachment,
+    /// An image.
+    Image,
+    /// A buffer.
+    Buffer,
+    /// A barrier.
+    Barrier,
+    /// A wait for another queue.
+    Wait,
+    /// A note of the compiler.
+    Note,
+}
+
+/// How an entry differs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "change")]
+pub enum Change {
+    /// Only B has it.
+    Added {
+        /// Its fields.
+        fields: Vec<Field>,
+    },
+    /// Only A has it.
+    Removed {
+        /// Its fields.
+        fields: Vec<Field>,
+    },
+    /// Both have it.
+    Changed {
+        /// Those of its fields that differ.
+        fields: Vec<Field>,
+    },
+}
+
+/// A field of an entry.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value in A; `None`: it has none.
+    pub a: Option<String>,
+    /// Its value in B.
+    pub b: Option<String>,
+}
+
+impl Differences {
+    /// Finds them. Each Plan has a name, such as that of its file.
+    #[must_use]
+    pub fn between((name_of_a, a): (&str, &Plan), (name_of_b, b): (&str, &Plan)) -> Differences {
+        let side = |name: &str, plan: &Plan| Side {
+            name: name.to_owned(),
+            device: plan.device.clone(),
+            settings: plan.settings.clone(),
+        };
+        let totals = figures(a).into_iter().zip(figures(b));
+        let totals = totals.map(|((name, bytes, a), (_, _, b))| Figure { name, bytes, a, b });
+        Differences {
+            format_version: FORMAT_VERSION,
+            a: side(name_of_a, a),
+            b: side(name_of_b, b),
+            totals: totals.collect(),
+            entries: entries(describe(a), describe(b)),
+        }
+    }
+
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty() && self.a.device == self.b.device && self.totals.iter().all(|it| it.a == it.b)
+    }
+}
+
+/// Entries of one kind and name are compared in their order.
+fn entries(of_a: Vec<Description>, of_b: Vec<Description>) -> Vec<Entry> {
+    let mut found: BTreeMap<(Kind, String), Vec<Description>> = BTreeMap::new();
+    for one in of_a.into_iter().rev() {
+        found.entry((one.kind, one.name.clone())).or_default().push(one);
+    }
+    let mut entries = Vec::new();
+    for b in of_b {
+        let key = (b.kind, b.name.clone());
+        match found.get_mut(&key).and_then(Vec::pop) {
+            None => entries.push(b.entry(|fields| Change::Added { fields: of_one(fields, |value| (None, value)) })),
+            Some(a) => {
+                let fields = differing(a.fields, &b.fields);
+                if !fields.is_empty() {
+                    entries.push(b.entry(|_| Change::Changed { fields }));
+                }
+            }
+        }
+    }
+    let left = found.into_values().flat_map(|left| left.into_iter().rev());
+    entries.extend(left.map(|a| a.entry(|fields| Change::Removed { fields: of_one(fields, |value| (value, None)) })));
+    // Stable: B's order, then what only A has.
+    entries.sort_by_key(|entry| entry.kind);
+    entries
+}
+
+type Values = (Option<String>, Option<String>);
+
+fn of_one(fields: Vec<(&'static str, String)>, values: impl Fn(Option<String>) -> Values) -> Vec<Field> {
+    let field = |(name, value)| {
+        let (a, b) = values(Some(value));
+        Field { name, a, b }
+    };
+    fields.into_iter().map(field).collect()
+}
+
+/// The fields that differ, in their order.
+fn differing(a: Vec<(&'static str, String)>, b: &[(&'static str, String)]) -> Vec<Field> {
+    let mut fields = Vec::new();
+    let in_b = |name: &str| b.iter().find(|(other, _)| *other == name).map(|(_, value)| value.clone());
+    for (name, value) in &a {
+        let (a, b) = (Some(value.clone()), in_b(name));
+        if a != b {
+            fields.push(Field { name, a, b });
+        }
+    }
+    let new = b.iter().filter(|(name, _)| !a.iter().any(|(other, _)| other == name));
+    fields.extend(new.map(|(name, value)| Field { name, a: None, b: Some(value.clone()) }));
+    fields
+}

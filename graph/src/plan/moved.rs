@@ -1,0 +1,101 @@
+//! Bytes that a frame moves: what scopes load and store, and what resolves, copies, blits and fills read and write.
+//!
+//! Samples, clears and draws aren't part of it, nor is what a device compresses or keeps in its caches.
+
+use super::{Attachment, ImageId, Plan, Side, Step, Work};
+use crate::vulkan::{LoadOp, StoreOp, Subresources};
+use std::ops::Add;
+
+/// Bytes that a step, or a frame, moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Moved {
+    /// Loaded when rendering scopes begin.
+    pub loaded: u64,
+    /// Stored when they end.
+    pub stored: u64,
+    /// Written by resolves, and read by those that are steps of their own.
+    pub resolved: u64,
+    /// Read and written by copies and blits, and written by fills.
+    pub copied: u64,
+}
+
+impl Moved {
+    /// All of them; [`u64::MAX`] if the sum is larger.
+    #[must_use]
+    pub fn sum(self) -> u64 {
+        [self.loaded, self.stored, self.resolved, self.copied].into_iter().fold(0, u64::saturating_add)
+    }
+}
+
+impl Add for Moved {
+    type Output = Moved;
+
+    fn add(self, other: Moved) -> Moved {
+        Moved {
+            loaded: self.loaded.saturating_add(other.loaded),
+            stored: self.stored.saturating_add(other.stored),
+            resolved: self.resolved.saturating_add(other.resolved),
+            copied: self.copied.saturating_add(other.copied),
+        }
+    }
+}
+
+impl Plan {
+    /// The bytes that all steps move.
+    #[must_use]
+    pub fn moved(&self) -> Moved {
+        self.steps.iter().map(|step| self.moved_by(step)).fold(Moved::default(), Add::add)
+    }
+
+    /// The bytes that one of its steps moves.
+    #[must_use]
+    pub fn moved_by(&self, step: &Step) -> Moved {
+        let none = Moved::default();
+        match &step.work {
+            Work::Render(scope) => {
+                let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
+                attachments.map(|attachment| self.of_attachment(attachment)).fold(none, Add::add)
+            }
+            Work::Resolve(transfer) => {
+                let resolved = self.of_side(transfer.source).saturating_add(self.of_side(transfer.target));
+                Moved { resolved, ..none }
+            }
+            Work::Copy(transfer) | Work::Blit(transfer) => {
+                Moved { copied: self.of_side(transfer.source).saturating_add(self.of_side(transfer.target)), ..none }
+            }
+            Work::Fill(fill) => Moved { copied: self.of_side(fill.target), ..none },
+            Work::Dispatch(_) | Work::Custom(_) | Work::Export => none,
+        }
+    }
+
+    fn of_attachment(&self, attachment: &Attachment) -> Moved {
+        let bytes = self.of_range(attachment.image, attachment.range);
+        Moved {
+            loaded: if attachment.load == LoadOp::Load { bytes } else { 0 },
+            stored: if attachment.store == StoreOp::Store { bytes } else { 0 },
+            resolved: attachment.resolve.as_ref().map_or(0, |resolve| self.of_range(resolve.image, resolve.range)),
+            copied: 0,
+        }
+    }
+
+    fn of_side(&self, side: Side) -> u64 {
+        match side {
+            Side::Image { image, range, .. } => self.of_range(image, range),
+            Side::Buffer { bytes, .. } => bytes,
+        }
+    }
+
+    /// Bytes of a part of an image, all samples among them.
+    fn of_range(&self, image: ImageId, range: Subresources) -> u64 {
+        let image = self.image(image);
+        let [width, height, depth] = image.made();
+        let texel = image.format.plane_bytes(range.aspects).unwrap_or_else(|| image.format.texel_bytes());
+        let mips = range.mips.min(image.mips.saturating_sub(range.base_mip));
+        let layers = range.layers.min(image.made_layers().saturating_sub(range.base_layer));
+        let mip = |mip: u32| {
+            [width, height, depth].iter().map(|side| u64::from((side >> mip.min(31)).max(1))).product::<u64>()
+        };
+        let texels: u64 = (range.base_mip..range.base_mip.saturating_add(mips)).map(mip).sum();
+        texels.saturating_mul(texel).saturating_mul(u64::from(layers)).saturating_mul(image.samples.into())
+    }
+}
