@@ -41,7 +41,7 @@ pub(crate) fn draw(
     let (extent, samples) = drawn(&planned.plan, size);
     let frames = frames(extent, samples, size);
     // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
-    prepared.source.set_jitter(&Jitter::halton(frames, extent).centred())?;
+    prepared.source.set_jitter(&Jitter::halton(frames, extent))?;
     let mut sum: Option<Sum> = None;
     let mut of_half = None;
     for frame in 0..frames {
