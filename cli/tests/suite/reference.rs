@@ -47,8 +47,10 @@ fn every_whole_file_of_the_reference_is_fine() {
 }
 
 /// The commands.
-const COMMANDS: [&str; 12] =
-    ["check", "inspect", "run", "facts", "compare", "measure", "choose", "merge", "new", "schema", "devices", "cache"];
+const COMMANDS: [&str; 13] = [
+    "check", "inspect", "diff", "run", "facts", "compare", "measure", "choose", "merge", "new", "schema", "devices",
+    "cache",
+];
 
 /// The options of all commands, as their helps list them.
 fn options() -> BTreeSet<String> {

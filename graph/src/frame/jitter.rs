@@ -24,9 +24,14 @@ impl Jitter {
     #[must_use]
     pub fn halton(length: u16, extent: [u32; 2]) -> Jitter {
         let length = length.max(1);
-        let coordinates = |base| (1..=length).map(move |number| radical_inverse(number.into(), base));
-        let [x, y] = [2, 3].map(|base| coordinates(base).sum::<f64>() / f64::from(length));
-        let offsets = coordinates(2).zip(coordinates(3)).map(|(right, down)| [right - x, down - y]);
+        let axis = |base| {
+            let points = (1..=length).map(move |number| radical_inverse(number.into(), base));
+            let mean = points.clone().sum::<f64>() / f64::from(length);
+            // Of some lengths a point lies a little beyond half a texel then: all move closer to the middle.
+            let farthest = points.clone().map(|point| (point - mean).abs()).fold(0.5, f64::max);
+            points.map(move |point| (point - mean) * (0.5 / farthest))
+        };
+        let offsets = axis(2).zip(axis(3)).map(|(right, down)| [right, down]);
         Jitter { extent, offsets: offsets.collect() }
     }
 
