@@ -7,6 +7,7 @@
 
 mod describe;
 mod markdown;
+mod steps;
 mod text;
 
 use crate::base::Place;
@@ -79,6 +80,8 @@ pub struct Entry {
 pub enum Kind {
     /// A setting.
     Setting,
+    /// A view.
+    View,
     /// A pass, an inserted one too.
     Pass,
     /// A resolve.
@@ -91,6 +94,8 @@ pub enum Kind {
     Image,
     /// A buffer.
     Buffer,
+    /// An output.
+    Output,
     /// A barrier.
     Barrier,
     /// A wait for another queue.

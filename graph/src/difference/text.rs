@@ -5,6 +5,10 @@ use crate::base::{Place, amount};
 use crate::plan::names::Shown;
 use std::fmt::Write;
 
+/// Fields that are told where they differ, and not of what only one Plan has.
+const DETAILS: [&str; 8] =
+    ["accesses", "usage", "layout", "draw", "discards", "clear value", "state before", "state after"];
+
 impl Differences {
     /// The text for people: sums that differ, then each entry, with `+` before what only B has and `-` before what only A has.
     #[must_use]
@@ -47,12 +51,14 @@ pub(super) fn of(side: &Side) -> String {
 pub(super) fn heading(kind: Kind) -> &'static str {
     match kind {
         Kind::Setting => "settings",
+        Kind::View => "views",
         Kind::Pass => "passes",
         Kind::Resolve => "resolves",
         Kind::Transfer => "copies, blits and fills",
         Kind::Attachment => "attachments",
         Kind::Image => "images",
         Kind::Buffer => "buffers",
+        Kind::Output => "outputs",
         Kind::Barrier => "barriers",
         Kind::Wait => "waits between queues",
         Kind::Note => "notes",
@@ -73,8 +79,14 @@ pub(super) fn more(figure: &Figure) -> String {
 /// An entry: its name, its fields and its cause.
 pub(super) fn line(entry: &Entry) -> String {
     let fields: Vec<String> = match &entry.change {
-        Change::Added { fields } | Change::Removed { fields } => fields.iter().map(one).collect(),
-        Change::Changed { fields } => fields.iter().map(both).collect(),
+        Change::Added { fields } | Change::Removed { fields } => {
+            fields.iter().filter(|field| !DETAILS.contains(&field.name)).map(one).collect()
+        }
+        Change::Changed { fields } => {
+            // What is bound tells of accesses too.
+            let binds = fields.iter().any(|field| field.name == "binds");
+            fields.iter().filter(|field| !(binds && field.name == "accesses")).map(both).collect()
+        }
     };
     let fields = if fields.is_empty() { String::new() } else { format!(": {}", fields.join("; ")) };
     let because = entry.because.as_ref().map_or_else(String::new, |why| format!("; {why}"));

@@ -160,3 +160,100 @@ fn names_do_not_act() {
     }
     assert!(!markdown.contains("<img") && !markdown.contains("@all") && !markdown.contains("#1"), "{markdown}");
 }
+
+/// The leaves of a JSON form: the way to each.
+fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Array(list) => (0..).zip(list).for_each(|(index, one)| leaves(one, &format!("{at}/{index}"), found)),
+        Value::Object(fields) => fields.iter().for_each(|(name, one)| leaves(one, &format!("{at}/{name}"), found)),
+        _ => found.push(at.to_owned()),
+    }
+}
+
+/// Another value of the same kind; of a word each of those that stand anywhere in the Plan under the same name.
+fn others(value: &Value, words: &[Value]) -> Vec<Value> {
+    match value {
+        Value::Bool(truth) => vec![Value::Bool(!truth)],
+        Value::Number(number) if number.is_f64() => vec![(number.as_f64().unwrap_or_default() + 0.25).into()],
+        Value::Number(number) => vec![(2 * number.as_u64().unwrap_or_default() + 1).into()],
+        Value::String(_) => words.iter().filter(|word| *word != value).take(2).cloned().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Whatever is changed in a Plan, but for numbers of steps, offsets, memory types and reasons, the difference is told.
+#[test]
+fn every_change_of_a_plan_is_told() {
+    let unsaid = [
+        "/id",
+        "/format_version",
+        "/offset",
+        "/alignment",
+        "/type_bits",
+        "/heap",
+        "/lifetime/0",
+        "/lifetime/1",
+        "/after",
+        "/needed_by",
+        "/because",
+        "/line",
+        "/file",
+        "/at",
+        "/step",
+        "/exact_memory",
+        "/merged",
+        "/written",
+    ];
+    let (mut missed, mut told) = (BTreeSet::new(), 0);
+    for plan in [plan("forward.ron", &[]), plan("soft_focus.ron", &[]), compiled(&graphs::deferred())] {
+        let whole = json(&plan);
+        let mut all = Vec::new();
+        leaves(&whole, "", &mut all);
+        for path in all {
+            if unsaid.iter().any(|end| path.ends_with(end))
+                || path.starts_with("/heaps/")
+                || path.starts_with("/totals/live_peak")
+                || path.starts_with("/decided")
+                || path.starts_with("/changes")
+            {
+                continue;
+            }
+            let name = path.rsplit('/').find(|part| part.parse::<u32>().is_err()).unwrap_or_default();
+            let mut words = Vec::new();
+            collect(&whole, name, &mut words);
+            for other in others(&whole.pointer(&path).cloned().unwrap_or_default(), &words) {
+                let mut changed = whole.clone();
+                *changed.pointer_mut(&path).expect("it is there") = other;
+                let Ok(changed) = Plan::from_json(&changed.to_string()) else { continue };
+                if between(&plan, &changed).is_empty() {
+                    let place: Vec<&str> =
+                        path.split('/').map(|part| if part.parse::<u32>().is_ok() { "…" } else { part }).collect();
+                    missed.insert(place.join("/"));
+                } else {
+                    told += 1;
+                }
+            }
+        }
+    }
+    assert!(told > 1000, "{told}");
+    assert_eq!(missed, BTreeSet::new(), "these can change, and nothing is told");
+}
+
+/// All texts that stand under a name.
+fn collect(value: &Value, name: &str, found: &mut Vec<Value>) {
+    let mut add = |one: &Value| {
+        if one.is_string() && !found.contains(one) {
+            found.push(one.clone());
+        }
+    };
+    match value {
+        Value::Array(list) => list.iter().for_each(|one| collect(one, name, found)),
+        Value::Object(fields) => {
+            if let Some(one) = fields.get(name) {
+                add(one);
+            }
+            fields.values().for_each(|one| collect(one, name, found));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,250 @@
+//! The steps of a Plan as entries that can be compared by their names.
+
+use super::Kind;
+use super::describe::{Description, code};
+use crate::frame::{Blend, ParamValue};
+use crate::plan::names::Shown;
+use crate::plan::{
+    Access, Attachment, Fill, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, RenderScope, Resource,
+    Side, Step, StepId, Transfer, Work,
+};
+use crate::vulkan::{Subresources, name_of};
+
+/// A step that is described.
+#[derive(Clone, Copy)]
+pub(super) struct Described<'p> {
+    pub(super) plan: &'p Plan,
+    pub(super) id: StepId,
+    pub(super) step: &'p Step,
+}
+
+impl Described<'_> {
+    /// Adds its passes, attachments, transfers, barriers and waits.
+    pub(super) fn add(self, all: &mut Vec<Description>) {
+        match &self.step.work {
+            Work::Render(scope) => self.scope(scope, all),
+            Work::Dispatch(pass) | Work::Custom(pass) => all.push(self.pass(pass, Vec::new())),
+            Work::Resolve(transfer) => all.push(self.transfer(Kind::Resolve, "resolve", transfer)),
+            Work::Copy(transfer) => all.push(self.transfer(Kind::Transfer, "copy", transfer)),
+            Work::Blit(transfer) => all.push(self.transfer(Kind::Transfer, "blit", transfer)),
+            Work::Fill(fill) => all.push(self.fill(fill)),
+            Work::Export => {}
+        }
+        let barriers = self.step.image_barriers.iter().chain(&self.step.releases);
+        all.extend(barriers.map(|barrier| self.image_barrier(barrier)));
+        for barrier in &self.step.memory_barriers {
+            self.memory_barrier(barrier, all);
+        }
+        for wait in &self.step.waits {
+            let frame = if wait.frames_ago == 0 { "" } else { " of a frame before" };
+            let name = format!("{} for {}{frame}", self.name(None), self.plan.step_name(wait.step));
+            all.push(Description::new(Kind::Wait, name, vec![("stages", name_of(&wait.stages))]));
+        }
+    }
+
+    /// The step that needs a barrier: a later one, or this one.
+    fn name(self, needed_by: Option<StepId>) -> String {
+        self.plan.step_name(needed_by.unwrap_or(self.id))
+    }
+
+    fn scope(self, scope: &RenderScope, all: &mut Vec<Description>) {
+        let first = scope.passes.first().map_or_else(String::new, |pass| code(&pass.name));
+        for (at, pass) in scope.passes.iter().enumerate() {
+            let [width, height] = scope.extent;
+            let shared = if at == 0 { "its own".to_owned() } else { format!("that of {first}") };
+            let mut fields = vec![
+                ("rendering scope", shared),
+                ("size", format!("{width}×{height}")),
+                ("samples", scope.samples.to_string()),
+            ];
+            if scope.layers > 1 {
+                fields.push(("layers", scope.layers.to_string()));
+            }
+            all.push(self.pass(pass, fields));
+        }
+        for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
+            all.push(self.attachment(attachment, &first));
+            if let Some(resolve) = &attachment.resolve {
+                let sides = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
+                let [from, to] = sides.map(|(image, range)| self.part(image, range));
+                let fields = vec![
+                    ("mode", name_of(&resolve.mode)),
+                    ("done", "at the end of a scope".to_owned()),
+                    ("layout", name_of(&resolve.layout)),
+                ];
+                all.push(Description::new(Kind::Resolve, format!("{from} → {to}"), fields).caused(&resolve.cause));
+            }
+        }
+    }
+
+    fn attachment(self, attachment: &Attachment, first: &str) -> Description {
+        let image = self.part(attachment.image, attachment.range);
+        let mut fields = vec![("load", name_of(&attachment.load)), ("store", name_of(&attachment.store))];
+        if let Some(clear) = attachment.clear {
+            fields.push(("clear value", format!("{clear:?}")));
+        }
+        fields.push(("layout", name_of(&attachment.layout)));
+        let name = format!("{image}, {}, of the scope of {first}", name_of(&attachment.range.aspects));
+        let because = Some(Shown(&attachment.because.to_string()).to_string());
+        Description { because, ..Description::new(Kind::Attachment, name, fields) }
+    }
+
+    fn pass(self, pass: &Pass, mut fields: Vec<(&'static str, String)>) -> Description {
+        fields.push(("shader", code(&pass.shader)));
+        if self.step.queue != Queue::Graphics {
+            fields.push(("queue", name_of(&self.step.queue)));
+        }
+        fields.extend(pass.draw.iter().map(|draw| ("draw", format!("{draw:?}"))));
+        fields.extend(pass.groups.iter().map(|groups| ("workgroups", format!("{groups:?}"))));
+        fields.extend(pass.stencil.iter().map(|stencil| ("stencil", format!("{stencil:?}"))));
+        fields.extend(pass.redraws.iter().map(|redrawn| ("draws the depth again of", code(redrawn))));
+        let view = pass.view.and_then(|view| self.plan.views.get(view.0 as usize));
+        fields.extend(view.iter().map(|view| ("view", code(&view.name))));
+        let flags = [
+            ("alpha to coverage", pass.alpha_to_coverage),
+            ("discards", pass.discards),
+            ("local barrier", pass.local_barrier),
+        ];
+        fields.extend(flags.into_iter().filter(|(_, set)| *set).map(|(name, _)| (name, "yes".to_owned())));
+        if pass.blend.iter().any(|blend| *blend != Blend::Replace) {
+            fields.push(("blend", pass.blend.iter().map(name_of).collect::<Vec<_>>().join(", ")));
+        }
+        if let Some(depth) = &pass.depth {
+            fields.push((
+                "depth test",
+                format!("{}{}", name_of(&depth.test), if depth.write { ", written" } else { "" }),
+            ));
+        }
+        let images = pass.accesses.iter().filter_map(|access| {
+            let binding = access.binding.as_ref()?;
+            Some(format!("{} = {}", Shown(&binding.name), self.part(access.image, access.range)))
+        });
+        let buffers = pass.buffers.iter().map(|access| {
+            let name = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
+            format!("{name}{}", self.resource(Resource::Buffer(access.buffer)))
+        });
+        let bound: Vec<String> = images.chain(buffers).collect();
+        if !bound.is_empty() {
+            fields.push(("binds", bound.join(", ")));
+        }
+        let params = pass.params.iter().map(|param| {
+            let value = match param.value {
+                ParamValue::Bool(value) => value.to_string(),
+                ParamValue::Integer(value) => value.to_string(),
+                ParamValue::Number(value) => value.to_string(),
+            };
+            format!("{} = {value}", Shown(&param.name))
+        });
+        let params: Vec<String> = params.collect();
+        if !params.is_empty() {
+            fields.push(("parameters", params.join(", ")));
+        }
+        if !pass.accesses.is_empty() {
+            fields.push((
+                "accesses",
+                pass.accesses.iter().map(|access| self.access(access)).collect::<Vec<_>>().join("; "),
+            ));
+        }
+        Description::new(Kind::Pass, code(&pass.name), fields).caused(&pass.cause)
+    }
+
+    /// All of an access to an image.
+    fn access(self, access: &Access) -> String {
+        let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
+        let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
+            let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
+            format!(", {:?}{declared}", binding.kind)
+        });
+        let [accesses, stages, layout] = [name_of(&access.accesses), name_of(&access.stages), name_of(&access.layout)];
+        format!("{}{eye}: {accesses} in {stages} as {layout}{kind}", self.part(access.image, access.range))
+    }
+
+    fn transfer(self, kind: Kind, word: &str, transfer: &Transfer) -> Description {
+        let [from, to] = [transfer.source, transfer.target].map(|side| self.side(side));
+        let mut fields = match kind {
+            Kind::Resolve => vec![("mode", "AVERAGE".to_owned()), ("done", "by a step of its own".to_owned())],
+            _ => vec![("work", word.to_owned())],
+        };
+        if let Some(filter) = &transfer.filter {
+            fields.push(("filter", name_of(filter)));
+        }
+        Description::new(kind, format!("{from} → {to}"), fields).caused(&transfer.cause)
+    }
+
+    fn fill(self, fill: &Fill) -> Description {
+        let fields = vec![("work", "fill".to_owned()), ("value", format!("{:?}", fill.value))];
+        Description::new(Kind::Transfer, self.side(fill.target), fields).caused(&fill.cause)
+    }
+
+    fn image_barrier(self, barrier: &ImageBarrier) -> Description {
+        let image = self.part(barrier.image, barrier.range);
+        let name = format!("{image} before {}: {}", self.name(barrier.needed_by), words(barrier.hazard));
+        let [from, to] = [&barrier.old_layout, &barrier.new_layout].map(name_of);
+        let mut fields = vec![("layouts", format!("{from} → {to}"))];
+        fields.extend(scopes(
+            [name_of(&barrier.src_stages), name_of(&barrier.dst_stages)],
+            [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
+        ));
+        Description::new(Kind::Barrier, name, fields)
+    }
+
+    fn memory_barrier(self, barrier: &MemoryBarrier, all: &mut Vec<Description>) {
+        let fields = scopes(
+            [name_of(&barrier.src_stages), name_of(&barrier.dst_stages)],
+            [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
+        );
+        let mut add = |name: String| all.push(Description::new(Kind::Barrier, name, fields.to_vec()));
+        for [before, after] in &barrier.hand_overs {
+            let [before, after] = [before, after].map(|resource| self.resource(*resource));
+            add(format!("memory of {before} becomes that of {after}"));
+        }
+        for hazard in &barrier.buffers {
+            let buffer = self.resource(Resource::Buffer(hazard.buffer));
+            add(format!("{buffer} before {}: {}", self.name(hazard.needed_by), words(hazard.hazard)));
+        }
+    }
+
+    fn resource(self, resource: Resource) -> String {
+        code(self.plan.resource_name(resource))
+    }
+
+    fn side(self, side: Side) -> String {
+        match side {
+            Side::Image { image, range, extent: [width, height, depth], layout } => {
+                let deep = if depth == 1 { String::new() } else { format!("×{depth}") };
+                format!("{}, {width}×{height}{deep} in {}", self.part(image, range), name_of(&layout))
+            }
+            Side::Buffer { buffer, bytes } => format!("{}, {bytes} bytes", self.resource(Resource::Buffer(buffer))),
+        }
+    }
+
+    /// An image, and which part of it unless it is the whole.
+    fn part(self, id: ImageId, range: Subresources) -> String {
+        let name = self.resource(Resource::Image(id));
+        let whole = self.plan.images.get(id.0 as usize).map(|image| Subresources {
+            aspects: image.format.aspects(),
+            base_mip: 0,
+            mips: image.mips,
+            base_layer: 0,
+            layers: image.layers,
+        });
+        if whole == Some(range) { name } else { format!("{name} ({range})") }
+    }
+}
+
+/// Stages and accesses of a barrier.
+fn scopes([src, dst]: [String; 2], [before, after]: [String; 2]) -> [(&'static str, String); 2] {
+    [("stages", format!("{src} → {dst}")), ("accesses", format!("{before} → {after}"))]
+}
+
+fn words(hazard: Hazard) -> &'static str {
+    match hazard {
+        Hazard::FirstUse => "first use",
+        Hazard::ReadAfterWrite => "read after write",
+        Hazard::WriteAfterRead => "write after read",
+        Hazard::WriteAfterWrite => "write after write",
+        Hazard::LayoutChange => "another layout",
+        Hazard::Export => "promised state",
+        Hazard::Ownership => "another queue",
+    }
+}
