@@ -111,6 +111,11 @@ pub(crate) enum Error {
     /// A file is no Plan, or not a right one.
     #[error("{}: {}", text::path(path), text::escape_lines(problem))]
     NoPlan { path: PathBuf, problem: String },
+    /// A graph that no picture can hold.
+    #[error(
+        "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
+    )]
+    TooManyNodes { nodes: usize, most: usize },
     /// A choice for a Plan that is made already.
     #[error("{option} chooses something for `{}`, which is a Plan: choices are for pipelines", text::path(path))]
     ChoiceForPlan { option: &'static str, path: PathBuf },
@@ -287,6 +292,7 @@ impl Error {
             | Error::Joining(_)
             | Error::NoFlicker { .. }
             | Error::NoPlan { .. }
+            | Error::TooManyNodes { .. }
             | Error::OutsideResults { .. }
             | Error::Csv(_)
             | Error::Profile { .. }

@@ -5,6 +5,7 @@ mod commands;
 mod drawing;
 mod error;
 mod files;
+mod inspection;
 mod measure;
 mod metric;
 mod picture;

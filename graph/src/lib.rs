@@ -6,6 +6,7 @@
 
 pub mod base;
 pub mod compile;
+pub mod dataflow;
 pub mod device;
 pub mod difference;
 pub mod expand;

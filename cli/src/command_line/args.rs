@@ -111,6 +111,9 @@ pub(crate) struct InspectArguments {
     /// Form of the Plan.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: PlanFormat,
+    /// Say the stages and accesses of each barrier too, and the bytes that each step moves.
+    #[arg(long)]
+    pub(crate) verbose: bool,
     /// File to write instead of printing.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
@@ -327,6 +330,14 @@ pub(crate) enum PlanFormat {
     Tree,
     /// For programs, and for replay.
     Json,
+    /// A graph in Graphviz's language.
+    Dot,
+    /// A graph in Mermaid's language, for Markdown.
+    Mermaid,
+    /// A graph as a picture.
+    Svg,
+    /// A page to explore, in one file.
+    Html,
 }
 
 /// Reads the command line.

@@ -3,6 +3,7 @@
 use super::front;
 use super::naming::Group;
 use super::results::{Outcome, Results};
+use crate::system::xml::escaped;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -130,22 +131,6 @@ fn end(figures: impl Iterator<Item = f64>) -> (f64, f64) {
     let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|step| most <= 5.0 * step);
     let step = step.filter(|step| step.is_normal()).unwrap_or(most / 5.0);
     ((most / step).ceil() * step, step)
-}
-
-/// Text as XML holds it. Characters that XML has no form for become `\u{fffd}`.
-fn escaped(text: &str) -> String {
-    text.chars().fold(String::new(), |mut escaped, character| {
-        match character {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            '\n' => escaped.push('\n'),
-            _ if character.is_control() || matches!(character, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
-            _ => escaped.push(character),
-        }
-        escaped
-    })
 }
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
-//! The process around a command: exit codes, signals, symbolic links, printed text and progress bars.
+//! The process around a command: exit codes, signals, symbolic links, printed text, pages and progress bars.
 
 pub(crate) mod counted;
 mod exit;
+pub(crate) mod html;
 pub(crate) mod interrupt;
 pub(crate) mod links;
 pub(crate) mod progress;
 pub(crate) mod text;
+pub(crate) mod xml;
 
 pub(crate) use exit::Exit;

@@ -59,6 +59,7 @@ pub use output::Output;
 pub use reason::{NextUse, Reason};
 pub use resources::{Buffer, ChosenFormat, Heap, Image, Initial, Placement, Role};
 pub use step::{BufferHazard, Hazard, ImageBarrier, MemoryBarrier, Queue, Step, Wait};
+pub use text::{About, Detail, Outline};
 pub use totals::Totals;
 pub use view::{View, ViewEye};
 pub use work::{

@@ -4,10 +4,11 @@
 
 use super::{Attachment, ImageId, Plan, Side, Step, Work};
 use crate::vulkan::{LoadOp, StoreOp, Subresources};
+use serde::Serialize;
 use std::ops::Add;
 
 /// Bytes that a step, or a frame, moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Moved {
     /// Loaded when rendering scopes begin.
     pub loaded: u64,

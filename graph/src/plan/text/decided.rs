@@ -1,6 +1,6 @@
 //! The settings and facts that decided about images and passes, as lines of the tree.
 
-use super::outline::Node;
+use super::outline::Outline;
 use crate::frame::{Decided, DecidedBy, NamedValue, Property, Subject};
 use crate::plan::Plan;
 use crate::plan::names::Shown;
@@ -19,18 +19,18 @@ impl<'p> Decisions<'p> {
     }
 
     /// A line for each decision about a subject.
-    pub(super) fn about(&self, subject: &Subject) -> Vec<Node> {
+    pub(super) fn about(&self, subject: &Subject) -> Vec<Outline> {
         self.lines(subject, |_| true)
     }
 
     /// A line for the decision about a property of a subject, if there is one.
-    pub(super) fn about_one(&self, subject: &Subject, what: Property) -> Vec<Node> {
+    pub(super) fn about_one(&self, subject: &Subject, what: Property) -> Vec<Outline> {
         self.lines(subject, |decided| decided.what == what)
     }
 
-    fn lines(&self, subject: &Subject, shows: impl Fn(&Decided) -> bool) -> Vec<Node> {
+    fn lines(&self, subject: &Subject, shows: impl Fn(&Decided) -> bool) -> Vec<Outline> {
         let decided = self.0.get(subject).into_iter().flatten();
-        decided.filter(|decided| shows(decided)).map(|decided| Node::leaf(line(decided))).collect()
+        decided.filter(|decided| shows(decided)).map(|decided| Outline::leaf(line(decided))).collect()
     }
 }
 

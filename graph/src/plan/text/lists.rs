@@ -1,13 +1,13 @@
 //! Lists of a Plan beside its steps: views, images, buffers, outputs, notes and totals.
 
-use super::outline::Node;
+use super::outline::{About, Outline};
 use super::words::{bytes, cause, count, fill_value, place, samples, size};
 use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
 use crate::plan::names::Shown;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
 use crate::vulkan::{Encoding, name_of};
 
-pub(super) fn view(view: &View) -> Node {
+pub(super) fn view(view: &View) -> Outline {
     let [width, height] = view.extent;
     let camera =
         view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
@@ -17,7 +17,7 @@ pub(super) fn view(view: &View) -> Node {
     let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
     let eye = view.eye.map_or_else(String::new, |ViewEye { eye, .. }| format!(", {} eye", eye.name()));
     let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
-    Node::leaf(format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name)))
+    Outline::leaf(format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name)))
 }
 
 fn jitter(jitter: &Jitter) -> String {
@@ -25,10 +25,10 @@ fn jitter(jitter: &Jitter) -> String {
     format!(", shifted in turn by {} parts of a texel of {width}×{height}", jitter.offsets.len())
 }
 
-pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Node {
+pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Outline {
     let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
     let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, next));
-    Node::leaf(text + &cause(&buffer.cause))
+    Outline::leaf(text + &cause(&buffer.cause)).about(About::Buffer(buffer.id)).caused(&buffer.cause)
 }
 
 /// Where the memory of the image or buffer `name` comes from.
@@ -57,7 +57,7 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
     }
 }
 
-pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Node>) -> Node {
+pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Outline>) -> Outline {
     let whole = image.allocated.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
     let mut text = format!("`{}` {} {}{whole}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
@@ -76,10 +76,12 @@ pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Node>) -> Node {
     }
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
     text += &role(&image.role, &image.name, next);
-    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).chain(decided).collect())
+    Outline::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).chain(decided).collect())
+        .about(About::Image(image.id))
+        .caused(&image.cause)
 }
 
-fn chosen(chosen: &ChosenFormat) -> Node {
+fn chosen(chosen: &ChosenFormat) -> Outline {
     let ChosenFormat { because, usual, more_bytes } = chosen;
     let amount = bytes(more_bytes.unsigned_abs());
     let comes_to = match more_bytes {
@@ -87,10 +89,10 @@ fn chosen(chosen: &ChosenFormat) -> Node {
         1.. => format!("{amount} more than"),
         ..0 => format!("{amount} fewer than"),
     };
-    Node::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
+    Outline::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
 }
 
-pub(super) fn output(plan: &Plan, output: &Output) -> Option<Node> {
+pub(super) fn output(plan: &Plan, output: &Output) -> Option<Outline> {
     let resource = output.resource;
     let role = match resource {
         Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
@@ -108,18 +110,18 @@ pub(super) fn output(plan: &Plan, output: &Output) -> Option<Node> {
             Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
         }
     });
-    Some(Node::leaf(match resource {
+    Some(Outline::leaf(match resource {
         Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}{encoded}"),
         Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
     }))
 }
 
-pub(super) fn note(note: &Note) -> Node {
+pub(super) fn note(note: &Note) -> Outline {
     let text = format!("{} `{}`: {}{}", name_of(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
-    Node::leaf(text)
+    Outline { at: note.at.clone(), ..Outline::leaf(text) }
 }
 
-pub(super) fn totals(totals: &Totals) -> Node {
+pub(super) fn totals(totals: &Totals) -> Outline {
     let Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, .. } = *totals;
     let ratio = if live_peak_bytes == 0 {
         String::new()
@@ -143,5 +145,5 @@ pub(super) fn totals(totals: &Totals) -> Node {
     );
     let [transient, placed, kept] = [transient_bytes, placed_bytes, kept_bytes].map(bytes);
     let memory = format!("transient {transient} placed in {placed}{ratio}, kept {kept}");
-    Node::new("totals", [work, barriers, memory].map(Node::leaf).into())
+    Outline::new("totals", [work, barriers, memory].map(Outline::leaf).into())
 }

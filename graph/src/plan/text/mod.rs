@@ -6,3 +6,6 @@ mod lists;
 mod outline;
 mod tree;
 mod words;
+
+pub use outline::{About, Outline};
+pub use tree::Detail;

@@ -1,28 +1,67 @@
-//! An outline drawn with lines: a heading, and its parts under it.
+//! An outline: a heading, and its parts under it. It is drawn with lines for a terminal.
+
+use crate::base::Place;
+use crate::plan::{BufferId, Cause, ImageId, StepId};
+use serde::Serialize;
+use std::sync::Arc;
 
 /// Columns that text is kept within, as far as its words allow.
 const COLUMNS: usize = 120;
 /// Columns that a wrapped line keeps at least, however deep it stands.
 const LEAST: usize = 40;
 
-/// A line with its parts.
-#[derive(Debug)]
-pub(super) struct Node {
-    text: String,
-    children: Vec<Node>,
+/// A line about a Plan, with the lines under it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Outline {
+    /// The line in words. Names from files stand between backticks, with control characters escaped.
+    pub text: String,
+    /// The part of the Plan that it is about, if it is about one.
+    pub about: Option<About>,
+    /// The line of a file that says so or caused it; the text ends with it too.
+    pub at: Option<Place>,
+    /// The lines under it.
+    pub parts: Vec<Outline>,
 }
 
-impl Node {
-    pub(super) fn leaf(text: impl Into<String>) -> Node {
-        Node { text: text.into(), children: Vec::new() }
+/// The part of a Plan that a line is about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum About {
+    /// A step.
+    Step(StepId),
+    /// A pass, by its name.
+    Pass(Arc<str>),
+    /// An image.
+    Image(ImageId),
+    /// A buffer.
+    Buffer(BufferId),
+}
+
+impl Outline {
+    pub(super) fn leaf(text: impl Into<String>) -> Outline {
+        Outline::new(text, Vec::new())
     }
 
-    pub(super) fn new(text: impl Into<String>, children: Vec<Node>) -> Node {
-        Node { text: text.into(), children }
+    pub(super) fn new(text: impl Into<String>, parts: Vec<Outline>) -> Outline {
+        Outline { text: text.into(), about: None, at: None, parts }
+    }
+
+    pub(super) fn about(self, about: About) -> Outline {
+        Outline { about: Some(about), ..self }
+    }
+
+    /// With the place of a cause.
+    pub(super) fn caused(self, cause: &Cause) -> Outline {
+        let at = match cause {
+            Cause::Written(at) => at,
+            Cause::Inserted(why) => &why.at,
+        };
+        Outline { at: at.clone(), ..self }
     }
 
     /// The whole outline, with a final line break.
-    pub(super) fn draw(&self) -> String {
+    #[must_use]
+    pub fn draw(&self) -> String {
         let mut drawn = String::new();
         self.add(&mut drawn, "", "");
         drawn
@@ -30,7 +69,7 @@ impl Node {
 
     /// Adds this node: `first` stands before its first line, `rest` before all others.
     fn add(&self, drawn: &mut String, first: &str, rest: &str) {
-        let under = if self.children.is_empty() { "   " } else { "│  " };
+        let under = if self.parts.is_empty() { "   " } else { "│  " };
         let mut before = first.to_owned();
         for line in wrap(&self.text, COLUMNS.saturating_sub(first.chars().count())) {
             drawn.push_str(&before);
@@ -38,8 +77,8 @@ impl Node {
             drawn.push('\n');
             before = format!("{rest}{under}");
         }
-        let last = self.children.len().saturating_sub(1);
-        for (at, child) in self.children.iter().enumerate() {
+        let last = self.parts.len().saturating_sub(1);
+        for (at, child) in self.parts.iter().enumerate() {
             let [branch, trunk] = if at == last { ["└─ ", "   "] } else { ["├─ ", "│  "] };
             child.add(drawn, &format!("{rest}{branch}"), &format!("{rest}{trunk}"));
         }

@@ -3,17 +3,18 @@
 use super::changes;
 use super::decided::Decisions;
 use super::lists::{buffer, image, note, output, totals, view};
-use super::outline::Node;
+use super::outline::{About, Outline};
 use super::words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_list};
 use crate::frame::{
     Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, Property, StencilState, Stereo, Subject,
 };
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
+    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Moved, Pass, Plan,
+    Queue, RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::{Subresources, name_of};
+use crate::vulkan::{Accesses, Stages, Subresources, name_of};
+use std::fmt;
 use std::sync::Arc;
 
 /// How many objects of a scene are in a draw list.
@@ -23,60 +24,74 @@ impl Plan {
     /// The tree form for people.
     #[must_use]
     pub fn tree(&self) -> String {
-        tree(self, None)
+        self.outline(Detail::default()).draw()
     }
 
-    /// The tree form for people. Passes say how many objects they draw at most: `objects` gives the number in each draw list of
-    /// a scene.
+    /// The lines of the tree form, which [`Outline::draw`] draws.
     #[must_use]
-    pub fn tree_of(&self, objects: &dyn Fn(DrawList) -> usize) -> String {
-        tree(self, Some(objects))
+    pub fn outline(&self, detail: Detail<'_>) -> Outline {
+        outline(self, detail)
     }
 }
 
-/// The tree form, of a scene's frame if there is one.
-fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
+/// The detail of an outline.
+#[derive(Clone, Copy, Default)]
+pub struct Detail<'a> {
+    /// How many objects of a scene are in a draw list: then passes say how many they draw at most.
+    pub objects: Option<Objects<'a>>,
+    /// Whether barriers say their stages and accesses, and steps the bytes that they move.
+    pub verbose: bool,
+}
+
+impl fmt::Debug for Detail<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Detail { objects, verbose } = self;
+        f.debug_struct("Detail").field("objects", &objects.is_some()).field("verbose", verbose).finish()
+    }
+}
+
+fn outline(plan: &Plan, detail: Detail<'_>) -> Outline {
     let memory = if plan.device.exact_memory { "its own memory needs" } else { "estimated memory needs" };
     let mut parts = Vec::new();
     if !plan.settings.is_empty() {
         let settings = plan.settings.iter().map(|used| format!("{} = {}", Shown(&used.name), Shown(&used.value)));
-        parts.push(Node::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
+        parts.push(Outline::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
     }
     if !plan.changes.is_empty() {
-        parts.push(Node::new("changes", plan.changes.iter().map(|it| Node::leaf(changes::words(it))).collect()));
+        parts.push(Outline::new("changes", plan.changes.iter().map(|it| Outline::leaf(changes::words(it))).collect()));
     }
     if !plan.views.is_empty() {
-        parts.push(Node::new("views", plan.views.iter().map(view).collect()));
+        parts.push(Outline::new("views", plan.views.iter().map(view).collect()));
     }
     let decisions = &Decisions::of(plan);
-    let step = |(id, step): (StepId, &Step)| Tree { plan, objects, decisions, id }.step(step);
+    let step = |(id, step): (StepId, &Step)| Tree { plan, detail, decisions, id }.step(step);
     parts.extend((0..).map(StepId).zip(&plan.steps).map(step));
     let about = |it: &Image| decisions.about(&Subject::Image(it.name.clone()));
-    parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it, about(it))).collect()));
+    parts.push(Outline::new("images", plan.images.iter().map(|it| image(plan, it, about(it))).collect()));
     if !plan.buffers.is_empty() {
-        parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
+        parts.push(Outline::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
     }
-    parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
+    parts.push(Outline::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
     let notes: Vec<_> = plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(note).collect();
     if !notes.is_empty() {
-        parts.push(Node::new("notes", notes));
+        parts.push(Outline::new("notes", notes));
     }
     parts.push(totals(&plan.totals));
-    Node::new(format!("Plan for {}, with {memory}", Shown(&plan.device.name)), parts).draw()
+    Outline::new(format!("Plan for {}, with {memory}", Shown(&plan.device.name)), parts)
 }
 
 /// One step of a Plan.
 #[derive(Clone, Copy)]
 struct Tree<'p> {
     plan: &'p Plan,
-    objects: Option<Objects<'p>>,
+    detail: Detail<'p>,
     decisions: &'p Decisions<'p>,
     id: StepId,
 }
 
 impl Tree<'_> {
-    fn step(self, step: &Step) -> Node {
-        let mut parts: Vec<Node> = step.waits.iter().map(|wait| self.wait(wait)).collect();
+    fn step(self, step: &Step) -> Outline {
+        let mut parts: Vec<Outline> = step.waits.iter().map(|wait| self.wait(wait)).collect();
         parts.extend(step.memory_barriers.iter().map(|barrier| self.memory_barrier(barrier)));
         parts.extend(step.image_barriers.iter().map(|barrier| self.image_barrier(barrier)));
         let title = match &step.work {
@@ -110,12 +125,18 @@ impl Tree<'_> {
             Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
         parts.extend(step.releases.iter().map(|barrier| self.image_barrier(barrier)));
+        parts.extend(self.moved(step));
         let queue = match step.queue {
             Queue::Graphics => "",
             Queue::Compute => " on the compute queue",
             Queue::Transfer => " on the transfer queue",
         };
-        Node::new(format!("step {}{queue}: {title}", self.id.0), parts)
+        let step_line = Outline::new(format!("step {}{queue}: {title}", self.id.0), parts).about(About::Step(self.id));
+        match &step.work {
+            Work::Resolve(it) | Work::Copy(it) | Work::Blit(it) => step_line.caused(&it.cause),
+            Work::Fill(fill) => step_line.caused(&fill.cause),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => step_line,
+        }
     }
 
     /// How a scope draws for both eyes.
@@ -129,17 +150,18 @@ impl Tree<'_> {
         format!(", for both eyes: {how}")
     }
 
-    fn wait(self, wait: &Wait) -> Node {
+    fn wait(self, wait: &Wait) -> Outline {
         let frame = match wait.frames_ago {
             0 => String::new(),
             1 => " of the frame before".to_owned(),
             ago => format!(" of {ago} frames ago"),
         };
         let who = self.plan.step_name(wait.step);
-        Node::leaf(format!("waits in {} for step {}{frame}: {who}", name_of(&wait.stages), wait.step.0))
+        Outline::leaf(format!("waits in {} for step {}{frame}: {who}", name_of(&wait.stages), wait.step.0))
+            .about(About::Step(wait.step))
     }
 
-    fn scope(self, scope: &RenderScope, parts: &mut Vec<Node>) {
+    fn scope(self, scope: &RenderScope, parts: &mut Vec<Outline>) {
         let color =
             scope.color.iter().enumerate().map(|(location, attachment)| (format!("color {location}"), attachment));
         let depth = scope.depth.iter().map(|attachment| ("depth".to_owned(), attachment));
@@ -153,12 +175,13 @@ impl Tree<'_> {
                 let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
                 let mode = name_of(&resolve.mode);
                 let text = format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause));
-                parts.push(Node::new(text, self.about_samples(attachment.image)));
+                let resolved = Outline::new(text, self.about_samples(attachment.image));
+                parts.push(resolved.about(About::Image(resolve.image)).caused(&resolve.cause));
             }
         }
     }
 
-    fn attachment(self, place: &str, attachment: &Attachment) -> Node {
+    fn attachment(self, place: &str, attachment: &Attachment) -> Outline {
         let clear = match attachment.clear {
             Some([value, ..]) if matches!(place, "depth" | "stencil") => format!(" {value}"),
             Some([red, green, blue, alpha]) => format!(" ({red}, {green}, {blue}, {alpha})"),
@@ -166,13 +189,14 @@ impl Tree<'_> {
         };
         let part = self.part(attachment.image, attachment.range);
         let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];
-        Node::leaf(format!(
+        Outline::leaf(format!(
             "{place}: {part}, load {load}{clear}, store {store}: {}",
             Shown(&attachment.because.to_string())
         ))
+        .about(About::Image(attachment.image))
     }
 
-    fn pass(self, pass: &Pass) -> Node {
+    fn pass(self, pass: &Pass) -> Outline {
         let work = match (pass.draw, pass.groups) {
             (Some(Draw::Objects(list)), _) => format!("draws {}", self.objects(list)),
             (Some(Draw::Casters(cascade)), _) => {
@@ -226,21 +250,21 @@ impl Tree<'_> {
                 ParamValue::Integer(value) => value.to_string(),
                 ParamValue::Number(value) => value.to_string(),
             };
-            parts.push(Node::leaf(format!("{} = {value}", Shown(&param.name))));
+            parts.push(Outline::leaf(format!("{} = {value}", Shown(&param.name))));
         }
         if let Some(merged) = &pass.merged {
-            parts.push(Node::leaf(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
+            parts.push(Outline::leaf(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
         }
-        Node::new(text, parts)
+        Outline::new(text, parts).about(About::Pass(pass.name.clone())).caused(&pass.cause)
     }
 
     /// The objects of a draw, at most. Objects outside of the picture aren't drawn, but no Plan knows those.
     fn objects(self, list: DrawList) -> String {
-        let most = self.objects.map_or_else(String::new, |objects| format!("up to {} ", objects(list)));
+        let most = self.detail.objects.map_or_else(String::new, |objects| format!("up to {} ", objects(list)));
         format!("{most}{} objects", words_of_list(list))
     }
 
-    fn binding(self, access: &Access) -> Option<Node> {
+    fn binding(self, access: &Access) -> Option<Outline> {
         let binding = access.binding.as_ref()?;
         let kind = match binding.kind {
             BindingKind::Sampled(sampler) => {
@@ -252,10 +276,11 @@ impl Tree<'_> {
         };
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
         let part = self.part(access.image, access.range);
-        Some(Node::leaf(format!("{} = {part}{eye}, {kind}", Shown(&binding.name))))
+        let text = format!("{} = {part}{eye}, {kind}", Shown(&binding.name));
+        Some(Outline::leaf(text).about(About::Image(access.image)))
     }
 
-    fn buffer(self, access: &BufferAccess) -> Node {
+    fn buffer(self, access: &BufferAccess) -> Outline {
         let kind = match access.role {
             Some(BufferRole::Uniform) => "uniform",
             Some(BufferRole::Storage { write: false, .. }) => "storage, read",
@@ -267,22 +292,23 @@ impl Tree<'_> {
             None => "transferred",
         };
         let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
-        Node::leaf(format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer))))
+        let text = format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer)));
+        Outline::leaf(text).about(About::Buffer(access.buffer))
     }
 
     /// The settings and facts that decided about a pass.
-    fn about_pass(self, name: &Arc<str>) -> Vec<Node> {
+    fn about_pass(self, name: &Arc<str>) -> Vec<Outline> {
         self.decisions.about(&Subject::Pass(name.clone()))
     }
 
     /// The settings and facts that decided how many samples an image has, and so whether it is resolved.
-    fn about_samples(self, image: ImageId) -> Vec<Node> {
+    fn about_samples(self, image: ImageId) -> Vec<Outline> {
         let image = self.plan.images.get(image.0 as usize);
         let about = |image: &Image| self.decisions.about_one(&Subject::Image(image.name.clone()), Property::Samples);
         image.map(about).unwrap_or_default()
     }
 
-    fn transfer(self, word: &str, transfer: &Transfer, parts: &mut Vec<Node>) -> String {
+    fn transfer(self, word: &str, transfer: &Transfer, parts: &mut Vec<Outline>) -> String {
         parts.extend(transfer.name.iter().flat_map(|name| self.about_pass(name)));
         if let ("resolve", Side::Image { image, .. }) = (word, transfer.source) {
             parts.extend(self.about_samples(image));
@@ -300,7 +326,28 @@ impl Tree<'_> {
         }
     }
 
-    fn memory_barrier(self, barrier: &MemoryBarrier) -> Node {
+    /// The bytes that a step moves, if the outline is to say them and there are any.
+    fn moved(self, step: &Step) -> Option<Outline> {
+        let moved = self.plan.moved_by(step);
+        let Moved { loaded, stored, resolved, copied } = moved;
+        let shares = [("loaded", loaded), ("stored", stored), ("resolved", resolved), ("copied", copied)];
+        let shares = shares.iter().filter(|(_, amount)| *amount > 0);
+        let shares: Vec<String> = shares.map(|(word, amount)| format!("{} {word}", bytes(*amount))).collect();
+        (self.detail.verbose && !shares.is_empty()).then(|| Outline::leaf(format!("moves {}", shares.join(", "))))
+    }
+
+    /// The stages and accesses of a barrier, if the outline is to say them.
+    fn scopes(self, source: (Stages, Accesses), target: (Stages, Accesses)) -> Vec<Outline> {
+        let scope = |(stages, accesses): (Stages, Accesses)| match (stages.is_empty(), accesses.is_empty()) {
+            (true, _) => "nothing".to_owned(),
+            (false, true) => name_of(&stages),
+            (false, false) => format!("{} in {}", name_of(&accesses), name_of(&stages)),
+        };
+        let line = || format!("waits for {}, before {}", scope(source), scope(target));
+        self.detail.verbose.then(|| Outline::leaf(line())).into_iter().collect()
+    }
+
+    fn memory_barrier(self, barrier: &MemoryBarrier) -> Outline {
         let hands = barrier.hand_overs.iter().map(|[from, to]| [from, to].map(|it| self.resource(*it)).join(" → "));
         let hands: Vec<String> = hands.collect();
         let mut reasons = Vec::new();
@@ -314,12 +361,14 @@ impl Tree<'_> {
             format!("{}: {reason}", self.resource(Resource::Buffer(buffer.buffer)))
         }));
         if reasons.is_empty() {
-            return Node::leaf("barrier: all memory");
+            reasons.push("all memory".to_owned());
         }
-        Node::leaf(format!("barrier: {}", reasons.join("; ")))
+        let MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, .. } = *barrier;
+        let scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
+        Outline::new(format!("barrier: {}", reasons.join("; ")), scopes)
     }
 
-    fn image_barrier(self, barrier: &ImageBarrier) -> Node {
+    fn image_barrier(self, barrier: &ImageBarrier) -> Outline {
         let [old, new] = [name_of(&barrier.old_layout), name_of(&barrier.new_layout)];
         let layouts = if old == new { format!("stays {new}") } else { format!("{old} → {new}") };
         let part = self.part(barrier.image, barrier.range);
@@ -328,7 +377,10 @@ impl Tree<'_> {
             None => String::new(),
         };
         let who = self.who(barrier.needed_by, |pass| pass.accesses.iter().any(|access| access.image == barrier.image));
-        Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)))
+        let ImageBarrier { src_stages, src_accesses, dst_stages, dst_accesses, .. } = *barrier;
+        let scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
+        let text = format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after));
+        Outline::new(text, scopes).about(About::Image(barrier.image))
     }
 
     /// The user that needs a barrier: a pass of step `needed_by` that `accesses` picks, with the step if that is a later one.

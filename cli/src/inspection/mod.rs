@@ -1,0 +1,22 @@
+//! Pictures of a Plan: as a graph in DOT, Mermaid or SVG, and as a page to explore.
+//!
+//! ```text
+//! Plan ─► dataflow ─► labels ─► dot, mermaid
+//!                        └────► layout ─► svg, page
+//! ```
+
+mod dot;
+mod labels;
+mod layout;
+mod mermaid;
+mod page;
+mod summary;
+mod svg;
+
+pub(crate) use dot::dot;
+pub(crate) use mermaid::mermaid;
+pub(crate) use page::{OnDevice, Page, Shown, page};
+pub(crate) use svg::svg;
+
+/// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
+pub(crate) const MOST_NODES: usize = 3000;

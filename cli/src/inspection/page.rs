@@ -1,0 +1,167 @@
+//! A Plan, or two, as one HTML page that needs nothing else, not even a network.
+
+use super::labels::{Graph, Vertex};
+use super::layout::{Layout, layout};
+use super::{MOST_NODES, summary};
+use crate::system::html::{self, Template};
+use framewright_graph::base::Sources;
+use framewright_graph::dataflow::{Dataflow, Edge, Node};
+use framewright_graph::difference::Differences;
+use framewright_graph::plan::{Detail, Moved, Outline, Plan, Resource};
+use serde::Serialize;
+
+const TEMPLATE: Template<'_> = Template {
+    page: include_str!("page/page.html"),
+    style: include_str!("page/page.css"),
+    script: concat!(
+        include_str!("page/elements.js"),
+        include_str!("page/model.js"),
+        include_str!("page/selection.js"),
+        include_str!("page/graph.js"),
+        include_str!("page/grid.js"),
+        include_str!("page/memory.js"),
+        include_str!("page/steps.js"),
+        include_str!("page/lists.js"),
+        include_str!("page/details.js"),
+        include_str!("page/main.js"),
+    ),
+    images: "data:",
+};
+
+/// What a page shows.
+pub(crate) struct Page<'a> {
+    /// One Plan, or two that are compared.
+    pub(crate) plans: Vec<Shown<'a>>,
+    /// The differences between the two.
+    pub(crate) differences: Option<&'a Differences>,
+    /// What other devices change.
+    pub(crate) devices: &'a [OnDevice],
+}
+
+/// A Plan on a page.
+pub(crate) struct Shown<'a> {
+    /// Its name for people.
+    pub(crate) name: String,
+    /// The Plan.
+    pub(crate) plan: &'a Plan,
+    /// The detail of its outline.
+    pub(crate) detail: Detail<'a>,
+    /// The files that it was made from; `None`: it was read from a file itself.
+    pub(crate) sources: Option<&'a Sources>,
+}
+
+/// The differences that another device makes.
+#[derive(Serialize)]
+pub(crate) struct OnDevice {
+    /// The name of the device's profile.
+    pub(crate) profile: String,
+    /// The differences; else why there is no Plan for it.
+    pub(crate) differences: Result<Differences, String>,
+}
+
+/// The data of a page.
+#[derive(Serialize)]
+struct Data<'a> {
+    plans: Vec<PlanData<'a>>,
+    differences: Option<&'a Differences>,
+    devices: &'a [OnDevice],
+}
+
+#[derive(Serialize)]
+struct PlanData<'a> {
+    name: &'a str,
+    sources: Vec<SourceText<'a>>,
+    outline: Outline,
+    #[serde(flatten)]
+    body: Body<'a>,
+}
+
+/// The views' data.
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Body<'a> {
+    /// All of it.
+    Whole { plan: &'a Plan, nodes: Vec<Node>, edges: Vec<Edge>, moved: Vec<Moved>, graph: Drawn },
+    /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
+    Summary { steps: usize, most: usize },
+}
+
+/// The graph with its layout.
+#[derive(Serialize)]
+struct Drawn {
+    vertices: Vec<DrawnVertex>,
+    edges: Vec<DrawnEdge>,
+    #[serde(flatten)]
+    layout: Layout,
+}
+
+#[derive(Serialize)]
+struct DrawnVertex {
+    /// Index of the node; `None`: contents beside the frame.
+    node: Option<u32>,
+    /// The image or buffer, for contents beside the frame.
+    resource: Option<Resource>,
+    name: String,
+    kind: &'static str,
+}
+
+#[derive(Serialize)]
+struct DrawnEdge {
+    from: usize,
+    to: usize,
+    resources: Vec<Resource>,
+}
+
+#[derive(Serialize)]
+struct SourceText<'a> {
+    name: &'a str,
+    text: &'a str,
+}
+
+/// The page.
+///
+/// # Errors
+/// If a Plan has no JSON form.
+pub(crate) fn page(page: &Page<'_>) -> serde_json::Result<String> {
+    let plans = page.plans.iter().map(plan_data).collect();
+    html::page(&TEMPLATE, &Data { plans, differences: page.differences, devices: page.devices })
+}
+
+fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
+    let Shown { name, plan, detail, sources } = shown;
+    let flow = Dataflow::of(plan);
+    let outline = plan.outline(*detail);
+    let files = sources.iter().flat_map(|sources| (0..).map_while(|file| sources.file(file)));
+    let mut data = PlanData {
+        name,
+        sources: files.map(|file| SourceText { name: &file.relative, text: &file.text }).collect(),
+        outline,
+        body: Body::Summary { steps: plan.steps.len(), most: MOST_NODES },
+    };
+    if flow.nodes.len() > MOST_NODES {
+        data.outline = summary::shortened(plan, data.outline);
+        data.sources.clear();
+        return data;
+    }
+    let graph = Graph::of(plan, &flow);
+    let vertex = |vertex: &Vertex| {
+        let (node, resource) = match *vertex {
+            Vertex::Node(node) => (Some(node), None),
+            Vertex::Before(resource) | Vertex::After(resource) => (None, Some(resource)),
+        };
+        DrawnVertex { node, resource, name: graph.name(*vertex), kind: graph.kind(*vertex) }
+    };
+    let edge = |(&(from, to), resources): (&(usize, usize), &Vec<Resource>)| DrawnEdge {
+        from,
+        to,
+        resources: resources.clone(),
+    };
+    let drawn = Drawn {
+        vertices: graph.vertices.iter().map(vertex).collect(),
+        edges: graph.edges.iter().map(edge).collect(),
+        layout: layout(&graph),
+    };
+    let moved = plan.steps.iter().map(|step| plan.moved_by(step)).collect();
+    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, graph: drawn };
+    data
+}

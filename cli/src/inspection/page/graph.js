@@ -1,0 +1,53 @@
+/** The graph: work as boxes from top to bottom, and the contents that go between. */
+const EDGE = 20;
+function graphView(model) {
+  const { graph } = model;
+  if (!graph) return tooLarge(model);
+  const extent = graph.extent.map((size) => size + 2 * EDGE);
+  const key = (vertex) => vertex.node === null ? model.resourceKey(vertex.resource) : model.nodes[vertex.node].key;
+  const box = scroller(extent, "Graph of " + model.name, (svg, left, top, width, height) => {
+    const inSight = (low, high, start, size) => high >= start && low <= start + size;
+    svg.setAttribute("viewBox", [left - EDGE, top - EDGE, width, height].join(" "));
+    const seen = [left - EDGE, top - EDGE];
+    graph.edges.forEach((edge, at) => {
+      const points = graph.ways[at];
+      const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
+      if (!inSight(Math.min(...xs), Math.max(...xs), seen[0], width) || !inSight(Math.min(...ys), Math.max(...ys), seen[1], height)) return;
+      const keys = edge.resources.map((resource) => model.resourceKey(resource));
+      const names = keys.map((one) => one.slice(one.indexOf(":") + 1)).join(", ");
+      const way = points.map(([x, y], point) => {
+        if (point === 0) return `M${x} ${y}`;
+        const [bx, by] = points[point - 1];
+        return `C${bx} ${(by + y) / 2} ${x} ${(by + y) / 2} ${x} ${y}`;
+      }).join("");
+      svg.append(shape("path", { class: "way", d: way, "data-key": keys.join("\u0001"), onclick: () => select(keys[0], { reveal: false }) }, shape("title", {}, names)));
+      if (graph.edges.length <= 80) {
+        svg.append(shape("text", { class: "small middle", x: (points[0][0] + points[1][0]) / 2, y: (points[0][1] + points[1][1]) / 2 + 3 }, short(names, 40)));
+      }
+    });
+    graph.vertices.forEach((vertex, at) => {
+      const [x, y, wide] = graph.places[at];
+      if (!inSight(x - wide / 2, x + wide / 2, seen[0], width) || !inSight(y - 20, y + 20, seen[1], height)) return;
+      const node = vertex.node === null ? null : model.nodes[vertex.node];
+      const choose = () => select(key(vertex), { reveal: false });
+      svg.append(shape("g", { class: node ? node.kind : "beside", "data-key": key(vertex), onclick: choose },
+        shape("title", {}, vertex.name + (node?.because ? "\n" + node.because : "")),
+        shape("rect", { x: x - wide / 2, y: y - 20, width: wide, height: 40, rx: node ? 6 : 18 }),
+        shape("text", { class: "middle", x, y: y - 2 }, short(vertex.name, 32)),
+        shape("text", { class: "middle small", x, y: y + 13 }, node ? vertex.kind + ", step " + node.step : vertex.kind)));
+    });
+  });
+  box.reveal = (wanted) => {
+    const at = graph.vertices.findIndex((vertex) => key(vertex) === wanted);
+    if (at >= 0) {
+      const [x, y, wide] = graph.places[at];
+      box.show(x - wide / 2 + EDGE, y - 20 + EDGE, wide, 40);
+    }
+  };
+  return box;
+}
+
+function tooLarge(model) {
+  return element("p", {}, `This Plan has ${model.summary.steps} steps. Plans of more than ${model.summary.most} passes are summarised: `
+    + "the steps that move most, and the first lines of each list. `framewright inspect --format json` has all of it.");
+}

@@ -1,0 +1,123 @@
+//! The nodes of a Plan's dataflow, and what each uses.
+
+use super::{Node, NodeKind, Use, UseRole, reason};
+use crate::plan::{
+    Access, Attachment, BindingKind, BufferAccess, Cause, ImageId, Pass, Plan, RenderScope, Resource, Side, StepId,
+    Transfer, Work,
+};
+use crate::vulkan::{Accesses, LoadOp, Subresources};
+
+/// All nodes, in the order of execution.
+pub(super) fn nodes(plan: &Plan) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(plan.steps.len());
+    for (step, work) in (0..).map(StepId).zip(plan.steps.iter().map(|step| &step.work)) {
+        match work {
+            Work::Render(scope) => of_scope(plan, step, scope, &mut nodes),
+            Work::Dispatch(pass) => nodes.push(of_pass(step, NodeKind::Dispatch, pass, of_accesses(pass))),
+            Work::Custom(pass) => nodes.push(of_pass(step, NodeKind::Custom, pass, of_accesses(pass))),
+            Work::Resolve(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Resolve, transfer)),
+            Work::Copy(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Copy, transfer)),
+            Work::Blit(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Blit, transfer)),
+            Work::Fill(fill) => {
+                let name = fill.name.as_ref().map(ToString::to_string);
+                let name = name.unwrap_or_else(|| format!("fill {}", plan.resource_name(fill.target.resource())));
+                let uses = vec![of_side(&fill.target, UseRole::Target)];
+                nodes.push(node(step, NodeKind::Fill, name, &fill.cause, uses));
+            }
+            Work::Export => {}
+        }
+    }
+    nodes
+}
+
+fn node(step: StepId, kind: NodeKind, name: String, cause: &Cause, uses: Vec<Use>) -> Node {
+    let (because, at) = reason(cause);
+    Node { step, kind, name, because, at, uses }
+}
+
+fn of_pass(step: StepId, kind: NodeKind, pass: &Pass, uses: Vec<Use>) -> Node {
+    node(step, kind, pass.name.to_string(), &pass.cause, uses)
+}
+
+fn of_transfer(plan: &Plan, step: StepId, kind: NodeKind, transfer: &Transfer) -> Node {
+    let source = plan.resource_name(transfer.source.resource());
+    let name = transfer.name.as_ref().map(ToString::to_string);
+    let word = match kind {
+        NodeKind::Resolve => "resolve",
+        NodeKind::Blit => "blit",
+        _ => "copy",
+    };
+    let name = name.unwrap_or_else(|| format!("{word} {source}"));
+    let uses = vec![of_side(&transfer.source, UseRole::Source), of_side(&transfer.target, UseRole::Target)];
+    node(step, kind, name, &transfer.cause, uses)
+}
+
+fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node>) {
+    let attachments = || scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
+    // An attachment whose load op drops what was there has contents from its first use on.
+    let mut fresh: Vec<(ImageId, Subresources)> = attachments()
+        .filter(|attachment| attachment.load != LoadOp::Load)
+        .map(|attachment| (attachment.image, attachment.range))
+        .collect();
+    for pass in &scope.passes {
+        let mut uses = of_accesses(pass);
+        for used in &mut uses {
+            let (Resource::Image(image), Some(range)) = (used.resource, used.range) else { continue };
+            if matches!(used.role, UseRole::Color | UseRole::Depth) {
+                let before = fresh.len();
+                fresh.retain(|(other, part)| *other != image || !part.overlaps(range));
+                used.reads = fresh.len() == before;
+            }
+        }
+        nodes.push(of_pass(step, NodeKind::Draw, pass, uses));
+    }
+    for Attachment { image, range, resolve, .. } in attachments() {
+        let Some(resolve) = resolve else { continue };
+        let part = |image, range, role| Use {
+            resource: Resource::Image(image),
+            range: Some(range),
+            role,
+            reads: role == UseRole::Source,
+            writes: role == UseRole::Target,
+        };
+        let name = format!("resolve {}", plan.resource_name(Resource::Image(*image)));
+        let uses = vec![part(*image, *range, UseRole::Source), part(resolve.image, resolve.range, UseRole::Target)];
+        nodes.push(node(step, NodeKind::FoldedResolve, name, &resolve.cause, uses));
+    }
+}
+
+fn of_side(side: &Side, role: UseRole) -> Use {
+    let range = match side {
+        Side::Image { range, .. } => Some(*range),
+        Side::Buffer { .. } => None,
+    };
+    let reads = role == UseRole::Source;
+    Use { resource: side.resource(), range, role, reads, writes: !reads }
+}
+
+fn of_accesses(pass: &Pass) -> Vec<Use> {
+    let images = pass.accesses.iter().map(of_access);
+    images.chain(pass.buffers.iter().map(of_buffer)).collect()
+}
+
+fn of_access(access: &Access) -> Use {
+    const COLOR: Accesses = Accesses::COLOR_ATTACHMENT_READ.union(Accesses::COLOR_ATTACHMENT_WRITE);
+    const DEPTH: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ.union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
+    let role = match access.binding.as_ref().map(|binding| binding.kind) {
+        Some(BindingKind::Sampled(_)) => UseRole::Sampled,
+        Some(BindingKind::Storage) => UseRole::StorageImage,
+        Some(BindingKind::InputAttachment) => UseRole::InputAttachment,
+        None if access.accesses.intersects(COLOR) => UseRole::Color,
+        None if access.accesses.intersects(DEPTH) => UseRole::Depth,
+        None => UseRole::Other,
+    };
+    let writes = access.accesses.intersects(Accesses::WRITES);
+    let reads = !(access.accesses - Accesses::WRITES).is_empty();
+    Use { resource: Resource::Image(access.image), range: Some(access.range), role, reads, writes }
+}
+
+fn of_buffer(access: &BufferAccess) -> Use {
+    let writes = access.accesses.intersects(Accesses::WRITES);
+    let reads = !(access.accesses - Accesses::WRITES).is_empty();
+    Use { resource: Resource::Buffer(access.buffer), range: None, role: UseRole::Buffer, reads, writes }
+}
