@@ -16,6 +16,8 @@ const SPACING: f64 = 36.0;
 const LETTER: f64 = 7.2;
 /// A vertex has room for this many letters.
 pub(super) const LETTERS: usize = 32;
+/// Letters that a vertex has beside its kind: the number of its step.
+const STEP: usize = 9;
 /// The most bends, counted for each vertex: edges that are left without any run straight.
 const MOST_BENDS: usize = 12;
 
@@ -36,7 +38,7 @@ pub(super) fn layout(graph: &Graph<'_>) -> Layout {
         .vertices
         .iter()
         .map(|vertex| {
-            let letters = [graph.name(*vertex).chars().count(), graph.kind(*vertex).len()];
+            let letters = [graph.name(*vertex).chars().count(), graph.kind(*vertex).len() + STEP];
             letters.map(|letters| letters.min(LETTERS) as f64).into_iter().fold(0.0, f64::max) * LETTER + 20.0
         })
         .collect();

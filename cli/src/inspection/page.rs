@@ -7,7 +7,7 @@ use crate::system::html::{self, Template};
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
-use framewright_graph::plan::{Detail, Moved, Outline, Plan, Resource};
+use framewright_graph::plan::{Detail, Moved, Outline, Plan, Resource, Step};
 use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {
@@ -81,7 +81,7 @@ struct PlanData<'a> {
 #[serde(rename_all = "snake_case")]
 enum Body<'a> {
     /// All of it.
-    Whole { plan: &'a Plan, nodes: Vec<Node>, edges: Vec<Edge>, moved: Vec<Moved>, graph: Drawn },
+    Whole { plan: &'a Plan, nodes: Vec<Node>, edges: Vec<Edge>, moved: Vec<Vec<(Resource, Moved)>>, graph: Drawn },
     /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
     Summary { steps: usize, most: usize },
 }
@@ -161,7 +161,12 @@ fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
         edges: graph.edges.iter().map(edge).collect(),
         layout: layout(&graph),
     };
-    let moved = plan.steps.iter().map(|step| plan.moved_by(step)).collect();
+    let moved = plan.steps.iter().map(|step| moved(plan, step)).collect();
     data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, graph: drawn };
     data
+}
+
+/// The bytes that a step moves, image by image, without those of which there are none.
+fn moved(plan: &Plan, step: &Step) -> Vec<(Resource, Moved)> {
+    plan.moved_of_each(step).into_iter().filter(|(_, moved)| moved.sum() > 0).collect()
 }

@@ -2,7 +2,7 @@
 //!
 //! Samples, clears and draws aren't part of it, nor is what a device compresses or keeps in its caches.
 
-use super::{Attachment, ImageId, Plan, Side, Step, Work};
+use super::{Attachment, ImageId, Plan, Resource, Side, Step, Transfer, Work};
 use crate::vulkan::{LoadOp, StoreOp, Subresources};
 use serde::Serialize;
 use std::ops::Add;
@@ -51,32 +51,44 @@ impl Plan {
     /// The bytes that one of its steps moves.
     #[must_use]
     pub fn moved_by(&self, step: &Step) -> Moved {
+        self.moved_of_each(step).into_iter().map(|(_, moved)| moved).fold(Moved::default(), Add::add)
+    }
+
+    /// The bytes that one of its steps moves, image by image and buffer by buffer; one may stand there more than once.
+    #[must_use]
+    pub fn moved_of_each(&self, step: &Step) -> Vec<(Resource, Moved)> {
         let none = Moved::default();
+        let sides = |transfer: &Transfer, moved: fn(u64) -> Moved| {
+            [transfer.source, transfer.target].map(|side| (side.resource(), moved(self.of_side(side)))).into()
+        };
         match &step.work {
             Work::Render(scope) => {
                 let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
-                attachments.map(|attachment| self.of_attachment(attachment)).fold(none, Add::add)
+                attachments.flat_map(|attachment| self.of_attachment(attachment)).collect()
             }
-            Work::Resolve(transfer) => {
-                let resolved = self.of_side(transfer.source).saturating_add(self.of_side(transfer.target));
-                Moved { resolved, ..none }
-            }
+            Work::Resolve(transfer) => sides(transfer, |resolved| Moved { resolved, ..Moved::default() }),
             Work::Copy(transfer) | Work::Blit(transfer) => {
-                Moved { copied: self.of_side(transfer.source).saturating_add(self.of_side(transfer.target)), ..none }
+                sides(transfer, |copied| Moved { copied, ..Moved::default() })
             }
-            Work::Fill(fill) => Moved { copied: self.of_side(fill.target), ..none },
-            Work::Dispatch(_) | Work::Custom(_) | Work::Export => none,
+            Work::Fill(fill) => {
+                vec![(fill.target.resource(), Moved { copied: self.of_side(fill.target), ..none })]
+            }
+            Work::Dispatch(_) | Work::Custom(_) | Work::Export => Vec::new(),
         }
     }
 
-    fn of_attachment(&self, attachment: &Attachment) -> Moved {
+    fn of_attachment(&self, attachment: &Attachment) -> impl Iterator<Item = (Resource, Moved)> {
         let bytes = self.of_range(attachment.image, attachment.range);
-        Moved {
+        let own = Moved {
             loaded: if attachment.load == LoadOp::Load { bytes } else { 0 },
             stored: if attachment.store == StoreOp::Store { bytes } else { 0 },
-            resolved: attachment.resolve.as_ref().map_or(0, |resolve| self.of_range(resolve.image, resolve.range)),
-            copied: 0,
-        }
+            ..Moved::default()
+        };
+        let resolved = attachment.resolve.as_ref().map(|resolve| {
+            let resolved = self.of_range(resolve.image, resolve.range);
+            (Resource::Image(resolve.image), Moved { resolved, ..Moved::default() })
+        });
+        std::iter::once((Resource::Image(attachment.image), own)).chain(resolved)
     }
 
     fn of_side(&self, side: Side) -> u64 {

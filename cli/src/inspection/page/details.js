@@ -48,19 +48,21 @@ function aboutPass(model, { node }) {
     heading("Without it"), without(model, node, step)];
 }
 
-/** The savings if a pass weren't there: its step, if it is alone in it, resolves of what only it needs, and images that nothing else uses. */
+/** The savings if a pass weren't there: steps in which it is alone, inserted work that only it needs, and images that nothing else uses. */
 function without(model, node, step) {
+  const isResolve = node.kind === "resolve" || node.kind === "folded_resolve";
+  const writes = (user, resource) => user.uses.some((use) => use.writes && model.resourceOf(use.resource) === resource);
+  const readsOnly = (user, resource) => user.uses.some((use) => use.reads && model.resourceOf(use.resource) === resource) && !writes(user, resource);
   const gone = new Set([node]);
-  const dropped = new Set();
-  // What nothing is left to read is not needed, and neither is inserted work that made it.
+  const dropped = new Set(isResolve ? node.uses.filter((use) => use.writes).map((use) => model.resourceOf(use.resource)) : []);
   for (let grown = true; grown;) {
     grown = false;
     for (const resource of model.resources()) {
       if (dropped.has(resource) || !resource.role.transient) continue;
       const users = model.users(model.keyOf(resource)).filter((user) => !gone.has(user));
-      const readers = users.filter((user) => user.uses.some((use) => model.resourceOf(use.resource) === resource && use.reads && use.role !== "color" && use.role !== "depth"));
-      const inserted = users.every((user) => user.because !== null && user.uses.filter((use) => use.writes).every((use) => model.resourceOf(use.resource) === resource));
-      if (users.length === 0 || readers.length === 0 && inserted) {
+      const inserted = users.every((user) => user.because !== null && user.uses.every((use) => !use.writes || model.resourceOf(use.resource) === resource));
+      // What nothing reads any more isn't needed, and neither is inserted work that made it.
+      if (users.length === 0 || inserted && !users.some((user) => readsOnly(user, resource))) {
         dropped.add(resource);
         users.forEach((user) => gone.add(user));
         grown = true;
@@ -68,19 +70,23 @@ function without(model, node, step) {
     }
   }
   const lines = [];
-  const steps = model.plan.steps.map((_, at) => model.byKey.get(model.stepKey(at))).filter((one) => one.nodes.length > 0 && one.nodes.every((other) => gone.has(other)));
-  const moved = steps.reduce((sum, one) => sum + movedSum(model.moved[one.at]), 0);
-  for (const one of steps) lines.push(["All of ", link(model.stepKey(one.at), "step " + one.at), " goes, and with it " + bytes(movedSum(model.moved[one.at])) + " that it moves."]);
-  if (steps.length === 0) lines.push(["Its step stays: ", step.nodes.filter((other) => !gone.has(other)).map((other, at) => [at > 0 ? ", " : "", link(other.key, other.name)]), " draw in it too."]);
+  const wholly = new Set(model.plan.steps.map((_, at) => model.byKey.get(model.stepKey(at))).filter((one) => one.nodes.length > 0 && one.nodes.every((other) => gone.has(other))).map((one) => one.at));
+  for (const at of wholly) lines.push(["All of ", link(model.stepKey(at), "step " + at), " goes, and with it the " + bytes(movedSum(model.moved[at])) + " that it moves."]);
+  const others = step.nodes.filter((other) => !gone.has(other));
+  if (others.length > 0) lines.push(["Its step stays: ", others.map((other, at) => [at > 0 ? ", " : "", link(other.key, other.name)]), others.length === 1 ? " is" : " are", " in it too."]);
   for (const other of gone) if (other !== node) lines.push([link(other.key, other.name), " goes too: nothing else needs it."]);
-  for (const resource of dropped) lines.push([link(model.keyOf(resource), resource.name), " goes too: " + bytes(resource.role.transient.bytes) + "."]);
-  const alive = model.alive.map((amount, at) => amount - [...dropped].reduce((sum, { role }) => sum + (role.transient.lifetime[0] <= at && at <= role.transient.lifetime[1] ? role.transient.bytes : 0), 0));
-  const peak = Math.max(0, ...alive);
-  const before = model.plan.totals.live_peak_bytes;
+  for (const resource of dropped) lines.push([link(model.keyOf(resource), resource.name), " goes too: " + bytes(resource.role.transient?.bytes ?? 0) + "."]);
+  const moved = model.movedEach.reduce((sum, each, at) => sum + each.reduce((part, [resource, amount]) => part + (wholly.has(at) || dropped.has(model.resourceOf(resource)) ? movedSum(amount) : 0), 0), 0);
+  const within = ({ role }, at) => role.transient && role.transient.lifetime[0] <= at && at <= role.transient.lifetime[1];
+  const alive = model.alive.map((amount, at) => [...dropped].reduce((left, one) => within(one, at) ? left - one.role.transient.bytes : left, amount));
+  const [before, peak] = [model.plan.totals.live_peak_bytes, Math.max(0, ...alive)];
   lines.push(`The frame moves ${bytes(moved)} less. The peak of memory ${peak < before ? `falls from ${bytes(before)} to ${bytes(peak)}` : `stays at ${bytes(before)}`}.`);
   const readers = [...new Set(model.edges.filter((edge) => edge.from === node.at_index && edge.to !== null && !gone.has(model.nodes[edge.to])).map((edge) => edge.to))];
-  if (readers.length > 0) lines.push([readers.map((at, index) => [index > 0 ? ", " : "", link(model.nodes[at].key, model.nodes[at].name)]), readers.length === 1 ? " needs" : " need", " what it writes, and must take something else."]);
-  return [list(lines), element("p", { class: "faint" }, "Counted from this Plan. Compiling without the pass may save more, since other work may move together.")];
+  if (readers.length > 0) {
+    lines.push([readers.map((at, index) => [index > 0 ? ", " : "", link(model.nodes[at].key, model.nodes[at].name)]), readers.length === 1 ? " needs" : " need",
+      isResolve ? " what it writes, and would have to read the samples themselves, or an image that has one sample." : " what it writes, and would have to take something else."]);
+  }
+  return [list(lines), element("p", { class: "faint" }, "Counted from this Plan. Compiling without it may save more, since other work may move together.")];
 }
 
 function aboutResource(model, { image, buffer }) {
@@ -91,7 +97,7 @@ function aboutResource(model, { image, buffer }) {
   const sharing = place ? model.resources().filter((other) => other !== one && other.role.transient && other.role.transient.heap === place.heap
     && other.role.transient.offset < place.offset + place.bytes && place.offset < other.role.transient.offset + other.role.transient.bytes) : [];
   const lines = model.lines.get(key) || [];
-  const own = lines.filter(({ above }) => above.length === 1).map(({ line }) => line);
+  const own = lines.filter(({ above }) => ["images", "buffers"].includes(above.at(-1).text)).map(({ line }) => line);
   const barriers = lines.filter(({ line }) => line.text.startsWith("barrier: ")).map(({ line, above }) => ({ ...line, text: above[1].text.split(":")[0] + ": " + line.text }));
   return [element("h2", {}, one.name), outlineList(model, own),
     heading("Used by"), list(users.map((node) => {

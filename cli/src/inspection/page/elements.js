@@ -40,12 +40,11 @@ const count = (number, one, many) => number + " " + (number === 1 ? one : many);
 const short = (text, letters) => [...text].length > letters ? [...text].slice(0, letters - 1).join("") + "…" : text;
 
 /** A scroller whose drawing holds only what is in sight: `draw(svg, left, top, width, height)` is called at each change. */
-function scroller(extent, label, draw) {
+function scroller(whole, label, draw) {
+  let extent = whole;
   const view = shape("svg", { class: "view", role: "group", "aria-label": label });
   const room = element("div", { class: "room", "aria-hidden": "true" });
   const box = element("div", { class: "scroller", tabindex: "0", role: "region", "aria-label": label }, view, room);
-  room.style.width = extent[0] + "px";
-  room.style.height = extent[1] + "px";
   let waiting = false;
   const redraw = () => {
     waiting = false;
@@ -65,6 +64,13 @@ function scroller(extent, label, draw) {
   };
   box.addEventListener("scroll", ask);
   new ResizeObserver(ask).observe(box);
+  box.zoom = (scale) => {
+    extent = whole.map((size) => Math.ceil(size * scale));
+    room.style.width = extent[0] + "px";
+    room.style.height = extent[1] + "px";
+    redraw();
+  };
+  box.zoom(1);
   box.redraw = redraw;
   box.show = (left, top, width, height) => {
     if (left < box.scrollLeft || left + width > box.scrollLeft + box.clientWidth) box.scrollLeft = left - box.clientWidth / 2;

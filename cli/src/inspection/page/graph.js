@@ -5,9 +5,12 @@ function graphView(model) {
   if (!graph) return tooLarge(model);
   const extent = graph.extent.map((size) => size + 2 * EDGE);
   const key = (vertex) => vertex.node === null ? model.resourceKey(vertex.resource) : model.nodes[vertex.node].key;
-  const box = scroller(extent, "Graph of " + model.name, (svg, left, top, width, height) => {
+  let scale = 1;
+  const box = scroller(extent, "Graph of " + model.name, (svg, ...pixels) => {
+    const [left, top, width, height] = pixels.map((size) => size / scale);
     const inSight = (low, high, start, size) => high >= start && low <= start + size;
     svg.setAttribute("viewBox", [left - EDGE, top - EDGE, width, height].join(" "));
+    svg.append(shape("defs", {}, shape("marker", { id: "end", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto" }, shape("path", { class: "arrow", d: "M0 0L8 4L0 8z" }))));
     const seen = [left - EDGE, top - EDGE];
     graph.edges.forEach((edge, at) => {
       const points = graph.ways[at];
@@ -20,7 +23,7 @@ function graphView(model) {
         const [bx, by] = points[point - 1];
         return `C${bx} ${(by + y) / 2} ${x} ${(by + y) / 2} ${x} ${y}`;
       }).join("");
-      svg.append(shape("path", { class: "way", d: way, "data-key": keys.join("\u0001"), onclick: () => select(keys[0], { reveal: false }) }, shape("title", {}, names)));
+      svg.append(shape("path", { class: "way", d: way, "marker-end": "url(#end)", "data-key": keys.join("\u0001"), onclick: () => select(keys[0], { reveal: false }) }, shape("title", {}, names)));
       if (graph.edges.length <= 80) {
         svg.append(shape("text", { class: "small middle", x: (points[0][0] + points[1][0]) / 2, y: (points[0][1] + points[1][1]) / 2 + 3 }, short(names, 40)));
       }
@@ -41,10 +44,20 @@ function graphView(model) {
     const at = graph.vertices.findIndex((vertex) => key(vertex) === wanted);
     if (at >= 0) {
       const [x, y, wide] = graph.places[at];
-      box.show(x - wide / 2 + EDGE, y - 20 + EDGE, wide, 40);
+      box.show((x - wide / 2 + EDGE) * scale, (y - 20 + EDGE) * scale, wide * scale, 40 * scale);
     }
   };
-  return box;
+  const zoom = (to) => {
+    scale = Math.max(0.1, Math.min(4, to));
+    box.zoom(scale);
+  };
+  const button = (name, title, to) => element("button", { type: "button", title, onclick: () => zoom(to()) }, name);
+  const group = element("div", {}, element("p", { class: "tools" }, button("−", "Smaller", () => scale / 1.25), button("+", "Larger", () => scale * 1.25),
+    button("Fit", "All of the width", () => Math.min(1, (box.clientWidth - 4) / extent[0])), button("1:1", "Full size", () => 1),
+    element("span", { class: "hint" }, "Work from top to bottom, and the images and buffers whose contents go between. Orange boxes are resolves.")), box);
+  group.redraw = box.redraw;
+  group.reveal = box.reveal;
+  return group;
 }
 
 function tooLarge(model) {

@@ -59,7 +59,7 @@ function gridView(model) {
     }
     const cover = (attributes) => shape("rect", { fill: "var(--ground)", ...attributes });
     svg.append(body, cover({ x: 0, y: 0, width, height: HEADS }), heads, cover({ x: 0, y: 0, width: NAMES, height }), names, cover({ x: 0, y: 0, width: NAMES, height: HEADS }),
-      shape("text", { class: "small", x: 8, y: 14 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(columns.length, "pass", "passes") + ", " + count(rows.length, "image", "images")));
+      shape("text", { class: "small", x: 8, y: 14 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(rows.length, "image or buffer", "images and buffers")));
   });
   box.reveal = (wanted) => {
     const column = columns.findIndex((one) => one.key === wanted);

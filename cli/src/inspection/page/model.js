@@ -11,6 +11,12 @@ class Model {
     this.summary = data.summary || null;
     const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], graph: null };
     Object.assign(this, whole);
+    /** What each step moves: image by image, and in all. */
+    this.movedEach = this.moved;
+    this.moved = this.movedEach.map((each) => each.reduce((sum, [, moved]) => {
+      for (const kind in sum) sum[kind] += moved[kind];
+      return sum;
+    }, { loaded: 0, stored: 0, resolved: 0, copied: 0 }));
     this.byKey = new Map();
     this.related = new Map();
     this.lines = new Map();
