@@ -49,4 +49,6 @@ pub(crate) enum DifferenceFormat {
     Json,
     /// For a pull request.
     Markdown,
+    /// Both Plans side by side as a page to explore, in one file.
+    Html,
 }

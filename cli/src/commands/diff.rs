@@ -6,16 +6,18 @@ use crate::command_line::values::{self, Assignment, Modes, Size};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
+use crate::inspection::{self, Page, Shown};
 use crate::planning::{self, View, device};
 use crate::system::{Exit, text};
-use framewright_graph::base::ReadFiles;
+use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::device::Estimated;
 use framewright_graph::difference::Differences;
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Detail, Plan};
 use framewright_graph::verify;
 use framewright_passes::scene::Scene;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A file of a Plan has at most this many bytes.
 const LARGEST_PLAN: usize = 1 << 30;
@@ -31,14 +33,23 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     spare()?;
     let first = &arguments.pipeline.file;
     let second = arguments.other.as_ref().unwrap_or(first);
-    let a = plan(arguments, first, "--a", &arguments.a, &read)?;
-    let b = plan(arguments, second, "--b", &arguments.b, &read)?;
+    let [name_a, name_b] = [first, second].map(|file| file.to_string_lossy().into_owned());
+    let (a, sources_a) = plan(arguments, first, "--a", &arguments.a, &read)?;
+    let (b, sources_b) = plan(arguments, second, "--b", &arguments.b, &read)?;
     spare()?;
-    let differences = Differences::between((&first.to_string_lossy(), &a), (&second.to_string_lossy(), &b));
+    let differences = Differences::between((&name_a, &a), (&name_b, &b));
     let shown = match arguments.format {
         DifferenceFormat::Human => text::escape_lines(&differences.text()) + "\n",
         DifferenceFormat::Json => text::json(&differences)?,
         DifferenceFormat::Markdown => text::escape_lines(&differences.markdown()) + "\n",
+        DifferenceFormat::Html => {
+            let detail = Detail { verbose: true, ..Detail::default() };
+            let plans = vec![
+                Shown { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
+                Shown { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
+            ];
+            inspection::page(&Page { plans, differences: Some(&differences), devices: &[] })?
+        }
     };
     match &arguments.output {
         Some(file) => outputs::write(&[(file, shown.as_bytes())], &read)?,
@@ -47,17 +58,17 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-/// The Plan in a file, or that of a pipeline.
+/// The Plan in a file, or that of a pipeline with the texts that it was read from.
 fn plan(
     arguments: &DiffArguments,
     file: &Path,
     option: &'static str,
     own: &[Assignment],
     read: &ReadFiles,
-) -> Result<Plan, Error> {
+) -> Result<(Plan, Option<Arc<Sources>>), Error> {
     if file.extension().is_some_and(|end| end == "json") {
         return match own.is_empty() {
-            true => plan_of(file, read),
+            true => Ok((plan_of(file, read)?, None)),
             false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),
         };
     }
@@ -78,7 +89,7 @@ fn plan(
         dump: &[],
     };
     let planned = loaded.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?;
-    Ok(planned.plan)
+    Ok((planned.plan, Some(Arc::clone(&loaded.sources))))
 }
 
 /// The Plan that a file holds, verified.

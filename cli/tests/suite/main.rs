@@ -28,6 +28,7 @@ mod measuring;
 mod merging;
 mod never_overwritten;
 mod outputs;
+mod page;
 mod pictures;
 mod plans;
 mod profiles;

@@ -1,5 +1,6 @@
 //! Runs the built `framewright` as a user would, and tells what came of it.
 
+pub(crate) mod browser;
 pub(crate) mod results;
 
 use framewright_graph::device::Profile;

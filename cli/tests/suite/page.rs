@@ -1,0 +1,226 @@
+//! The page of a Plan, in a real browser: what each view shows is what the Plan's JSON says (IN-1, IN-3, IN-12).
+
+use crate::testing::browser::Browser;
+use crate::testing::{Place, shipped_pipelines};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// The Plan of a pipeline as JSON, and its page.
+fn plan_and_page(place: &Place, arguments: &[&str]) -> (Value, PathBuf) {
+    let json = place.run(&[&["inspect"], arguments, &["--format", "json"]].concat()).exits(0).out;
+    place.run(&[&["inspect"], arguments, &["--format", "html", "-o", "page.html"]].concat()).exits(0);
+    (serde_json::from_str(&json).expect("JSON"), place.path("page.html"))
+}
+
+fn list<'v>(value: &'v Value, name: &str) -> &'v Vec<Value> {
+    value[name].as_array().unwrap_or_else(|| panic!("no list {name}"))
+}
+
+/// Work in a Plan: passes, resolves that scopes carry, and transfers.
+fn nodes(plan: &Value) -> usize {
+    let of = |step: &Value| match &step["work"] {
+        Value::String(_) => 0,
+        work if work.get("render").is_some() => {
+            let scope = &work["render"];
+            let attachments = list(scope, "color").iter().chain([&scope["depth"], &scope["stencil"]]);
+            list(scope, "passes").len() + attachments.filter(|it| it["resolve"].is_object()).count()
+        }
+        _ => 1,
+    };
+    list(plan, "steps").iter().map(of).sum()
+}
+
+fn is_transient(resource: &&Value) -> bool {
+    resource["role"].get("transient").is_some()
+}
+
+#[test]
+fn every_view_of_every_shipped_pipeline_shows_what_its_plan_says() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    for name in shipped_pipelines() {
+        for options in [&[][..], &["--stereo", "multi-pass", "--device", "nvidia-rtx-2080"]] {
+            let arguments = [&[&*name][..], options].concat();
+            let (plan, page) = plan_and_page(&place, &arguments);
+            let resources = || list(&plan, "images").iter().chain(list(&plan, "buffers"));
+            browser.open_file(&page, "#view=graph");
+            browser.ask("printing = true, VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); })");
+            let mut shown = |selector: &str| browser.count(&format!("document.querySelectorAll('{selector}').length"));
+            let about = format!("{arguments:?}");
+            assert_eq!(shown("#view-graph g[data-key]:not(.beside)"), nodes(&plan), "{about}: graph");
+            let culled = list(&plan, "notes").iter().filter(|note| note["stage"] == "cull").count();
+            assert_eq!(
+                shown(
+                    "#view-grid g:is(.draw,.dispatch,.custom,.folded_resolve,.resolve,.copy,.blit,.fill,.culled)[data-key]"
+                ),
+                nodes(&plan) + culled,
+                "{about}: grid"
+            );
+            assert_eq!(shown("#view-memory rect.block"), resources().filter(is_transient).count(), "{about}: memory");
+            assert_eq!(shown("#view-steps details"), list(&plan, "steps").len(), "{about}: steps");
+            assert_eq!(shown("#view-cost tbody tr"), list(&plan, "steps").len(), "{about}: cost");
+            assert_eq!(shown("#view-queues g[data-key]"), list(&plan, "steps").len(), "{about}: queues");
+            let waits = list(&plan, "steps").iter().flat_map(|step| list(step, "waits"));
+            assert_eq!(
+                shown("#view-queues path.wait"),
+                waits.filter(|wait| wait["frames_ago"] == 0).count(),
+                "{about}: waits"
+            );
+            assert_eq!(shown("#view-images tbody tr"), resources().count(), "{about}: images");
+            assert_eq!(shown("#view-notes li[data-key]"), list(&plan, "notes").len(), "{about}: notes");
+            assert_eq!(shown("#view-devices details") + 1, 7, "{about}: other devices");
+            // Every step that is opened says each of its barriers, with stages and accesses.
+            browser.ask("document.querySelectorAll('#view-steps details').forEach((step) => { step.open = true; })");
+            browser.settle();
+            let barriers = |step: &Value| {
+                ["memory_barriers", "image_barriers", "releases"]
+                    .map(|kind| list(step, kind).len())
+                    .iter()
+                    .sum::<usize>()
+            };
+            let expected: usize = list(&plan, "steps").iter().map(barriers).sum();
+            let lines = "[...document.querySelectorAll('#view-steps li')].filter((line) => line.textContent.startsWith('barrier: ') && / before /.test(line.textContent)).length";
+            assert_eq!(browser.count(lines), expected, "{about}: barriers");
+            browser.has_no_errors();
+        }
+    }
+}
+
+#[test]
+fn what_is_selected_is_marked_in_every_view_and_stands_in_the_address() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    let (_, page) = plan_and_page(&place, &["first.ron"]);
+    browser.open_file(&page, "#view=grid&pass=tone_map");
+    assert_eq!(browser.text("document.querySelector('#details h2').textContent"), "tone_map", "a deep link");
+    browser.click("#view-grid g.folded_resolve");
+    let details = "document.querySelector('#details').innerText";
+    let about = browser.text(details);
+    assert!(about.contains("tone_map samples color and it has 4 samples"), "{about}");
+    assert!(about.contains("color (resolved) goes too: 7.0 MiB."), "{about}");
+    assert!(browser.text("location.hash").ends_with("pass=resolve%20color"));
+    for view in ["graph", "grid", "memory", "steps", "cost", "queues", "images", "notes", "source"] {
+        browser.click(&format!("#tab-{view}"));
+        assert_eq!(browser.text("state.view"), view);
+        let panel = format!("document.querySelector('#view-{view}')");
+        assert!(!browser.ask(&format!("{panel}.hidden")).as_bool().expect("a fact"), "{view}");
+        if !matches!(view, "notes" | "source") {
+            let marked = format!("{panel}.querySelectorAll('.selected, .related').length");
+            assert!(browser.count(&marked) > 0, "nothing is marked in {view}");
+        }
+        browser.screenshot(&format!("first-{view}"));
+    }
+    // A link in the panel leads on, and a place to its line.
+    browser.click("#details button.place");
+    assert_eq!(
+        browser.text("document.querySelector('li.here').textContent").trim(),
+        "sample: {\"source\": \"color\"},"
+    );
+    browser.has_no_errors();
+}
+
+#[test]
+fn keys_and_the_search_reach_everything() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    let (_, page) = plan_and_page(&place, &["first.ron"]);
+    browser.open_file(&page, "");
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("state.selected"), "pass:opaque");
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("state.selected"), "pass:sky");
+    browser.press("3");
+    assert_eq!(browser.text("state.view"), "memory");
+    browser.press("/");
+    for letter in "(resolved)".chars() {
+        browser.press(&letter.to_string());
+    }
+    assert_eq!(browser.count("document.querySelectorAll('#found button').length"), 2, "the image, and a note about it");
+    browser.press("Enter");
+    assert_eq!(browser.text("state.selected"), "image:color (resolved)");
+    browser.press("Escape");
+    assert_eq!(browser.ask("state.selected"), Value::Null);
+    // Every control has a name that a screen reader says, and every view its role.
+    let nameless = "[...document.querySelectorAll('button, input')].filter((one) => !(one.textContent.trim() || one.labels?.length || one.title)).length";
+    assert_eq!(browser.count(nameless), 0);
+    assert_eq!(browser.count("document.querySelectorAll('[role=tabpanel]').length"), browser.count("VIEWS.length"));
+    browser.has_no_errors();
+}
+
+#[test]
+fn dark_narrow_and_printed_pages_work() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    let (_, page) = plan_and_page(&place, &["deferred"]);
+    browser.screen(400, 800, true);
+    browser.open_file(&page, "#view=memory&pass=lighting");
+    let ground = browser.text("getComputedStyle(document.body).backgroundColor");
+    assert_eq!(ground, "rgb(22, 24, 27)", "dark");
+    for view in ["graph", "grid", "memory", "steps", "cost", "images", "notes", "devices"] {
+        browser.click(&format!("#tab-{view}"));
+        let over = browser.ask("document.documentElement.scrollWidth - innerWidth");
+        assert!(over.as_i64().expect("a number") <= 0, "{view} is {over} pixels too wide");
+        browser.screenshot(&format!("narrow-{view}"));
+    }
+    browser.screen(1400, 900, false);
+    let paper = browser.printed();
+    assert!(paper.starts_with(b"%PDF") && paper.len() > 20_000, "{} bytes", paper.len());
+    browser.has_no_errors();
+}
+
+#[test]
+fn hostile_names_and_texts_do_nothing() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    let evil = "</script><img src=x onerror=hacked=1>\u{202e}";
+    let file = "<img src=x onerror=hacked=1>.ron";
+    let text = std::fs::read_to_string(place.path("first.ron")).expect("written");
+    place.file(file, format!("// {evil} <!-- <script>hacked=1</script>\n{text}"));
+    // A pipeline's names can't hold such characters; those of a stranger's Plan can.
+    let plan = place.run(&["inspect", file, "--format", "json"]).exits(0).out;
+    place.file(
+        "plan.json",
+        plan.replace("\"opaque\"", &format!("\"{evil}\"")).replace("`opaque`", &format!("`{evil}`")),
+    );
+    place.run(&["diff", file, "plan.json", "--format", "html", "-o", "page.html"]).exits(0);
+    browser.open_file(&place.path("page.html"), "");
+    browser.ask("printing = true, VIEWS.forEach((view) => { showView(view.name); })");
+    browser.ask("document.querySelectorAll('#view-steps details').forEach((step) => { step.open = true; })");
+    browser.ask("select(models[1].nodes[0].key)");
+    assert!(browser.text("document.querySelector('#details h2').textContent").starts_with("</script><img"));
+    assert_eq!(browser.ask("typeof hacked"), "undefined");
+    assert_eq!(browser.count("document.querySelectorAll('img').length"), 0);
+    assert!(!browser.text("document.body.innerText").contains('\u{202e}'), "direction marks are written out");
+    browser.has_no_errors();
+    // The policy blocks what a mistake of ours would let in.
+    browser.ask("document.body.insertAdjacentHTML('beforeend', '<img src=x onerror=\"hacked=1\">')");
+    browser.settle();
+    assert_eq!(browser.ask("typeof hacked"), "undefined");
+}
+
+#[test]
+fn two_plans_stand_side_by_side_with_their_differences() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    let choices = ["diff", "first.ron", "--b", "msaa=1", "--b", "@device=amd-rx-7800-xt"];
+    let json = place.run(&[&choices[..], &["--format", "json"]].concat()).exits(0).out;
+    place.run(&[&choices[..], &["--format", "html", "-o", "page.html"]].concat()).exits(0);
+    let differences: Value = serde_json::from_str(&json).expect("JSON");
+    browser.open_file(&place.path("page.html"), "");
+    assert_eq!(browser.text("state.view"), "differences");
+    let rows = |selector: &str| format!("document.querySelectorAll('#view-differences {selector}').length");
+    assert_eq!(browser.count(&rows(".entries > li")), list(&differences, "entries").len());
+    let differ = list(&differences, "totals").iter().filter(|figure| figure["a"] != figure["b"]).count();
+    assert_eq!(browser.count(&rows(".sums tbody tr")), differ);
+    browser.screenshot("diff");
+    browser.click("#tab-graph");
+    assert_eq!(browser.count("document.querySelectorAll('#view-graph section').length"), 2);
+    browser.ask("select('pass:tone_map')");
+    assert_eq!(browser.count("document.querySelectorAll('#view-graph g.selected').length"), 2, "in both");
+    browser.screenshot("diff-graph");
+    browser.has_no_errors();
+}
