@@ -4,7 +4,7 @@ use crate::testing::{self, Place};
 use std::fmt::Write;
 
 /// Passes of a pipeline that draws back and forth between two images.
-fn back_and_forth(passes: usize) -> String {
+pub(crate) fn back_and_forth(passes: usize) -> String {
     let mut text = "Pipeline(version: 1, images: [\n\
         (name: \"a\", format: Color(hdr: true), size: Output), (name: \"b\", format: Like(\"a\"), size: Output),\n\
         (name: \"screen\", format: Output, size: Output)], passes: [\n\

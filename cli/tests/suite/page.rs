@@ -1,5 +1,6 @@
 //! The page of a Plan, in a real browser: what each view shows is what the Plan's JSON says (IN-1, IN-3, IN-12).
 
+use crate::large::back_and_forth;
 use crate::testing::browser::Browser;
 use crate::testing::{Place, shipped_pipelines};
 use serde_json::Value;
@@ -223,4 +224,50 @@ fn two_plans_stand_side_by_side_with_their_differences() {
     assert_eq!(browser.count("document.querySelectorAll('#view-graph g.selected').length"), 2, "in both");
     browser.screenshot("diff-graph");
     browser.has_no_errors();
+}
+
+#[test]
+fn a_thousand_passes_are_drawn_as_far_as_they_are_in_sight() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.file("p.ron", back_and_forth(1000));
+    let (plan, page) = plan_and_page(&place, &["p.ron"]);
+    let size = page.metadata().expect("written").len();
+    assert!(size <= 5 << 20, "{size} bytes");
+    browser.open_file(&page, "#view=graph");
+    assert_eq!(browser.count("models[0].nodes.length"), nodes(&plan));
+    for (view, most) in [("graph", 300), ("grid", 600)] {
+        browser.click(&format!("#tab-{view}"));
+        let begin = browser.text("String(performance.now())");
+        let made = "(() => { const before = elementsMade; const box = document.querySelector('.view-panel:not([hidden]) .scroller'); \
+            box.scrollTop = 9000; box.scrollLeft = 9000; \
+            return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(elementsMade - before)))); })()";
+        let made = browser.count(made);
+        assert!(made > 20 && made < most, "{made} elements for a step of scrolling in {view}");
+        println!("{view}: {made} elements, at {begin} ms");
+    }
+    browser.ask("select('pass:p900')");
+    browser.settle();
+    assert_eq!(
+        browser.count("document.querySelectorAll('#view-grid g.selected').length > 0 ? 1 : 0"),
+        1,
+        "it is brought in sight"
+    );
+    browser.has_no_errors();
+}
+
+#[test]
+fn of_a_plan_that_is_too_large_the_page_is_a_summary_and_says_so() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.file("p.ron", back_and_forth(100_000));
+    place.run(&["inspect", "p.ron", "--format", "html", "-o", "page.html"]).exits(0);
+    let page = place.path("page.html");
+    assert!(page.metadata().expect("written").len() < 2 << 20, "{:?}", page.metadata());
+    browser.open_file(&page, "#view=steps");
+    assert_eq!(browser.count("document.querySelectorAll('#view-steps details').length"), 200);
+    browser.click("#tab-graph");
+    assert!(browser.text("document.querySelector('#view-graph').innerText").contains("This Plan has 100000 steps."));
+    browser.has_no_errors();
+    place.run(&["inspect", "p.ron", "--format", "svg"]).exits(1).mentions("a picture of 100000 passes can't be read");
 }

@@ -4,11 +4,12 @@ use super::Kind;
 use super::describe::{Description, code};
 use crate::frame::{Blend, ParamValue};
 use crate::plan::names::Shown;
+use crate::plan::text::fill_value;
 use crate::plan::{
-    Access, Attachment, Fill, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, RenderScope, Resource,
-    Side, Step, StepId, Transfer, Work,
+    Access, Attachment, BindingKind, Fill, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
+    RenderScope, Resource, Side, Step, StepId, Transfer, Work,
 };
-use crate::vulkan::{Subresources, name_of};
+use crate::vulkan::{Sampler, Subresources, name_of};
 
 /// A step that is described.
 #[derive(Clone, Copy)]
@@ -153,7 +154,15 @@ impl Described<'_> {
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
         let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
             let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
-            format!(", {:?}{declared}", binding.kind)
+            let kind = match binding.kind {
+                BindingKind::Sampled(Sampler { filter, mips, address }) => {
+                    let [filter, mips, address] = [name_of(&filter), name_of(&mips), name_of(&address)];
+                    format!("sampled, {filter}, {mips} between mip levels, {address}")
+                }
+                BindingKind::Storage => "storage".to_owned(),
+                BindingKind::InputAttachment => "read at its own position".to_owned(),
+            };
+            format!(", {kind}{declared}")
         });
         let [accesses, stages, layout] = [name_of(&access.accesses), name_of(&access.stages), name_of(&access.layout)];
         format!("{}{eye}: {accesses} in {stages} as {layout}{kind}", self.part(access.image, access.range))
@@ -172,7 +181,7 @@ impl Described<'_> {
     }
 
     fn fill(self, fill: &Fill) -> Description {
-        let fields = vec![("work", "fill".to_owned()), ("value", format!("{:?}", fill.value))];
+        let fields = vec![("work", "fill".to_owned()), ("value", fill_value(&fill.value))];
         Description::new(Kind::Transfer, self.side(fill.target), fields).caused(&fill.cause)
     }
 

@@ -44,7 +44,7 @@ mod part;
 mod reason;
 mod resources;
 mod step;
-mod text;
+pub(crate) mod text;
 mod totals;
 mod values;
 mod view;

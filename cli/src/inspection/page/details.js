@@ -39,7 +39,7 @@ function aboutPass(model, { node }) {
   const folded = node.kind === "folded_resolve" || node.kind === "resolve";
   const resolves = folded ? (step.step && (model.lines.get(model.stepKey(node.step)) || []).flatMap(({ line }) => [line, ...line.parts]).filter((line) => line.text.includes("resolve ") && line.at === node.at)) : [];
   return [element("h2", {}, node.name), element("p", {}, node.kind.replace("_", " ") + " in ", link(model.stepKey(node.step), "step " + node.step), " ", placeLink(model, node.at)),
-    node.because ? [heading("Why it is there"), element("p", { class: "because" }, withLinks(model, node.because))] : null,
+    node.because ? [heading("Why it is there"), element("p", { class: "because" }, withLinks(node.because))] : null,
     lines.length > 0 ? [heading("In the Plan"), outlineList(model, lines)] : null,
     resolves.length > 0 ? [heading("In the Plan"), outlineList(model, resolves)] : null,
     heading("Uses"), usesOf(model, node),
@@ -118,5 +118,5 @@ function aboutStep(model, { at, step, nodes }) {
 }
 
 function aboutNote(model, { note }) {
-  return [element("h2", {}, note.subject), element("p", {}, "Decided by the stage `" + note.stage + "`: ", withLinks(model, note.text)), placeLink(model, note.at)];
+  return [element("h2", {}, note.subject), element("p", {}, "Decided by the stage `" + note.stage + "`: ", withLinks(note.text)), placeLink(model, note.at)];
 }

@@ -33,7 +33,10 @@ function bytes(amount) {
   let unit = 0;
   amount /= 1024;
   while (amount >= 1024 && unit < 3) { amount /= 1024; unit += 1; }
-  return amount.toFixed(1) + " " + units[unit];
+  // Halves go to the even digit, as they do everywhere else in the program.
+  const tenths = amount * 10;
+  const rounded = tenths % 1 === 0.5 ? 2 * Math.round(tenths / 2) : Math.round(tenths);
+  return (rounded / 10).toFixed(1) + " " + units[unit];
 }
 
 const count = (number, one, many) => number + " " + (number === 1 ? one : many);

@@ -15,8 +15,8 @@ function table(headings, rows, keys) {
     highlight(body);
   };
   draw();
-  return element("table", {}, element("thead", {}, element("tr", {}, headings.map(([name, kind], column) =>
-    element("th", { class: kind || null, scope: "col" }, element("button", { type: "button", onclick: () => sort(column) }, name))))), body);
+  return element("div", { class: "wide" }, element("table", {}, element("thead", {}, element("tr", {}, headings.map(([name, kind], column) =>
+    element("th", { class: kind || null, scope: "col" }, element("button", { type: "button", onclick: () => sort(column) }, name))))), body));
 }
 
 /** Bytes that each step moves. */
@@ -59,10 +59,10 @@ function notesView(model) {
   const notes = model.plan ? model.plan.notes : [];
   const parts = model.outline.parts.filter((line) => !line.about && ["changes", "views", "outputs", "totals"].includes(line.text) || line.text.startsWith("settings: "));
   const stages = [...new Set(notes.map((note) => note.stage))];
-  return element("div", {}, parts.map((line) => [element("h2", {}, withLinks(model, line.text)), outlineList(model, line.parts)]),
+  return element("div", {}, parts.map((line) => [element("h2", {}, withLinks(line.text)), outlineList(model, line.parts)]),
     stages.length > 0 ? element("h2", {}, "Decisions that no step shows") : null,
     stages.map((stage) => [element("h3", {}, stage), element("ul", { class: "outline" }, notes.map((note, at) => note.stage === stage
-      ? element("li", { "data-key": "note:" + model.letter + at, class: stage === "cull" ? "culled" : null }, link("note:" + model.letter + at, note.subject), ": ", withLinks(model, note.text), " ", placeLink(model, note.at)) : null))]));
+      ? element("li", { "data-key": "note:" + model.letter + at, class: stage === "cull" ? "culled" : null }, link("note:" + model.letter + at, note.subject), ": ", withLinks(note.text), " ", placeLink(model, note.at)) : null))]));
 }
 
 /** The files, line by line. */
@@ -90,8 +90,8 @@ function differencesList(model, differences) {
     element("tbody", {}, differ.map((figure) => element("tr", {}, element("td", {}, figure.name), element("td", { class: "number" }, shown(figure, figure.a)), element("td", { class: "number" }, shown(figure, figure.b))))));
   const value = (field) => field.a !== undefined && field.a !== null && field.b !== undefined && field.b !== null ? `${field.name} ${field.b} (was ${field.a})` : `${field.name} ${field.b ?? field.a}`;
   const sign = { added: "+", removed: "−", changed: "~" };
-  const entries = differences.entries.map((entry) => element("li", { class: entry.change }, sign[entry.change] + " " + entry.kind + " ", withLinks(model, entry.name), ": " + entry.fields.map(value).join(", "),
-    entry.because ? [": ", withLinks(model, entry.because)] : null, " ", placeLink(model, entry.at)));
+  const entries = differences.entries.map((entry) => element("li", { class: entry.change }, sign[entry.change] + " " + entry.kind + " ", withLinks(entry.name + ": " + entry.fields.map(value).join(", ")),
+    entry.because ? [": ", withLinks(entry.because)] : null, " ", placeLink(model, entry.at)));
   return [sums, element("ul", { class: "outline entries" }, entries)];
 }
 

@@ -112,7 +112,7 @@ function start() {
   document.title = models.map((model) => model.name).join(" | ");
   document.getElementById("title").append(visible(models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : "")).join("  |  ")));
   const totals = models.map((model) => model.outline.parts.find((line) => line.text === "totals")?.parts.map((line) => line.text).join("; ") ?? "");
-  document.getElementById("totals").append(...totals.map((text) => element("span", { class: "faint" }, text + " ")));
+  document.getElementById("totals").append(...totals.map((text, at) => element("span", { class: "faint" }, (models.length > 1 ? models[at].letter.toUpperCase() + ": " : "") + text + " ")));
   for (const view of VIEWS) {
     view.tab = element("button", { type: "button", role: "tab", id: "tab-" + view.name, "aria-controls": "view-" + view.name, onclick: () => { showView(view.name); writeHash(); } }, view.title);
     view.panel = element("div", { role: "tabpanel", id: "view-" + view.name, class: "view-panel", "aria-labelledby": "tab-" + view.name, hidden: true });

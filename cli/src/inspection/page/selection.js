@@ -71,11 +71,11 @@ function placeLink(model, place) {
   return element("button", { class: "link place", type: "button", onclick: () => showPlace(model, split) }, shown);
 }
 
-/** Text in which known names between backticks select what they name. */
-function withLinks(model, text) {
+/** Text in which names that a Plan has, between backticks, select what they name. */
+function withLinks(text) {
   return text.split("`").map((part, at) => {
     if (at % 2 === 0) return part;
-    const key = ["pass:", "image:", "buffer:"].map((kind) => kind + part).find((key) => model.byKey.has(key));
+    const key = ["pass:", "image:", "buffer:"].map((kind) => kind + part).find(has);
     return key ? link(key, part) : element("code", {}, part);
   });
 }
@@ -85,7 +85,7 @@ function outlineLine(model, line) {
   const place = line.at && splitPlace(line.at);
   const end = place ? ` (${place.file}:${place.line})` : "";
   const text = end && line.text.endsWith(end) ? line.text.slice(0, -end.length) : line.text;
-  return [withLinks(model, text), place ? [" ", placeLink(model, line.at)] : null];
+  return [withLinks(text), place ? [" ", placeLink(model, line.at)] : null];
 }
 
 function outlineList(model, lines) {

@@ -9,3 +9,4 @@ mod words;
 
 pub use outline::{About, Outline};
 pub use tree::Detail;
+pub(crate) use words::fill_value;

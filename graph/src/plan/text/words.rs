@@ -42,7 +42,7 @@ pub(super) fn words_of(sampler: &Sampler) -> String {
     words
 }
 
-pub(super) fn fill_value(value: &FillValue) -> String {
+pub(crate) fn fill_value(value: &FillValue) -> String {
     match value {
         FillValue::Color([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
         FillValue::Bits([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
