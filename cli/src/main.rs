@@ -1,10 +1,12 @@
 //! The `framewright` command: checks, shows and runs pipeline files.
 
+mod budget;
 mod command_line;
 mod commands;
 mod drawing;
 mod error;
 mod files;
+mod findings;
 mod inspection;
 mod measure;
 mod metric;

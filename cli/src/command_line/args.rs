@@ -87,9 +87,31 @@ pub(crate) struct CheckArguments {
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
+    /// Size of the output in pixels.
+    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
+    pub(crate) size: Size,
+    /// Upper bounds on what a frame may take: resolves, barriers, memory, bytes moved and others. A Plan beyond one is a mistake.
+    #[arg(long, value_name = "BUDGET.ron")]
+    pub(crate) budget: Option<PathBuf>,
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: AnswerFormat,
+    pub(crate) format: CheckFormat,
+}
+
+/// Form of an answer of `check`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum CheckFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// For programs.
+    Json,
+    /// SARIF 2.1.0, which code hosts show beside the lines.
+    Sarif,
+    /// JUnit's XML, which CI systems show as tests.
+    Junit,
+    /// Annotations of GitHub Actions.
+    Github,
 }
 
 /// `framewright inspect`.

@@ -1,7 +1,7 @@
 //! The commands.
 
 mod cache;
-mod check;
+pub(crate) mod check;
 mod choose;
 mod compare;
 mod devices;

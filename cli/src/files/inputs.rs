@@ -37,6 +37,8 @@ impl FileRole {
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
     /// A Plan.
     pub(crate) const PLAN: FileRole = FileRole { name: "Plan", recorded: "a Plan that is read" };
+    /// A budget.
+    pub(crate) const BUDGET: FileRole = FileRole { name: "budget", recorded: "the budget itself" };
     /// A picture.
     const PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture that is compared" };
     /// The results of a sweep.

@@ -5,6 +5,7 @@ use super::decisions::{SharedDecisions, axes_of};
 use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
+use crate::budget::Budget;
 use crate::command_line::values::Modes;
 use crate::planning::{self, View};
 use crate::system::interrupt;
@@ -13,7 +14,7 @@ use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand;
 use framewright_graph::frame::{Frame, Stereo};
-use framewright_graph::language::{Document, Reads};
+use framewright_graph::language::{Document, Read, Reads};
 use framewright_graph::plan::Totals;
 use framewright_graph::verify;
 use std::sync::Arc;
@@ -31,6 +32,8 @@ pub(crate) struct CheckedPipeline<'a> {
     pub(crate) devices: Vec<Arc<Profile>>,
     /// How Plans are made.
     pub(crate) options: Options,
+    /// The bounds that Plans are held to.
+    pub(crate) budget: &'a Budget,
     /// How frames are drawn for two eyes.
     pub(crate) stereo: Modes,
 }
@@ -102,11 +105,14 @@ impl<'a> VariantChecker<'a> {
         if let Some(large) = heap_size::too_large(plan, frame, profile) {
             return Err(vec![large]);
         }
-        if violations.is_empty() {
-            Ok(VerifiedPlan { identity: self.identities.of(plan), totals: plan.totals })
-        } else {
-            Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect())
+        if !violations.is_empty() {
+            return Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect());
         }
+        let breaches = self.subject.budget.breaches(plan, self.subject.sources);
+        if !breaches.is_empty() {
+            return Err(breaches);
+        }
+        Ok(VerifiedPlan { identity: self.identities.of(plan), totals: plan.totals })
     }
 
     fn frame(&mut self, choice: &Choice) -> ExpandedFrame {
@@ -128,9 +134,12 @@ impl<'a> VariantChecker<'a> {
     fn expand(&mut self, choice: &Choice) -> ExpandedFrame {
         let reads = Reads::default();
         let frame = self.expand_reading(choice, &reads).map(Arc::new);
-        let CheckedPipeline { pipeline, axes, .. } = self.subject;
+        let CheckedPipeline { pipeline, axes, budget, .. } = self.subject;
         let settings: Vec<&str> = pipeline.settings.iter().map(|setting| &*setting.name.text).collect();
-        ExpandedFrame { frame, reads: axes_of(&reads.in_order(), &settings, &axes.list).into() }
+        // The budget reads settings too, always the same ones.
+        let of_budget = budget.settings().filter_map(|name| settings.iter().position(|known| *known == name));
+        let reads: Vec<Read> = of_budget.map(Read::Setting).chain(reads.in_order()).collect();
+        ExpandedFrame { frame, reads: axes_of(&reads, &settings, &axes.list).into() }
     }
 
     fn expand_reading(&mut self, choice: &Choice, reads: &Reads) -> Result<Frame, Vec<Diagnostic>> {
@@ -174,6 +183,7 @@ mod tests {
             axes: Axes::of(&loaded.pipeline, &loaded.sources, &[], &names),
             devices: devices.to_vec(),
             options: arguments.planning.options(),
+            budget: &Budget::default(),
             stereo: loaded.stereo.clone(),
         };
         let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets()).expect("few variants");

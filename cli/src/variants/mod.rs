@@ -22,10 +22,12 @@ mod shaders;
 mod space;
 mod summary;
 
-use crate::command_line::args::CheckArguments;
-use crate::command_line::values::AnswerFormat;
+use crate::budget;
+use crate::command_line::args::{CheckArguments, CheckFormat};
+use crate::commands::check;
 use crate::error::Error;
-use crate::planning::{self, Loaded, View, device};
+use crate::findings;
+use crate::planning::{self, Loaded, device};
 use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
@@ -47,7 +49,7 @@ use std::time::Duration;
 /// Mistakes that every variant has; in the form for programs those are the answer. If there are too many variants.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let report = match report(arguments) {
-        Err(Error::Mistakes { mistakes }) if arguments.format == AnswerFormat::Json && mistakes.exit != Exit::Usage => {
+        Err(Error::Mistakes { mistakes }) if arguments.format != CheckFormat::Human && mistakes.exit != Exit::Usage => {
             Report {
                 diagnostics: base::to_json(&mistakes.sources, &mistakes.diagnostics),
                 ..Report::of_nothing(arguments)
@@ -56,8 +58,9 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
         report => report?,
     };
     let answer = match arguments.format {
-        AnswerFormat::Human => summary::human(&report),
-        AnswerFormat::Json => text::json(&report)?,
+        CheckFormat::Human => summary::human(&report),
+        CheckFormat::Json => text::json(&report)?,
+        format => findings::shown(format, &report.pipeline, &summary::cases(&report))?.unwrap_or_default(),
     };
     text::print(&answer).map_err(Error::Print)?;
     Ok(match (report.interrupted, report.fine) {
@@ -69,8 +72,9 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
 
 fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let devices = devices(arguments)?;
-    let loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
-    let view = View::without_scene(arguments.planning.rotate);
+    let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
+    let budget = budget::read(arguments.budget.as_deref(), &mut loaded)?;
+    let view = check::view(arguments);
     loaded.check_command_line(view)?;
     let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
@@ -85,6 +89,7 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
         axes,
         devices,
         options: arguments.planning.options(),
+        budget: &budget,
         stereo,
     };
     // Until here nothing is lost when the system ends the program.

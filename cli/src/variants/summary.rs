@@ -1,8 +1,10 @@
 //! The report for people.
 
 use super::report::{AxisEntry, FailureEntry, PlanEntry, Report, Variant};
+use crate::findings::Case;
 use crate::planning::totals;
 use crate::system::text;
+use serde_json::Value;
 use std::collections::HashMap;
 
 /// At most this many mistakes and Plans are shown to people. The JSON report has all.
@@ -23,6 +25,26 @@ pub(crate) fn human(report: &Report) -> String {
     answer += &plans(report);
     answer += &verdict(report);
     answer
+}
+
+/// A case for each mistake, and one for the variants that are fine.
+#[must_use]
+pub(crate) fn cases(report: &Report) -> Vec<Case> {
+    let shared = report.diagnostics.as_array().is_some_and(|all| !all.is_empty());
+    if shared {
+        return vec![Case::new("every variant", &report.diagnostics)];
+    }
+    let named = |failure: &FailureEntry| {
+        let variants = text::count(failure.variants, "variant", "variants");
+        format!("{variants}, first {}, on {}", with(&failure.breaks_with), failure.devices.join(", "))
+    };
+    let failing = report.failures.iter().zip(1..).map(|(failure, number)| {
+        Case::new(format!("mistake {number}: {}", named(failure)), &Value::Array(vec![failure.diagnostic.clone()]))
+    });
+    let mut cases: Vec<Case> = failing.collect();
+    let fine = text::count(report.checked - report.failing, "variant", "variants");
+    cases.push(Case { name: format!("{fine} without a mistake"), findings: Vec::new() });
+    cases
 }
 
 fn told(failure: &FailureEntry, devices: usize) -> String {

@@ -5,6 +5,7 @@ mod bad_shaders;
 mod beginning;
 mod book;
 mod broken_environment;
+mod budgets;
 mod cache;
 mod choosing;
 mod compare;

@@ -1,10 +1,12 @@
 //! `framewright check --device all`: a verdict for every shipped profile.
 
-use super::verdict::{Verdict, fine, verdict};
-use crate::command_line::args::CheckArguments;
-use crate::command_line::values::AnswerFormat;
+use super::verdict::{Verdict, fine, print_findings, verdict};
+use super::view;
+use crate::budget;
+use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
-use crate::planning::{self, View, device, notes};
+use crate::findings::Case;
+use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
@@ -48,8 +50,9 @@ struct Checked {
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let results = compile(arguments);
     match arguments.format {
-        AnswerFormat::Human => human(arguments, results?),
-        AnswerFormat::Json => json(arguments, results),
+        CheckFormat::Human => human(arguments, results?),
+        CheckFormat::Json => json(arguments, results),
+        format => for_ci(arguments, format, results),
     }
 }
 
@@ -60,6 +63,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
 fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
+    let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
     let options = arguments.planning.options();
     // The device decides whether the images of both eyes are layers or halves.
     let by_device = pipeline.pipeline.asks_device() || pipeline.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
@@ -68,13 +72,17 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
     for (name, profile) in device::all()? {
         let frame = match same.take() {
             Some(frame) => Ok(frame),
-            None => pipeline.frame(View::without_scene(arguments.planning.rotate), &profile),
+            None => pipeline.frame(view(arguments), &profile),
         };
         let result = match frame {
             Ok(frame) => {
                 busy.set_message(progress::compiling(&frame, &profile.name));
                 let plan = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
-                let result = plan.and_then(|plan| pipeline.fits(&plan, &frame, &profile).map(|()| plan));
+                let result = plan.and_then(|plan| {
+                    pipeline.fits(&plan, &frame, &profile)?;
+                    budget.holds(&plan, &pipeline.sources)?;
+                    Ok(plan)
+                });
                 same = Some(frame).filter(|_| !by_device);
                 result
             }
@@ -133,6 +141,31 @@ fn subject_and_text(note: &Note) -> (&str, &str) {
 
 fn indented(lines: &str) -> String {
     lines.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("  {line}\n") }).collect()
+}
+
+fn for_ci(
+    arguments: &CheckArguments,
+    format: CheckFormat,
+    results: Result<Vec<Checked>, Error>,
+) -> Result<Exit, Error> {
+    let (cases, exit) = match results {
+        Ok(results) => {
+            let cases = results.into_iter().map(|Checked { profile, device, result }| {
+                let Verdict { diagnostics, violations, .. } = verdict(device, result)?;
+                Ok(Case::new(profile, &diagnostics).violations(&violations))
+            });
+            let cases = cases.collect::<Result<Vec<Case>, Error>>()?;
+            let exit = if cases.iter().all(|case| case.findings.is_empty()) { Exit::Fine } else { Exit::Found };
+            (cases, exit)
+        }
+        Err(Error::Mistakes { mistakes }) => {
+            let case = Case::new("every device", &base::to_json(&mistakes.sources, &mistakes.diagnostics));
+            (vec![case], Error::Mistakes { mistakes }.exit())
+        }
+        Err(other) => return Err(other),
+    };
+    print_findings(arguments, format, &cases)?;
+    Ok(exit)
 }
 
 fn json(arguments: &CheckArguments, results: Result<Vec<Checked>, Error>) -> Result<Exit, Error> {

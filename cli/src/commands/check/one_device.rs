@@ -1,10 +1,12 @@
 //! `framewright check` on one device.
 
-use super::verdict::{Verdict, fine, verdict};
-use crate::command_line::args::CheckArguments;
-use crate::command_line::values::AnswerFormat;
+use super::verdict::{Verdict, fine, print_findings, verdict};
+use super::view;
+use crate::budget;
+use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
-use crate::planning::{self, View, device, notes};
+use crate::findings::Case;
+use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Estimated, Profile};
@@ -28,25 +30,41 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let profile = device::choose(arguments.device.as_deref(), &ReadFiles::default())?;
     let result = plan(arguments, &profile);
     match arguments.format {
-        AnswerFormat::Human => {
+        CheckFormat::Human => {
             let plan = result?;
             let fine = fine(arguments, &plan.device.name, &plan.totals);
             let notes = notes::lines(notes::worth_showing(&plan.notes)).into_iter().map(|line| line + "\n");
             text::print(&(fine + "\n" + &notes.collect::<String>())).map_err(Error::Print)?;
             Ok(Exit::Fine)
         }
-        AnswerFormat::Json => json(arguments, &profile, result),
+        CheckFormat::Json => json(arguments, &profile, result),
+        format => for_ci(arguments, format, &profile, result),
     }
 }
 
 fn plan(arguments: &CheckArguments, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
-    let frame = pipeline.frame(View::without_scene(arguments.planning.rotate), profile)?;
+    let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
+    let frame = pipeline.frame(view(arguments), profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
     let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
     pipeline.fits(&plan, &frame, profile)?;
+    budget.holds(&plan, &pipeline.sources)?;
     Ok(plan)
+}
+
+fn for_ci(
+    arguments: &CheckArguments,
+    format: CheckFormat,
+    profile: &Profile,
+    result: Result<Plan, Error>,
+) -> Result<Exit, Error> {
+    let exit = result.as_ref().map_or_else(Error::exit, |_| Exit::Fine);
+    let Verdict { device, diagnostics, violations, .. } = verdict(profile.name.clone(), result)?;
+    let case = Case::new(device, &diagnostics).violations(&violations);
+    print_findings(arguments, format, &[case])?;
+    Ok(exit)
 }
 
 fn json(arguments: &CheckArguments, profile: &Profile, result: Result<Plan, Error>) -> Result<Exit, Error> {

@@ -1,7 +1,8 @@
 //! The verdict on a pipeline on one device.
 
-use crate::command_line::args::CheckArguments;
+use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
+use crate::findings::{self, Case};
 use crate::planning::totals;
 use crate::system::text;
 use framewright_graph::base;
@@ -44,6 +45,15 @@ pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Ver
         Err(other) => return Err(other),
     }
     Ok(verdict)
+}
+
+/// Prints findings in one of the forms for CI.
+///
+/// # Errors
+/// If they can't be printed.
+pub(crate) fn print_findings(arguments: &CheckArguments, format: CheckFormat, cases: &[Case]) -> Result<(), Error> {
+    let shown = findings::shown(format, &arguments.pipeline.file.to_string_lossy(), cases)?;
+    text::print(&shown.unwrap_or_default()).map_err(Error::Print)
 }
 
 /// The sentence for a pipeline without mistakes, with its Plan's totals.

@@ -1,0 +1,104 @@
+//! What a bound is on, and how much of it each step of a Plan adds.
+
+use framewright_graph::plan::{Moved, Plan, Role, Step, Totals};
+
+/// A quantity that a budget bounds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Bound {
+    Passes,
+    InsertedPasses,
+    Scopes,
+    Resolves,
+    Copies,
+    Barriers,
+    BarrierCalls,
+    Waits,
+    MemoryMib,
+    LoadedMib,
+    StoredMib,
+    ResolvedMib,
+    CopiedMib,
+    MovedMib,
+}
+
+/// Bytes of a MiB.
+const MIB: f64 = (1 << 20) as f64;
+
+impl Bound {
+    /// The quantity in words, and its unit.
+    pub(super) fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Bound::Passes => ("passes", ""),
+            Bound::InsertedPasses => ("inserted passes", ""),
+            Bound::Scopes => ("rendering scopes", ""),
+            Bound::Resolves => ("resolves", ""),
+            Bound::Copies => ("copies", ""),
+            Bound::Barriers => ("barriers", ""),
+            Bound::BarrierCalls => ("barrier calls", ""),
+            Bound::Waits => ("waits", ""),
+            Bound::MemoryMib => ("transient memory", " MiB"),
+            Bound::LoadedMib => ("loaded", " MiB"),
+            Bound::StoredMib => ("stored", " MiB"),
+            Bound::ResolvedMib => ("resolved", " MiB"),
+            Bound::CopiedMib => ("copied", " MiB"),
+            Bound::MovedMib => ("moved", " MiB"),
+        }
+    }
+
+    /// All of it in a Plan.
+    pub(super) fn of(self, plan: &Plan) -> f64 {
+        match self {
+            Bound::MemoryMib => plan.totals.placed_bytes as f64 / MIB,
+            _ => plan.steps.iter().map(|step| self.of_step(plan, step)).sum(),
+        }
+    }
+
+    /// The step that breaks it: the one that goes beyond `most`, or for memory the first in which most is alive.
+    pub(super) fn broken_by(self, plan: &Plan, most: f64) -> Option<usize> {
+        if self == Bound::MemoryMib {
+            let alive = alive(plan);
+            return (0..alive.len()).rev().max_by_key(|at| alive[*at]);
+        }
+        let mut sum = 0.0;
+        plan.steps.iter().position(|step| {
+            sum += self.of_step(plan, step);
+            sum > most
+        })
+    }
+
+    fn of_step(self, plan: &Plan, step: &Step) -> f64 {
+        let totals = Totals::count(std::slice::from_ref(step));
+        let Moved { loaded, stored, resolved, copied } = plan.moved_by(step);
+        match self {
+            Bound::Passes => totals.passes.into(),
+            Bound::InsertedPasses => totals.inserted_passes.into(),
+            Bound::Scopes => totals.scopes.into(),
+            Bound::Resolves => totals.resolves.into(),
+            Bound::Copies => totals.copies.into(),
+            Bound::Barriers => f64::from(totals.image_barriers) + f64::from(totals.memory_barriers),
+            Bound::BarrierCalls => totals.barrier_calls.into(),
+            Bound::Waits => totals.waits.into(),
+            Bound::MemoryMib => 0.0,
+            Bound::LoadedMib => loaded as f64 / MIB,
+            Bound::StoredMib => stored as f64 / MIB,
+            Bound::ResolvedMib => resolved as f64 / MIB,
+            Bound::CopiedMib => copied as f64 / MIB,
+            Bound::MovedMib => plan.moved_by(step).sum() as f64 / MIB,
+        }
+    }
+}
+
+/// Transient bytes that are alive at each step.
+fn alive(plan: &Plan) -> Vec<u64> {
+    let mut alive = vec![0_u64; plan.steps.len()];
+    let roles = plan.images.iter().map(|image| &image.role).chain(plan.buffers.iter().map(|buffer| &buffer.role));
+    for role in roles {
+        if let Role::Transient(placement) = role {
+            let [first, last] = placement.lifetime.map(|step| step.0 as usize);
+            for at in alive.iter_mut().take(last + 1).skip(first) {
+                *at = at.saturating_add(placement.bytes);
+            }
+        }
+    }
+    alive
+}
