@@ -111,6 +111,9 @@ pub(crate) enum Error {
     /// A file is no Plan, or not a right one.
     #[error("{}: {}", text::path(path), text::escape_lines(problem))]
     NoPlan { path: PathBuf, problem: String },
+    /// The Plan doesn't know what is to be explained.
+    #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
+    NothingToExplain { thing: String, help: Option<String> },
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -292,6 +295,7 @@ impl Error {
             | Error::Joining(_)
             | Error::NoFlicker { .. }
             | Error::NoPlan { .. }
+            | Error::NothingToExplain { .. }
             | Error::TooManyNodes { .. }
             | Error::OutsideResults { .. }
             | Error::Csv(_)

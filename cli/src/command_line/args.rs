@@ -3,6 +3,7 @@
 use crate::command_line::choosing::ChooseArguments;
 use crate::command_line::comparing::CompareArguments;
 use crate::command_line::differing::DiffArguments;
+use crate::command_line::explaining::ExplainArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 use crate::command_line::values::{
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     /// Print the differences between two Plans: what another file, setting or device does to passes, resolves, barriers and memory.
     /// Needs no GPU.
     Diff(DiffArguments),
+    /// Print why a pass, an image, a resolve or a barrier is in a Plan, or isn't. Needs no GPU.
+    Explain(ExplainArguments),
     /// Draw a scene through a pipeline.
     Run(RunArguments),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.

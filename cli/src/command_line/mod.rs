@@ -4,6 +4,7 @@ pub(crate) mod args;
 pub(crate) mod choosing;
 pub(crate) mod comparing;
 pub(crate) mod differing;
+pub(crate) mod explaining;
 pub(crate) mod measuring;
 pub(crate) mod merging;
 pub(crate) mod options;

@@ -6,6 +6,7 @@ mod choose;
 mod compare;
 mod devices;
 mod diff;
+mod explain;
 mod facts;
 mod inspect;
 mod merge;
@@ -27,6 +28,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Check(arguments) => check::check(arguments),
         Command::Inspect(arguments) => inspect::inspect(arguments),
         Command::Diff(arguments) => diff::diff(arguments),
+        Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),

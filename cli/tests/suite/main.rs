@@ -15,6 +15,7 @@ mod depth_ladder;
 mod diff;
 mod encodings;
 mod every_device;
+mod explain;
 mod extend;
 mod facts;
 mod halves;

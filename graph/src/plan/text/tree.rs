@@ -4,7 +4,7 @@ use super::changes;
 use super::decided::Decisions;
 use super::lists::{buffer, image, note, output, totals, view};
 use super::outline::{About, Outline};
-use super::words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_list};
+use super::words::{bytes, cause, fill_value, hazard, needless_if, samples, size, words_of, words_of_list};
 use crate::frame::{
     Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, Property, StencilState, Stereo, Subject,
 };
@@ -378,7 +378,8 @@ impl Tree<'_> {
         };
         let who = self.who(barrier.needed_by, |pass| pass.accesses.iter().any(|access| access.image == barrier.image));
         let ImageBarrier { src_stages, src_accesses, dst_stages, dst_accesses, .. } = *barrier;
-        let scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
+        let mut scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
+        scopes.extend(self.detail.verbose.then(|| Outline::leaf(needless_if(barrier.hazard))));
         let text = format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after));
         Outline::new(text, scopes).about(About::Image(barrier.image))
     }

@@ -22,6 +22,18 @@ pub(super) fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String
     }
 }
 
+/// The change that would make a barrier needless.
+pub(super) fn needless_if(hazard: Hazard) -> &'static str {
+    match hazard {
+        Hazard::FirstUse => "goes with the image: each needs one before its first use in a frame",
+        Hazard::ReadAfterWrite => "goes if the reader reads something else, or its own pixel in the writer's scope",
+        Hazard::WriteAfterRead | Hazard::WriteAfterWrite => "goes if the write goes to an image or buffer of its own",
+        Hazard::LayoutChange => "goes if all readers read it in the same way",
+        Hazard::Export => "goes if the state that the last use leaves it in is the promised one",
+        Hazard::Ownership => "goes if both steps run on one queue: `--one-queue`",
+    }
+}
+
 pub(super) fn words_of_list(list: DrawList) -> &'static str {
     match list {
         DrawList::Opaque => "opaque",

@@ -1,0 +1,57 @@
+//! `framewright explain`: why something is in a Plan, or isn't, in a few lines. Without a GPU.
+
+mod subject;
+
+use crate::command_line::explaining::ExplainArguments;
+use crate::command_line::values::AnswerFormat;
+use crate::error::Error;
+use crate::files::inputs;
+use crate::planning::{self, View, device};
+use crate::system::{Exit, text};
+use framewright_graph::base::ReadFiles;
+use framewright_graph::device::Estimated;
+use framewright_graph::plan::Outline;
+use framewright_passes::scene::Scene;
+use serde::Serialize;
+use subject::Explained;
+
+/// The answer for programs.
+#[derive(Debug, Serialize)]
+struct Answer<'a> {
+    format_version: u32,
+    thing: &'a str,
+    device: &'a str,
+    /// What there is to say, each with the lines under it.
+    explanations: Vec<Outline>,
+    /// Where to read on.
+    read_on: Vec<String>,
+}
+
+/// Explains a thing.
+///
+/// # Errors
+/// If the pipeline, the scene or the profile is wrong, or there is no such thing in the Plan.
+pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    let profile = device::choose(arguments.device.as_deref(), &read)?;
+    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let scene = arguments.scene.as_deref().map(|file| inputs::scene(file, &read)).transpose()?;
+    let facts = scene.as_ref().map(Scene::facts);
+    let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
+    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
+    let thing = arguments.thing.as_str();
+    let Explained { explanations, read_on } = subject::explained(&plan, thing)
+        .ok_or_else(|| Error::NothingToExplain { thing: thing.to_owned(), help: subject::names_near(&plan, thing) })?;
+    let read_on: Vec<String> = read_on.into_iter().map(str::to_owned).collect();
+    let answer = match arguments.format {
+        AnswerFormat::Human => {
+            let told: Vec<String> = explanations.iter().map(|one| text::escape_lines(&one.draw())).collect();
+            format!("{}\nread on: {}\n", told.join("\n"), read_on.join("; "))
+        }
+        AnswerFormat::Json => {
+            text::json(&Answer { format_version: 1, thing, device: &plan.device.name, explanations, read_on })?
+        }
+    };
+    text::print(&answer).map_err(Error::Print)?;
+    Ok(Exit::Fine)
+}
