@@ -165,6 +165,9 @@ pub(crate) struct RunArguments {
     /// Also write the last version of an image, resolved if it is multisampled; this may change the Plan. Repeatable.
     #[arg(long, value_name = "IMAGE=FILE.png", value_parser = dump)]
     pub(crate) dump: Vec<Dump>,
+    /// Folder for every image after every pass that wrote it, in the last frame. These are drawn by Plans of their own.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) dump_all: Option<PathBuf>,
     /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
     #[arg(long)]
     pub(crate) validate: bool,

@@ -150,14 +150,14 @@ fn no_output(frame: &Frame, name: &str) -> Error {
 }
 
 /// The layers of an image by themselves.
-fn layers(texels: Texels) -> Vec<Texels> {
+pub(super) fn layers(texels: Texels) -> Vec<Texels> {
     let bytes = texels.bytes.len() / texels.layers.max(1) as usize;
     let layer = |bytes: &[u8]| Texels { layers: 1, bytes: bytes.to_vec(), ..texels };
     texels.bytes.chunks(bytes.max(1)).map(layer).collect()
 }
 
 /// Pictures of the same size and format beside each other, the first one on the left.
-fn side_by_side(mut eyes: Vec<Texels>) -> Texels {
+pub(super) fn side_by_side(mut eyes: Vec<Texels>) -> Texels {
     let mut all = eyes.swap_remove(0);
     for other in eyes {
         let row = |texels: &Texels| texels.bytes.len() / texels.extent[1].max(1) as usize;

@@ -4,6 +4,7 @@
 //! It is plain data, so an embedding program may also build it without any file.
 
 mod access;
+mod capture;
 pub mod change;
 mod covers;
 mod decided;
@@ -18,6 +19,7 @@ mod uses;
 mod view;
 
 pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
+pub use capture::Capture;
 pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};

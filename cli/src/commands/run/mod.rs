@@ -4,20 +4,23 @@ mod layer;
 mod report;
 
 use crate::command_line::args::RunArguments;
+use crate::drawing::captures::{self, Drawing};
 use crate::drawing::pictures::{EncodedPicture, PictureRequest};
 use crate::drawing::{Prepared, diagnostics, pictures, timings};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
+use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, Planned, View, device, notes};
 use crate::system::{Exit, interrupt, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Image, Lifetime, Stereo};
 use framewright_graph::plan::{Stage, Totals};
-use framewright_graph::vulkan::Layout;
+use framewright_graph::vulkan::{Format, Layout, Subresources};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
 use report::{Report, Validation};
+use serde::Serialize;
 use std::path::Path;
 
 pub(crate) use report::DeviceUsed;
@@ -87,6 +90,13 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         validation: None,
         files: arguments.written().map(shown).collect(),
     };
+    if let Some(folder) = &arguments.dump_all {
+        let options = arguments.planning.options();
+        let (scene, size, frames) = (&scene, arguments.size, arguments.frames);
+        let drawing =
+            Drawing { device: &device, pipeline: &mut pipeline, planned: &planned, scene, size, options, frames };
+        dump_all(drawing, folder, &read)?;
+    }
     // The layer may have something to say about the device's end too.
     let messages = device.messages();
     drop(device);
@@ -98,6 +108,51 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     outputs::write(&files.collect::<Vec<_>>(), &read)?;
     text::print(&report.table()).map_err(Error::Print)?;
     Ok(if report.validation.is_some_and(|validation| validation.findings > 0) { Exit::Found } else { Exit::Fine })
+}
+
+/// Writes every image after every pass that wrote it, and a list of them.
+fn dump_all(drawing: Drawing<'_>, folder: &Path, read: &ReadFiles) -> Result<(), Error> {
+    outputs::make_folder(folder)?;
+    let mut list = Vec::new();
+    captures::draw(drawing, |captured| {
+        // Bit for bit, where a format of files can.
+        let exact = FileFormat::OpenExr.holds(captured.format);
+        let (format, ending) = if exact { (FileFormat::OpenExr, "exr") } else { (FileFormat::Png, "png") };
+        let file = format!("{}.{ending}", captured.name());
+        outputs::write(&[(&folder.join(&file), &captured.encoded(format)?)], read)?;
+        list.push(DumpedImage {
+            pass: captured.capture.pass.to_string(),
+            image: captured.capture.image.to_string(),
+            format: captured.format,
+            size: captured.extent,
+            part: captured.capture.range,
+            file,
+        });
+        Ok(())
+    })?;
+    let list = text::json(&Dumped { format_version: 1, images: list })?;
+    outputs::write(&[(&folder.join("images.json"), list.as_bytes())], read)
+}
+
+/// The list of images that were dumped.
+#[derive(Serialize)]
+struct Dumped {
+    format_version: u32,
+    images: Vec<DumpedImage>,
+}
+
+/// An image that was dumped.
+#[derive(Serialize)]
+struct DumpedImage {
+    /// The pass that wrote it last.
+    pass: String,
+    image: String,
+    format: Format,
+    /// Width and height of the picture; layers stand side by side.
+    size: [u32; 2],
+    /// The part of the image that the pass wrote.
+    part: Subresources,
+    file: String,
 }
 
 /// Errors of the device and of shaders after Ctrl-C are an interrupt: waiting for either was given up.

@@ -30,7 +30,7 @@ pub(super) fn needless_if(hazard: Hazard) -> &'static str {
         Hazard::WriteAfterRead | Hazard::WriteAfterWrite => "goes if the write goes to an image or buffer of its own",
         Hazard::LayoutChange => "goes if all readers read it in the same way",
         Hazard::Export => "goes if the state that the last use leaves it in is the promised one",
-        Hazard::Ownership => "goes if both steps run on one queue: `--one-queue`",
+        Hazard::Ownership => "goes if both steps run on one queue",
     }
 }
 

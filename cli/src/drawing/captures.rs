@@ -1,0 +1,149 @@
+//! Every image after every pass that wrote it.
+//!
+//! Captures are drawn by Plans of their own, in which nothing shares memory. A Plan holds so many captures as fit a bound of memory;
+//! the frames are drawn anew for each.
+
+use super::Prepared;
+use super::pictures::{layers, side_by_side};
+use crate::command_line::values::Size;
+use crate::error::Error;
+use crate::picture::{FileFormat, Picture};
+use crate::planning::{Loaded, Planned};
+use crate::system::interrupt;
+use framewright_graph::compile::Options;
+use framewright_graph::dataflow::Dataflow;
+use framewright_graph::frame::Capture;
+use framewright_graph::vulkan::Format;
+use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, ExecutorOptions, Texels};
+use std::collections::HashSet;
+
+/// Captures of one Plan take at most about this many bytes.
+const MOST_BYTES: u64 = 256 << 20;
+/// A Plan has at most this many captures.
+const MOST: usize = 64;
+
+/// What captures are drawn with.
+pub(crate) struct Drawing<'a> {
+    pub(crate) device: &'a Device,
+    pub(crate) pipeline: &'a mut Loaded,
+    pub(crate) planned: &'a Planned,
+    pub(crate) scene: &'a Scene,
+    pub(crate) size: Size,
+    pub(crate) options: Options,
+    /// The captures are those of the last of this many frames.
+    pub(crate) frames: u32,
+}
+
+/// What a pass left in an image. Layers stand side by side; of slices there is the first.
+pub(crate) struct Captured {
+    /// Its number, counted over all captures.
+    pub(crate) number: usize,
+    pub(crate) capture: Capture,
+    pub(crate) format: Format,
+    pub(crate) extent: [u32; 2],
+    /// Rows from the top, as [`Texels`] has them.
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl Captured {
+    /// A name for files: the number, the pass, the image, and the part if it isn't all.
+    pub(crate) fn name(&self) -> String {
+        let Capture { pass, image, range, .. } = &self.capture;
+        let mut name = format!("{:03}-{pass}-{image}", self.number);
+        if range.base_mip > 0 {
+            name += &format!("-mip{}", range.base_mip);
+        }
+        if range.base_layer > 0 {
+            name += &format!("-layer{}", range.base_layer);
+        }
+        name.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()
+    }
+
+    /// The picture as a file.
+    ///
+    /// # Errors
+    /// If it can't be encoded.
+    pub(crate) fn encoded(&self, format: FileFormat) -> Result<Vec<u8>, Error> {
+        let picture = Picture { format: self.format, encoding: None, extent: self.extent, bytes: &self.bytes };
+        let name = self.capture.image.to_string();
+        format.encode(&picture).map_err(|problem| Error::Picture { image: name, problem })
+    }
+}
+
+/// Draws all captures, and hands each to `take`.
+///
+/// # Errors
+/// Those of planning and drawing, and of `take`.
+pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Result<(), Error>) -> Result<usize, Error> {
+    let Drawing { device, pipeline, planned, scene, size, options, frames } = drawing;
+    let flow = Dataflow::of(&planned.plan);
+    let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
+    let captures = planned.frame.captures(|pass| runs.contains(pass));
+    let options = Options { alias: false, ..options };
+    let mut done = 0;
+    for batch in batches(&captures) {
+        let frame = planned.frame.with_captures(batch);
+        let plan = pipeline.compile(&frame, &device.profile(), &mut device.memory(), &options)?;
+        let own = Planned { frame, plan };
+        let first = own.frame.outputs.len() - batch.len();
+        let mut prepared = Prepared::new(device, &own, pipeline, scene, size, &ExecutorOptions::default())?;
+        for drawn in 0..frames {
+            if interrupt::asked() {
+                return Err(Error::Interrupted { frames: drawn, wanted: frames });
+            }
+            prepared.draw()?;
+        }
+        for (at, capture) in batch.iter().enumerate() {
+            let texels = prepared.executor.read(first + at)?;
+            let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(layers(texels));
+            let captured = Captured { number: done, capture: capture.clone(), format, extent: [width, height], bytes };
+            take(captured)?;
+            done += 1;
+        }
+    }
+    Ok(done)
+}
+
+/// Parts of the captures that one Plan holds each.
+fn batches(captures: &[Capture]) -> impl Iterator<Item = &[Capture]> {
+    let mut rest = captures;
+    std::iter::from_fn(move || {
+        let mut bytes = 0_u64;
+        let fitting = rest.iter().take(MOST).take_while(|capture| {
+            bytes = bytes.saturating_add(capture.bytes);
+            bytes <= MOST_BYTES
+        });
+        let count = fitting.count().max(1).min(rest.len());
+        let (batch, later) = rest.split_at(count);
+        rest = later;
+        (!batch.is_empty()).then_some(batch)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_graph::base::Span;
+    use framewright_graph::frame::Blend;
+    use framewright_graph::frame::{ColorTarget, Draw, Frame, Image, ImageIndex, Pass, Work};
+    use framewright_graph::vulkan::Subresources;
+
+    #[test]
+    fn batches_hold_all_captures_in_order_within_their_bounds() {
+        let mut frame = Frame::default();
+        for side in [64, 9000, 9000, 8, 8] {
+            let image = ImageIndex(u32::try_from(frame.images.len()).expect("few"));
+            frame.images.push(Image::new(&format!("i{}", image.0), Format::R8G8B8A8_SRGB, side, side));
+            let work = Work::Draw { draw: Draw::FullScreen, shader: "s".into(), discards: false, per_sample: false };
+            let target =
+                ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace };
+            frame.passes.push(Pass { color: vec![target], ..Pass::new(&format!("p{}", image.0), work) });
+        }
+        let captures = frame.captures(|_| true);
+        let sizes: Vec<usize> = batches(&captures).map(<[Capture]>::len).collect();
+        assert_eq!(sizes, [1, 1, 1, 2], "9000 × 9000 texels take more than a batch");
+        assert!(batches(&captures).flatten().eq(&captures));
+        assert_eq!(batches(&[]).count(), 0);
+    }
+}
