@@ -114,6 +114,9 @@ pub(crate) enum Error {
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
+    /// Captured pictures have no place but a page.
+    #[error("`--capture` puts pictures on a page: add `--format html`")]
+    CaptureWithoutPage,
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -327,6 +330,7 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::Sweep { .. }
+            | Error::CaptureWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }

@@ -136,6 +136,9 @@ pub(crate) struct InspectArguments {
     /// Form of the Plan.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: PlanFormat,
+    /// Draw the scene, and put every image after every pass that wrote it on the page. Needs a Vulkan device, whose Plan is shown.
+    #[arg(long, requires = "scene", requires = "output", conflicts_with = "device")]
+    pub(crate) capture: bool,
     /// Say the stages and accesses of each barrier too, and the bytes that each step moves.
     #[arg(long)]
     pub(crate) verbose: bool,

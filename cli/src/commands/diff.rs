@@ -48,7 +48,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
                 Shown { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
                 Shown { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
             ];
-            inspection::page(&Page { plans, differences: Some(&differences), devices: &[] })?
+            inspection::page(&Page { plans, differences: Some(&differences), devices: &[], captures: &[] })?
         }
     };
     match &arguments.output {

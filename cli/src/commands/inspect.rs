@@ -1,19 +1,22 @@
 //! `framewright inspect`: the Plan of a pipeline, without a GPU.
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
+use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
-use crate::inspection::{self, MOST_NODES, OnDevice, Page, Shown};
+use crate::inspection::{self, MOST_NODES, OnDevice, Page, Shown, Thumbnail};
+use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, View, device};
-use crate::system::{Exit, text};
+use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
 use framewright_graph::difference::Differences;
-use framewright_graph::frame::DrawList;
+use framewright_graph::frame::{Capture, DrawList};
 use framewright_graph::plan::{Detail, Plan};
 use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, DeviceOptions};
 use std::path::Path;
 
 /// Prints or writes a Plan.
@@ -27,13 +30,25 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     arguments.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
-    let profile = device::choose(arguments.device.as_deref(), &read)?;
     let mut pipeline = planning::load(&arguments.pipeline, &read)?;
     let scene = arguments.scene.as_deref().map(|file| inputs::scene(file, &read)).transpose()?;
     spare()?;
+    if arguments.capture && arguments.format != PlanFormat::Html {
+        return Err(Error::CaptureWithoutPage);
+    }
+    let drawn_on = if arguments.capture { Some(open(&pipeline)?) } else { None };
+    let profile = match &drawn_on {
+        Some(device) => device.profile(),
+        None => device::choose(arguments.device.as_deref(), &read)?,
+    };
     let facts = scene.as_ref().map(Scene::facts);
     let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
-    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
+    let options = arguments.planning.options();
+    let planned = match &drawn_on {
+        Some(device) => pipeline.plan(view, &profile, &mut device.memory(), &options)?,
+        None => pipeline.plan(view, &profile, &mut Estimated(&profile), &options)?,
+    };
+    let plan = &planned.plan;
     let counted = |list| scene.as_ref().map_or(0, |scene| objects(scene, list));
     let objects: Option<&dyn Fn(DrawList) -> usize> = scene.is_some().then_some(&counted);
     let detail = Detail { objects, verbose: arguments.verbose };
@@ -41,14 +56,22 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let shown = match arguments.format {
         PlanFormat::Tree => text::escape_lines(&plan.outline(detail).draw()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),
-        PlanFormat::Dot => inspection::dot(&plan, &Dataflow::of(&plan)),
-        PlanFormat::Mermaid => inspection::mermaid(&plan, &Dataflow::of(&plan)),
-        PlanFormat::Svg => inspection::svg(&plan, &laid_out(&plan)?),
+        PlanFormat::Dot => inspection::dot(plan, &Dataflow::of(plan)),
+        PlanFormat::Mermaid => inspection::mermaid(plan, &Dataflow::of(plan)),
+        PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
         PlanFormat::Html => {
-            let devices = on_devices(&mut pipeline, view, arguments, (&*name, &plan))?;
+            let devices = on_devices(&mut pipeline, view, arguments, (&*name, plan))?;
+            let captures = match (&drawn_on, &scene, &arguments.output) {
+                (Some(device), Some(scene), Some(page)) => {
+                    let (planned, size) = (&planned, arguments.size);
+                    let pipeline = &mut pipeline;
+                    captured(Drawing { device, pipeline, planned, scene, size, options, frames: 1 }, page, &read)?
+                }
+                _ => Vec::new(),
+            };
             let detail = Detail { verbose: true, ..detail };
-            let shown = Shown { name: name.into_owned(), plan: &plan, detail, sources: Some(&pipeline.sources) };
-            inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices })?
+            let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+            inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?
         }
     };
     match &arguments.output {
@@ -56,6 +79,39 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         None => text::print(&shown).map_err(Error::Print)?,
     }
     Ok(Exit::Fine)
+}
+
+/// The device that captures are drawn on.
+fn open(pipeline: &Loaded) -> Result<Device, Error> {
+    // Until here nothing is lost when the system ends the program.
+    interrupt::watch();
+    let helper = Some(pipeline.helper.clone());
+    let choice = device::to_draw_on(None)?;
+    let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
+    device.cancel_when(interrupt::asked);
+    Ok(device)
+}
+
+/// Draws every image after every pass that wrote it, and writes the pictures to a folder beside the page.
+fn captured(drawing: Drawing<'_>, page: &Path, read: &ReadFiles) -> Result<Vec<Thumbnail>, Error> {
+    let stem = page.file_stem().unwrap_or(page.as_os_str()).to_string_lossy();
+    let name = format!("{stem}.images");
+    let folder = page.with_file_name(&name);
+    outputs::make_folder(&folder)?;
+    let mut thumbnails = Vec::new();
+    captures::draw(drawing, |captured| {
+        let file = captured.name();
+        outputs::write(&[(&folder.join(format!("{file}.png")), &captured.encoded(FileFormat::Png)?)], read)?;
+        if FileFormat::OpenExr.holds(captured.format) {
+            let exact = captured.encoded(FileFormat::OpenExr)?;
+            outputs::write(&[(&folder.join(format!("{file}.exr")), &exact)], read)?;
+        }
+        let Capture { pass, image, .. } = &captured.capture;
+        let names = [pass.to_string(), image.to_string(), captured.part(), format!("{name}/{file}.png")];
+        thumbnails.push(Thumbnail::new(names, captured.format, captured.extent, &captured.bytes));
+        Ok(())
+    })?;
+    Ok(thumbnails)
 }
 
 /// How many objects of a scene are in a draw list.

@@ -47,6 +47,14 @@ pub(crate) struct Captured {
 }
 
 impl Captured {
+    /// The part of the image in words; empty for its first level and layers.
+    pub(crate) fn part(&self) -> String {
+        let range = &self.capture.range;
+        let mip = (range.base_mip > 0).then(|| format!("mip level {}", range.base_mip));
+        let layer = (range.base_layer > 0).then(|| format!("layer {}", range.base_layer));
+        mip.into_iter().chain(layer).collect::<Vec<_>>().join(", ")
+    }
+
     /// A name for files: the number, the pass, the image, and the part if it isn't all.
     pub(crate) fn name(&self) -> String {
         let Capture { pass, image, range, .. } = &self.capture;

@@ -12,11 +12,13 @@ mod mermaid;
 mod page;
 mod summary;
 mod svg;
+mod thumbnail;
 
 pub(crate) use dot::dot;
 pub(crate) use mermaid::mermaid;
 pub(crate) use page::{OnDevice, Page, Shown, page};
 pub(crate) use svg::svg;
+pub(crate) use thumbnail::Thumbnail;
 
 /// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
 pub(crate) const MOST_NODES: usize = 3000;

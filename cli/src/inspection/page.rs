@@ -2,7 +2,7 @@
 
 use super::labels::{Graph, Vertex};
 use super::layout::{Layout, layout};
-use super::{MOST_NODES, summary};
+use super::{MOST_NODES, Thumbnail, summary};
 use crate::system::html::{self, Template};
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
@@ -22,10 +22,12 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("page/memory.js"),
         include_str!("page/steps.js"),
         include_str!("page/lists.js"),
+        include_str!("page/pictures.js"),
         include_str!("page/details.js"),
         include_str!("page/main.js"),
     ),
-    images: "data:",
+    // Captured pictures lie beside the page, wherever that is.
+    images: "'self' file:",
 };
 
 /// What a page shows.
@@ -36,6 +38,8 @@ pub(crate) struct Page<'a> {
     pub(crate) differences: Option<&'a Differences>,
     /// What other devices change.
     pub(crate) devices: &'a [OnDevice],
+    /// Images after the passes that wrote them, in the order of the passes.
+    pub(crate) captures: &'a [Thumbnail],
 }
 
 /// A Plan on a page.
@@ -65,6 +69,7 @@ struct Data<'a> {
     plans: Vec<PlanData<'a>>,
     differences: Option<&'a Differences>,
     devices: &'a [OnDevice],
+    captures: &'a [Thumbnail],
 }
 
 #[derive(Serialize)]
@@ -124,7 +129,8 @@ struct SourceText<'a> {
 /// If a Plan has no JSON form.
 pub(crate) fn page(page: &Page<'_>) -> serde_json::Result<String> {
     let plans = page.plans.iter().map(plan_data).collect();
-    html::page(&TEMPLATE, &Data { plans, differences: page.differences, devices: page.devices })
+    let Page { differences, devices, captures, .. } = *page;
+    html::page(&TEMPLATE, &Data { plans, differences, devices, captures })
 }
 
 fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {

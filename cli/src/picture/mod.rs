@@ -14,6 +14,7 @@ mod file_format;
 mod light;
 mod png;
 mod texel;
+pub(crate) mod values;
 
 pub(crate) use data::{EncodingError, Picture};
 pub(crate) use file_format::FileFormat;

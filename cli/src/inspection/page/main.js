@@ -10,6 +10,7 @@ const VIEWS = [
   { name: "notes", title: "Decisions", make: notesView },
   { name: "source", title: "Source", make: sourceView },
 ];
+if (DATA.captures.length > 0) VIEWS.splice(2, 0, { name: "pictures", title: "Pictures", make: picturesView, once: true });
 if (DATA.differences) VIEWS.unshift({ name: "differences", title: "Differences", make: comparedView, once: true });
 if (DATA.devices.length > 0) VIEWS.push({ name: "devices", title: "Other devices", make: devicesView });
 
