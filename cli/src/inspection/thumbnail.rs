@@ -1,6 +1,6 @@
 //! Small pictures of captured images, with the numbers of their texels: the page draws them with any exposure.
 
-use crate::picture::values::{components, is_light, texel_bytes, values};
+use crate::picture::values::{components, is_light, srgb_byte, texel_bytes, values};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use framewright_graph::vulkan::{Format, Numeric};
@@ -30,7 +30,7 @@ pub(crate) struct Thumbnail {
     channels: usize,
     /// Whether the numbers are light; else they are depth or integers.
     light: bool,
-    /// The numbers are `f16`, `f32`, or `u8` for 255ths.
+    /// The numbers are `f16`, `f32`, `u8` for 255ths, or `srgb` for 255ths in the curve of sRGB, in which alpha isn't.
     numbers: &'static str,
     /// The texels, row after row, little-endian, in base64.
     data: String,
@@ -50,14 +50,17 @@ impl Thumbnail {
         let longer = size[0].max(size[1]).max(1);
         let small = size.map(|side| if longer > MOST { (side * MOST / longer).max(1) } else { side });
         let numbers = match format.numeric() {
-            Numeric::Unorm | Numeric::Srgb if !format.is_depth() && format.texel_bytes() <= 4 => "u8",
+            Numeric::Srgb => "srgb",
+            Numeric::Unorm if !format.is_depth() && format.texel_bytes() <= 4 => "u8",
             Numeric::Sfloat | Numeric::Ufloat if !is_32_bits(format) => "f16",
             _ => "f32",
         };
         let mut data = Vec::new();
         for texel in shrunk(&texels, size, small, is_light(format)) {
-            for value in &texel[..channels] {
+            for (channel, value) in texel[..channels].iter().enumerate() {
                 match numbers {
+                    "srgb" if channel < 3 => data.push(srgb_byte(*value)),
+                    "srgb" => data.push((value * 255.0).round() as u8),
                     "u8" => data.push((value * 255.0).round() as u8),
                     "f16" => data.extend(f16::from_f32(*value).to_le_bytes()),
                     _ => data.extend(value.to_le_bytes()),

@@ -56,6 +56,11 @@ pub(crate) fn is_light(format: Format) -> bool {
     !format.is_depth() && !matches!(format.numeric(), Numeric::Uint)
 }
 
+/// A linear value through the curve of sRGB, as a byte.
+pub(crate) fn srgb_byte(linear: f32) -> u8 {
+    texel::encode(linear)
+}
+
 /// Bytes of one texel, as it is read back.
 pub(crate) fn texel_bytes(format: Format) -> usize {
     texel::bytes(format)

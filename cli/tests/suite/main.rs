@@ -7,6 +7,7 @@ mod book;
 mod broken_environment;
 mod budgets;
 mod cache;
+mod captures;
 mod choosing;
 mod compare;
 mod converged;

@@ -10,8 +10,9 @@ function decoded(capture) {
     if (exponent === 31) return mantissa ? NaN : sign * Infinity;
     return sign * (exponent ? 2 ** (exponent - 15) * (1 + mantissa / 1024) : 2 ** -14 * (mantissa / 1024));
   };
-  const size = { u8: 1, f16: 2, f32: 4 }[capture.numbers];
-  const read = { u8: (at) => raw[at] / 255, f16: (at) => half(view.getUint16(at, true)), f32: (at) => view.getFloat32(at, true) }[capture.numbers];
+  const size = { u8: 1, srgb: 1, f16: 2, f32: 4 }[capture.numbers];
+  const light = (share) => share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+  const read = { u8: (at) => raw[at] / 255, srgb: (at) => at % 4 === 3 ? raw[at] / 255 : light(raw[at] / 255), f16: (at) => half(view.getUint16(at, true)), f32: (at) => view.getFloat32(at, true) }[capture.numbers];
   capture.values = Float32Array.from({ length: raw.length / size }, (_, at) => read(at * size));
   return capture.values;
 }
