@@ -1,6 +1,6 @@
 //! The command line of `framewright diff`.
 
-use super::args::{PipelineArguments, PlanningArguments};
+use super::pipeline::{PipelineArguments, PlanningArguments};
 use super::values::{Assignment, DEFAULT_SIZE, Size, assignment};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;

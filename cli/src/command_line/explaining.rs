@@ -1,6 +1,6 @@
 //! What `framewright explain` takes.
 
-use super::args::{PipelineArguments, PlanningArguments};
+use super::pipeline::{PipelineArguments, PlanningArguments};
 use super::values::{AnswerFormat, DEFAULT_SIZE, Size};
 use clap::Args;
 use std::ffi::OsString;

@@ -8,4 +8,5 @@ pub(crate) mod explaining;
 pub(crate) mod measuring;
 pub(crate) mod merging;
 pub(crate) mod options;
+mod pipeline;
 pub(crate) mod values;

@@ -1,7 +1,7 @@
 //! The commands.
 
 mod cache;
-pub(crate) mod check;
+mod check;
 mod choose;
 mod compare;
 mod devices;

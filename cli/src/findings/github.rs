@@ -1,6 +1,6 @@
 //! Findings as commands that GitHub Actions turns into annotations of lines.
 
-use super::{Case, FilePlace};
+use super::finding::{Case, FilePlace};
 use crate::system::text;
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! Findings as the XML that JUnit writes: a test for each case.
 
-use super::{Case, FilePlace};
+use super::finding::{Case, FilePlace};
 use crate::system::text;
 use crate::system::xml::escaped;
 use std::fmt::Write;

@@ -1,130 +1,13 @@
 //! What a check found, in the forms of code hosts and CI systems: SARIF, JUnit, annotations of GitHub.
 
+mod finding;
 mod github;
 mod junit;
 mod sarif;
 
+pub(crate) use finding::{Case, OVER_BUDGET};
+
 use crate::command_line::args::CheckFormat;
-use serde_json::Value;
-
-/// A thing that was checked: a device, or variants that have a mistake in common.
-pub(crate) struct Case {
-    /// Its name, unique among the cases.
-    pub(crate) name: String,
-    /// The findings; none: it is fine.
-    pub(crate) findings: Vec<Finding>,
-}
-
-/// A finding.
-pub(crate) struct Finding {
-    kind: Kind,
-    message: String,
-    /// Remarks and help, a line each.
-    more: Vec<String>,
-    place: Option<FilePlace>,
-    /// Other places that it is about, with their remarks.
-    related: Vec<(FilePlace, String)>,
-}
-
-/// The kind of a finding.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    /// The pipeline is wrong, or a device can't draw it.
-    Mistake,
-    /// A bound of the budget is exceeded.
-    Budget,
-    /// A Plan breaks its own rules.
-    Violation,
-}
-
-/// A place in a file as the user named it. Lines and columns count from 1.
-struct FilePlace {
-    file: String,
-    line: u64,
-    column: u64,
-    /// Line and column behind it.
-    end: [u64; 2],
-}
-
-impl Kind {
-    const ALL: [Kind; 3] = [Kind::Mistake, Kind::Budget, Kind::Violation];
-
-    fn id(self) -> &'static str {
-        match self {
-            Kind::Mistake => "mistake",
-            Kind::Budget => "budget",
-            Kind::Violation => "violation",
-        }
-    }
-
-    fn words(self) -> &'static str {
-        match self {
-            Kind::Mistake => "The pipeline, its settings or its shaders are wrong, or a device can't draw it.",
-            Kind::Budget => "The frame takes more than the budget allows.",
-            Kind::Violation => "The Plan breaks its own rules, which is a mistake of framewright.",
-        }
-    }
-}
-
-/// The beginning of the message of a breach.
-pub(crate) const OVER_BUDGET: &str = "the budget is exceeded: ";
-
-impl Case {
-    /// A case with these mistakes, as `base::to_json` has them.
-    pub(crate) fn new(name: impl Into<String>, mistakes: &Value) -> Case {
-        let mistakes = mistakes.as_array().into_iter().flatten();
-        Case { name: name.into(), findings: mistakes.map(Finding::of).collect() }
-    }
-
-    /// With violations of a Plan's rules.
-    pub(crate) fn violations(mut self, violations: &[String]) -> Case {
-        self.findings.extend(violations.iter().map(|violation| Finding {
-            kind: Kind::Violation,
-            message: violation.clone(),
-            more: Vec::new(),
-            place: None,
-            related: Vec::new(),
-        }));
-        self
-    }
-}
-
-impl Finding {
-    fn of(mistake: &Value) -> Finding {
-        let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
-        let message = text(mistake, "message");
-        let labels = mistake["labels"].as_array().into_iter().flatten();
-        let mut places: Vec<(FilePlace, String)> =
-            labels.filter_map(|label| Some((FilePlace::of(label)?, text(label, "text")))).collect();
-        let mut more = Vec::new();
-        let mut place = None;
-        if !places.is_empty() {
-            let (first, remark) = places.remove(0);
-            place = Some(first);
-            more.extend(Some(remark).filter(|remark| !remark.is_empty()));
-        }
-        more.extend(mistake["help"].as_str().map(|help| format!("help: {help}")));
-        let kind = if message.starts_with(OVER_BUDGET) { Kind::Budget } else { Kind::Mistake };
-        Finding { kind, message, more, place, related: places }
-    }
-
-    /// The message with its remarks.
-    fn text(&self) -> String {
-        std::iter::once(&self.message).chain(&self.more).cloned().collect::<Vec<_>>().join("\n")
-    }
-}
-
-impl FilePlace {
-    fn of(value: &Value) -> Option<FilePlace> {
-        let number = |value: &Value, name: &str| value[name].as_u64();
-        Some(FilePlace {
-            file: value["file"].as_str()?.to_owned(),
-            line: number(value, "line")?,
-            column: number(value, "column")?,
-            end: [number(&value["end"], "line")?, number(&value["end"], "column")?],
-        })
-    }
-}
 
 /// The findings in one of the forms for CI; `None` for the forms that `check` itself has.
 ///

@@ -1,6 +1,6 @@
 //! Findings as SARIF 2.1.0, the Static Analysis Results Interchange Format of OASIS.
 
-use super::{Case, FilePlace, Finding, Kind};
+use super::finding::{Case, FilePlace, Finding, Kind};
 use crate::system::text;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};

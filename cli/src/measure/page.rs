@@ -8,7 +8,7 @@ const TEMPLATE: Template<'_> = Template {
     style: include_str!("page/page.css"),
     script: include_str!("page/page.js"),
     // The pictures lie beside the page, wherever that is.
-    images: "file: http: https:",
+    images: "'self' file:",
 };
 
 /// The page.

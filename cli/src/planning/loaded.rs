@@ -153,7 +153,12 @@ fn choose(
 impl View<'_> {
     /// One at the default size, without a scene.
     pub(crate) fn without_scene(rotation: Rotation) -> View<'static> {
-        View { facts: None, size: DEFAULT_SIZE, rotation, dump: &[] }
+        View::at(DEFAULT_SIZE, rotation)
+    }
+
+    /// One without a scene.
+    pub(crate) fn at(size: Size, rotation: Rotation) -> View<'static> {
+        View { facts: None, size, rotation, dump: &[] }
     }
 }
 

@@ -24,10 +24,9 @@ mod summary;
 
 use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
-use crate::commands::check;
 use crate::error::Error;
 use crate::findings;
-use crate::planning::{self, Loaded, device};
+use crate::planning::{self, Loaded, View, device};
 use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
@@ -74,7 +73,7 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let budget = budget::read(arguments.budget.as_deref(), &mut loaded)?;
-    let view = check::view(arguments);
+    let view = View::at(arguments.size, arguments.planning.rotate);
     loaded.check_command_line(view)?;
     let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();

@@ -1,12 +1,11 @@
 //! `framewright check --device all`: a verdict for every shipped profile.
 
 use super::verdict::{Verdict, fine, print_findings, verdict};
-use super::view;
 use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings::Case;
-use crate::planning::{self, device, notes};
+use crate::planning::{self, View, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
@@ -72,7 +71,7 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
     for (name, profile) in device::all()? {
         let frame = match same.take() {
             Some(frame) => Ok(frame),
-            None => pipeline.frame(view(arguments), &profile),
+            None => pipeline.frame(View::at(arguments.size, arguments.planning.rotate), &profile),
         };
         let result = match frame {
             Ok(frame) => {

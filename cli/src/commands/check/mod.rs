@@ -2,19 +2,14 @@
 
 mod every_device;
 mod one_device;
-pub(crate) mod verdict;
+mod verdict;
 
 use crate::command_line::args::CheckArguments;
 use crate::error::Error;
-use crate::planning::{View, device};
+use crate::planning::device;
 use crate::system::Exit;
 use crate::variants;
 use std::ffi::OsStr;
-
-/// The inputs of a frame that is checked.
-pub(crate) fn view(arguments: &CheckArguments) -> View<'static> {
-    View { size: arguments.size, ..View::without_scene(arguments.planning.rotate) }
-}
 
 /// Checks a pipeline on one device, on every device that has a shipped profile, or in all variants.
 ///

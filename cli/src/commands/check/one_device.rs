@@ -1,12 +1,11 @@
 //! `framewright check` on one device.
 
 use super::verdict::{Verdict, fine, print_findings, verdict};
-use super::view;
 use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings::Case;
-use crate::planning::{self, device, notes};
+use crate::planning::{self, View, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Estimated, Profile};
@@ -46,7 +45,7 @@ fn plan(arguments: &CheckArguments, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
-    let frame = pipeline.frame(view(arguments), profile)?;
+    let frame = pipeline.frame(View::at(arguments.size, arguments.planning.rotate), profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
     let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
     pipeline.fits(&plan, &frame, profile)?;
