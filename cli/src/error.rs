@@ -231,6 +231,9 @@ pub(crate) enum Error {
     /// The cache can't be read or cleared.
     #[error("the cache `{}` can't be {done}: {}\nhelp: remove that folder, or name another one by the variable XDG_CACHE_HOME", text::path(folder), text::escape(&source.to_string()))]
     Cache { folder: PathBuf, done: &'static str, source: io::Error },
+    /// The page can't be served at the port.
+    #[error("the port {port} of 127.0.0.1 can't be used: {}\nhelp: name another one by `--port`; 0 takes any that is free", text::escape(&source.to_string()))]
+    Port { port: u16, source: io::Error },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -267,6 +270,13 @@ impl Error {
     #[must_use]
     pub(crate) fn is_about_the_pipeline(&self) -> bool {
         matches!(self, Error::Mistakes { .. })
+    }
+
+    /// Whether a change to files, or another choice, may mend it while the program goes on.
+    #[must_use]
+    pub(crate) fn can_be_mended_in_files(&self) -> bool {
+        use framewright_vulkan::Error::{DeviceLost, Timeout};
+        !matches!(self, Error::Interrupted { .. } | Error::Vulkan(DeviceLost { .. } | Timeout { .. }) | Error::Helper(_))
     }
 
     /// Whether the device may still be working for this process.
@@ -345,6 +355,7 @@ impl Error {
             Error::Write { .. }
             | Error::NoFolder { .. }
             | Error::Cache { .. }
+            | Error::Port { .. }
             | Error::Print(_)
             | Error::Restart(_)
             | Error::Helper(_)

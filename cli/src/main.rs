@@ -12,6 +12,7 @@ mod measure;
 mod metric;
 mod picture;
 mod planning;
+mod serving;
 mod system;
 mod variants;
 

@@ -7,6 +7,7 @@ use crate::command_line::explaining::ExplainArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 pub(crate) use crate::command_line::pipeline::{CachingArguments, PipelineArguments, PlanningArguments, ShaderLimits};
+use crate::command_line::serving::ServeArguments;
 use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE, Dump, OutputFile, Size, dump, output_file};
 use crate::system::text;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -46,6 +47,9 @@ pub(crate) enum Command {
     Explain(ExplainArguments),
     /// Draw a scene through a pipeline.
     Run(RunArguments),
+    /// Show the page of a pipeline, with the scene that it draws, in a browser of this machine. It follows every change to the files
+    /// of the pipeline and the scene; settings are turned in the page.
+    Serve(ServeArguments),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
     Facts(FactsArguments),
     /// Print the errors of a picture beside a reference: FLIP, RMSE and others. Needs no GPU.
@@ -294,6 +298,7 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
         Command::Inspect(inspect) => Some(inspect.pipeline.limits),
         Command::Diff(diff) => Some(diff.pipeline.limits),
         Command::Run(run) => Some(run.pipeline.limits),
+        Command::Serve(serve) => Some(serve.pipeline.limits),
         Command::Measure(measure) => Some(measure.pipeline.limits),
         _ => None,
     };

@@ -9,4 +9,5 @@ pub(crate) mod measuring;
 pub(crate) mod merging;
 pub(crate) mod options;
 mod pipeline;
+pub(crate) mod serving;
 pub(crate) mod values;

@@ -5,15 +5,14 @@ use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
-use crate::inspection::{self, MOST_NODES, OnDevice, Page, Shown, Thumbnail};
+use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
 use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, View, device};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
-use framewright_graph::difference::Differences;
-use framewright_graph::frame::{Capture, DrawList};
+use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions};
@@ -49,7 +48,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         None => pipeline.plan(view, &profile, &mut Estimated(&profile), &options)?,
     };
     let plan = &planned.plan;
-    let counted = |list| scene.as_ref().map_or(0, |scene| objects(scene, list));
+    let counted = |list| scene.as_ref().map_or(0, |scene| scene.count(list));
     let objects: Option<&dyn Fn(DrawList) -> usize> = scene.is_some().then_some(&counted);
     let detail = Detail { objects, verbose: arguments.verbose };
     let name = arguments.pipeline.file.to_string_lossy();
@@ -60,7 +59,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         PlanFormat::Mermaid => inspection::mermaid(plan, &Dataflow::of(plan)),
         PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
         PlanFormat::Html => {
-            let devices = on_devices(&mut pipeline, view, arguments, (&*name, plan))?;
+            let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
             let captures = match (&drawn_on, &scene, &arguments.output) {
                 (Some(device), Some(scene), Some(page)) => {
                     let (planned, size) = (&planned, arguments.size);
@@ -106,17 +105,10 @@ fn captured(drawing: Drawing<'_>, page: &Path, read: &ReadFiles) -> Result<Vec<T
             let exact = captured.encoded(FileFormat::OpenExr)?;
             outputs::write(&[(&folder.join(format!("{file}.exr")), &exact)], read)?;
         }
-        let Capture { pass, image, .. } = &captured.capture;
-        let names = [pass.to_string(), image.to_string(), captured.part(), format!("{name}/{file}.png")];
-        thumbnails.push(Thumbnail::new(names, captured.format, captured.extent, &captured.bytes));
+        thumbnails.push(captured.thumbnail(format!("{name}/{file}.png")));
         Ok(())
     })?;
     Ok(thumbnails)
-}
-
-/// How many objects of a scene are in a draw list.
-fn objects(scene: &Scene, list: DrawList) -> usize {
-    scene.objects.iter().filter(|object| scene.draw_list(object) == list).count()
 }
 
 /// The dataflow of a Plan that a picture can hold.
@@ -126,27 +118,4 @@ fn laid_out(plan: &Plan) -> Result<Dataflow, Error> {
         nodes if nodes > MOST_NODES => Err(Error::TooManyNodes { nodes, most: MOST_NODES }),
         _ => Ok(flow),
     }
-}
-
-/// The differences that every other shipped profile makes.
-fn on_devices(
-    pipeline: &mut Loaded,
-    view: View<'_>,
-    arguments: &InspectArguments,
-    (name, plan): (&str, &Plan),
-) -> Result<Vec<OnDevice>, Error> {
-    // The differences of a Plan that is summarised would be longer than its page.
-    let shown = plan.steps.len() <= MOST_NODES;
-    let others = device::all()?.into_iter().filter(|(_, profile)| shown && profile.name != plan.device.name);
-    let options = arguments.planning.options();
-    Ok(others
-        .map(|(profile, device)| {
-            let planned = pipeline.plan(view, &device, &mut Estimated(&device), &options);
-            let differences = match planned {
-                Ok(other) => Ok(Differences::between((name, plan), (name, &other.plan))),
-                Err(error) => Err(error.shown()),
-            };
-            OnDevice { profile: profile.to_owned(), differences }
-        })
-        .collect())
 }

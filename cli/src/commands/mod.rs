@@ -13,6 +13,7 @@ mod merge;
 mod new;
 mod run;
 mod schema;
+mod serve;
 
 use crate::command_line::args::Command;
 use crate::error::Error;
@@ -30,6 +31,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Diff(arguments) => diff::diff(arguments),
         Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Serve(arguments) => serve::serve(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Measure(arguments) => measure::measure(arguments),

@@ -7,6 +7,7 @@ use super::Prepared;
 use super::pictures::{layers, side_by_side};
 use crate::command_line::values::Size;
 use crate::error::Error;
+use crate::inspection::Thumbnail;
 use crate::picture::{FileFormat, Picture};
 use crate::planning::{Loaded, Planned};
 use crate::system::interrupt;
@@ -48,7 +49,7 @@ pub(crate) struct Captured {
 
 impl Captured {
     /// The part of the image in words; empty for its first level and layers.
-    pub(crate) fn part(&self) -> String {
+    fn part(&self) -> String {
         let range = &self.capture.range;
         let mip = (range.base_mip > 0).then(|| format!("mip level {}", range.base_mip));
         let layer = (range.base_layer > 0).then(|| format!("layer {}", range.base_layer));
@@ -66,6 +67,12 @@ impl Captured {
             name += &format!("-layer{}", range.base_layer);
         }
         name.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()
+    }
+
+    /// The small picture for a page, on which `file` is the whole one.
+    pub(crate) fn thumbnail(&self, file: String) -> Thumbnail {
+        let names = [self.capture.pass.to_string(), self.capture.image.to_string(), self.part(), file];
+        Thumbnail::new(names, self.format, self.extent, &self.bytes)
     }
 
     /// The picture as a file.

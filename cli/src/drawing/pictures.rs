@@ -9,6 +9,7 @@ use crate::system::text;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{Eye, EyeForm, Frame, Resource};
 use framewright_graph::plan::{self, Plan};
+use framewright_graph::vulkan::Format;
 use framewright_vulkan::{Executor, Texels};
 use std::path::{Path, PathBuf};
 
@@ -32,8 +33,28 @@ pub(crate) struct PictureRequest<'a> {
 }
 
 impl PictureRequest<'_> {
+    /// The name of the output, or of the image that is dumped.
+    pub(crate) fn name(&self) -> &str {
+        self.name
+    }
+
     /// Reads the outputs back and encodes them, and says what the picture loses.
+    ///
+    /// # Errors
+    /// Those of the device, and of the encoder.
     pub(crate) fn encode(&self, executor: &mut Executor, plan: &Plan) -> Result<EncodedPicture, Error> {
+        let (contents, format) = self.encoded(executor, plan)?;
+        if let Some(loss) = self.file_format.loss(format) {
+            text::say(&format!("note: `{}` is {format}: in its picture {loss}", text::escape(self.name)));
+        }
+        Ok(EncodedPicture { path: self.path.to_owned(), contents })
+    }
+
+    /// Reads the outputs back and encodes them. Returns the file's contents, and the format of the image.
+    ///
+    /// # Errors
+    /// Those of the device, and of the encoder.
+    pub(crate) fn encoded(&self, executor: &mut Executor, plan: &Plan) -> Result<(Vec<u8>, Format), Error> {
         let texels = self.outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
         let eyes = texels.into_iter().flat_map(|texels| if self.in_layers { layers(texels) } else { vec![texels] });
         let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes.collect());
@@ -41,10 +62,7 @@ impl PictureRequest<'_> {
         let picture = picture::Picture { format, encoding, extent: [width, height], bytes: &bytes };
         let encoded = self.file_format.encode(&picture);
         let contents = encoded.map_err(|problem| Error::Picture { image: self.name.to_owned(), problem })?;
-        if let Some(loss) = self.file_format.loss(format) {
-            text::say(&format!("note: `{}` is {format}: in its picture {loss}", text::escape(self.name)));
-        }
-        Ok(EncodedPicture { path: self.path.to_owned(), contents })
+        Ok((contents, format))
     }
 }
 
@@ -109,6 +127,26 @@ pub(crate) fn of_first_output(planned: &Planned) -> Option<PictureRequest<'_>> {
     let in_layers = image.eyes == Some(EyeForm::Layers);
     let (outputs, path) = (of_both_eyes(&planned.frame, 0), Path::new(path));
     Some(PictureRequest { outputs, in_layers, name: &image.name, path, file_format })
+}
+
+/// PNG files of all images that the pipeline names as outputs, those of both eyes side by side.
+pub(crate) fn of_all_outputs(planned: &Planned) -> Vec<PictureRequest<'_>> {
+    let mut requests = Vec::new();
+    let mut outputs = declared(&planned.frame).peekable();
+    while let Some(first) = outputs.next() {
+        let both = of_both_eyes(&planned.frame, first);
+        for _ in &both[1..] {
+            outputs.next();
+        }
+        let Some(plan::Resource::Image(image)) = planned.plan.outputs.get(first).map(|output| output.resource) else {
+            continue;
+        };
+        let Resource::Image(declared) = planned.frame.outputs[first].resource else { continue };
+        let name = &planned.frame.images[declared.0 as usize].name;
+        let in_layers = planned.plan.image(image).eyes == Some(EyeForm::Layers);
+        requests.push(PictureRequest { outputs: both, in_layers, name, path: Path::new(""), file_format: FileFormat::Png });
+    }
+    requests
 }
 
 /// The output with the name, or else those of both eyes.

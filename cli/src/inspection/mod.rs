@@ -16,7 +16,7 @@ mod thumbnail;
 
 pub(crate) use dot::dot;
 pub(crate) use mermaid::mermaid;
-pub(crate) use page::{OnDevice, Page, Shown, page};
+pub(crate) use page::{OnDevice, Page, Shown, live_page, page, page_data};
 pub(crate) use svg::svg;
 pub(crate) use thumbnail::Thumbnail;
 

@@ -24,10 +24,12 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("page/lists.js"),
         include_str!("page/pictures.js"),
         include_str!("page/details.js"),
+        include_str!("page/live.js"),
         include_str!("page/main.js"),
     ),
     // Captured pictures lie beside the page, wherever that is.
     images: "'self' file:",
+    asked: "'none'",
 };
 
 /// What a page shows.
@@ -64,8 +66,10 @@ pub(crate) struct OnDevice {
 }
 
 /// The data of a page.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Data<'a> {
+    /// Whether the page asks its server for its data.
+    live: bool,
     plans: Vec<PlanData<'a>>,
     differences: Option<&'a Differences>,
     devices: &'a [OnDevice],
@@ -128,9 +132,30 @@ struct SourceText<'a> {
 /// # Errors
 /// If a Plan has no JSON form.
 pub(crate) fn page(page: &Page<'_>) -> serde_json::Result<String> {
+    html::page(&TEMPLATE, &data(page))
+}
+
+/// The page that asks its server for its data, again and again.
+///
+/// # Errors
+/// None that happens.
+pub(crate) fn live_page() -> serde_json::Result<String> {
+    let template = Template { images: "'self'", asked: "'self'", ..TEMPLATE };
+    html::page(&template, &Data { live: true, ..Data::default() })
+}
+
+/// The data of a page, as JSON.
+///
+/// # Errors
+/// If a Plan has no JSON form.
+pub(crate) fn page_data(page: &Page<'_>) -> serde_json::Result<String> {
+    serde_json::to_string(&data(page))
+}
+
+fn data<'a>(page: &'a Page<'a>) -> Data<'a> {
     let plans = page.plans.iter().map(plan_data).collect();
     let Page { differences, devices, captures, .. } = *page;
-    html::page(&TEMPLATE, &Data { plans, differences, devices, captures })
+    Data { live: false, plans, differences, devices, captures }
 }
 
 fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {

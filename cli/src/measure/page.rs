@@ -9,6 +9,7 @@ const TEMPLATE: Template<'_> = Template {
     script: include_str!("page/page.js"),
     // The pictures lie beside the page, wherever that is.
     images: "'self' file:",
+    asked: "'none'",
 };
 
 /// The page.

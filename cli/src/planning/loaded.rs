@@ -92,6 +92,18 @@ impl Files for NamedFiles {
 /// # Errors
 /// If it can't be read or is wrong in itself.
 pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Result<Loaded, Error> {
+    load_with(arguments, read, helper::with(&arguments.limits, arguments.caching)?)
+}
+
+/// Does the same with a helper that there is already.
+///
+/// # Errors
+/// Those of [`load`].
+pub(crate) fn load_with(
+    arguments: &args::PipelineArguments,
+    read: &ReadFiles,
+    helper: Helper,
+) -> Result<Loaded, Error> {
     let PipelineFile { shown, path, root, bytes } = inputs::pipeline(arguments, read)?;
     let mut sources = Sources::default();
     let recorded = |what| root.clone().map(|root| root.recorded(read, what));
@@ -111,7 +123,6 @@ pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Res
         Error::mistakes(sources.clone(), diagnostics, exit)
     })?;
     choose(arguments, &mut pipeline, &mut sources, read)?;
-    let helper = helper::with(&arguments.limits, arguments.caching)?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),

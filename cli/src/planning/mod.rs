@@ -4,6 +4,7 @@ pub(crate) mod device;
 pub(crate) mod helper;
 mod loaded;
 pub(crate) mod notes;
+mod other_devices;
 pub(crate) mod totals;
 
-pub(crate) use loaded::{Loaded, Planned, View, inputs, load};
+pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with};

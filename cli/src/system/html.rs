@@ -18,6 +18,8 @@ pub(crate) struct Template<'t> {
     pub(crate) script: &'t str,
     /// Where images may come from, as the policy writes it.
     pub(crate) images: &'t str,
+    /// Where the script may ask for more, as the policy writes it.
+    pub(crate) asked: &'t str,
 }
 
 /// The page around `data`.
@@ -29,10 +31,12 @@ pub(crate) fn page(template: &Template<'_>, data: &impl Serialize) -> serde_json
     let data = serde_json::to_string(data)?.replace('<', "\\u003c");
     let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
     let policy = format!(
-        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src {}; base-uri 'none'; form-action 'none'",
+        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src {}; connect-src {}; base-uri 'none'; \
+         form-action 'none'",
         digest(template.script),
         digest(template.style),
-        template.images
+        template.images,
+        template.asked
     );
     let parts =
         [("/*policy*/", &*policy), ("/*style*/", template.style), ("/*script*/", template.script), ("/*data*/", &data)];

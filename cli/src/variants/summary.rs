@@ -89,7 +89,7 @@ fn plans(report: &Report) -> String {
                 format!("{variants}, {plans} Plans that differ in values alone, such as ")
             }
         };
-        format!("  {variants}{}: {}\n", with(&alike.first.example), totals::sentence(&alike.first.totals))
+        format!("  {variants}{}: {}\n", with(&alike.first.example), totals::estimated(&alike.first.totals))
     };
     let mut answer = text::count(report.distinct_plans, "distinct Plan", "distinct Plans") + "\n";
     let groups = alike(&report.plans);

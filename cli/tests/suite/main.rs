@@ -39,6 +39,7 @@ mod readme;
 mod reference;
 mod rotation;
 mod scene_notes;
+mod serving;
 mod settings;
 mod shader_files;
 mod shipped_pictures;

@@ -1,18 +1,37 @@
-//! The files that a program has read, so that it writes over none of them.
+//! The files that a program has read, so that it writes over none of them, and sees that they change.
 
 use std::collections::HashMap;
 use std::fs::{File, Metadata};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 use std::{fs, io};
 
-/// A record of files that were read. Clones share it.
+/// A record of files that were read or looked for. Clones share it.
 ///
 /// A file is told by its identity on disk, not by its name: links and hard links to it lead to the same file. Only regular
-/// files are recorded, since writing to a device or a pipe loses nothing.
+/// files count as read, since writing to a device or a pipe loses nothing.
 #[derive(Debug, Clone, Default)]
 pub struct ReadFiles {
-    files: Arc<Mutex<HashMap<Identity, &'static str>>>,
+    records: Arc<Mutex<Records>>,
+}
+
+#[derive(Debug, Default)]
+struct Records {
+    /// The kinds of files that were read.
+    read: HashMap<Identity, &'static str>,
+    /// Every path that was read or looked for, and what was there then.
+    paths: HashMap<PathBuf, Option<Stamp>>,
+}
+
+/// A file's state on disk. A file that was written to has another one, and so has a file that took its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Stamp {
+    bytes: u64,
+    written: Option<SystemTime>,
+    /// Device and inode.
+    #[cfg(unix)]
+    inode: (u64, u64),
 }
 
 /// One file on disk.
@@ -31,37 +50,79 @@ impl ReadFiles {
     /// # Errors
     /// Those of opening it.
     pub fn open(&self, what: &'static str, path: &Path) -> io::Result<File> {
-        let file = File::open(path)?;
+        let file = File::open(path).inspect_err(|_| self.seek(path))?;
         self.record(what, path, &file.metadata()?);
         Ok(file)
     }
 
     /// Records a file that is going to be read, if there is one. The kind of its first record stays.
     pub fn expect(&self, what: &'static str, path: &Path) {
-        if let Ok(metadata) = fs::metadata(path) {
-            self.record(what, path, &metadata);
+        match fs::metadata(path) {
+            Ok(metadata) => self.record(what, path, &metadata),
+            Err(_) => self.seek(path),
         }
+    }
+
+    /// Records that a file was looked for at `path`, whether or not one is there.
+    pub(crate) fn seek(&self, path: &Path) {
+        self.lock().paths.entry(path.to_owned()).or_insert_with(|| Stamp::at(path));
+    }
+
+    /// A record of the same paths, with what is there now.
+    #[must_use]
+    pub fn now(&self) -> ReadFiles {
+        let records = self.lock();
+        let paths = records.paths.keys().map(|path| (path.clone(), Stamp::at(path))).collect();
+        ReadFiles { records: Arc::new(Mutex::new(Records { read: records.read.clone(), paths })) }
+    }
+
+    /// Whether a file that was read is another one by now, or is gone, or one that was missing is there.
+    #[must_use]
+    pub fn changed(&self) -> bool {
+        self.lock().paths.iter().any(|(path, stamp)| Stamp::at(path) != *stamp)
     }
 
     /// The kind that the file at `path` was read as; `None` if it was not read, or there is none.
     #[must_use]
     pub fn read_as(&self, path: &Path) -> Option<&'static str> {
         let metadata = fs::metadata(path).ok()?;
-        let files = self.lock();
-        identities(path, &metadata).find_map(|identity| files.get(&identity).copied())
+        let records = self.lock();
+        identities(path, &metadata).find_map(|identity| records.read.get(&identity).copied())
     }
 
     fn record(&self, what: &'static str, path: &Path, metadata: &Metadata) {
         if metadata.is_file() {
-            let mut files = self.lock();
+            let mut records = self.lock();
             for identity in identities(path, metadata) {
-                files.entry(identity).or_insert(what);
+                records.read.entry(identity).or_insert(what);
             }
+            records.paths.entry(path.to_owned()).or_insert_with(|| Some(Stamp::of(metadata)));
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<Identity, &'static str>> {
-        self.files.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Records> {
+        self.records.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Stamp {
+    fn of(metadata: &Metadata) -> Stamp {
+        #[cfg(unix)]
+        let inode = {
+            use std::os::unix::fs::MetadataExt;
+            (metadata.dev(), metadata.ino())
+        };
+        Stamp {
+            bytes: metadata.len(),
+            written: metadata.modified().ok(),
+            #[cfg(unix)]
+            inode,
+        }
+    }
+
+    /// `None`: no file is there.
+    fn at(path: &Path) -> Option<Stamp> {
+        fs::metadata(path).ok().filter(Metadata::is_file).map(|metadata| Stamp::of(&metadata))
     }
 }
 
@@ -107,5 +168,37 @@ mod tests {
             files.open("the scene", Path::new("/dev/null")).expect("opened");
             assert_eq!(files.read_as(Path::new("/dev/null")), None);
         }
+    }
+
+    #[test]
+    fn files_that_are_written_replaced_removed_or_made_have_changed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let begun = |read: &[&str], sought: &[&str]| {
+            fs::write(at("file"), "a").expect("written");
+            let files = ReadFiles::default();
+            read.iter().for_each(|name| drop(files.open("a file", &at(name)).expect("opened")));
+            sought.iter().for_each(|name| drop(files.open("a file", &at(name)).expect_err("none is there")));
+            assert!(!files.changed());
+            files
+        };
+        let files = begun(&["file"], &["missing"]);
+        fs::write(at("file"), "longer").expect("written");
+        assert!(files.changed(), "written");
+        assert!(!files.now().changed());
+        let files = begun(&["file"], &[]);
+        fs::write(at("other"), "a").expect("written");
+        fs::rename(at("other"), at("file")).expect("moved");
+        assert!(files.changed(), "replaced");
+        let files = begun(&["file"], &[]);
+        fs::remove_file(at("file")).expect("removed");
+        assert!(files.changed(), "removed");
+        fs::write(at("file"), "a").expect("written");
+        let files = begun(&["file"], &["missing"]);
+        fs::create_dir(at("missing")).expect("made");
+        assert!(!files.changed(), "a folder is no file");
+        fs::remove_dir(at("missing")).expect("removed");
+        fs::write(at("missing"), "").expect("written");
+        assert!(files.changed(), "made");
     }
 }

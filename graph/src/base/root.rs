@@ -121,6 +121,8 @@ impl Root {
         if Path::new(path).is_absolute() && !self.outside || !stays(&named) {
             return Err(outside());
         }
+        // A link may lead elsewhere later.
+        self.record.0.seek(&named);
         let found = named.canonicalize()?;
         if !stays(&found) {
             return Err(outside());

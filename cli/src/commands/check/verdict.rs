@@ -59,5 +59,5 @@ pub(crate) fn print_findings(arguments: &CheckArguments, format: CheckFormat, ca
 /// The sentence for a pipeline without mistakes, with its Plan's totals.
 pub(crate) fn fine(arguments: &CheckArguments, device: &str, totals: &Totals) -> String {
     let (pipeline, device) = (text::path(&arguments.pipeline.file), text::escape(device));
-    format!("{pipeline}: fine on {device}: {}", totals::sentence(totals))
+    format!("{pipeline}: fine on {device}: {}", totals::estimated(totals))
 }

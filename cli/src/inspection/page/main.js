@@ -1,24 +1,30 @@
 /** The views, in the order of their tabs. Each is made when it is first shown. */
-const VIEWS = [
-  { name: "graph", title: "Graph", make: graphView },
-  { name: "grid", title: "Passes × images", make: gridView },
-  { name: "memory", title: "Memory", make: memoryView },
-  { name: "steps", title: "Steps", make: stepsView },
-  { name: "cost", title: "Cost", make: costView },
-  { name: "queues", title: "Queues", make: queuesView },
-  { name: "images", title: "Images", make: imagesView },
-  { name: "notes", title: "Decisions", make: notesView },
-  { name: "source", title: "Source", make: sourceView },
-];
-if (DATA.captures.length > 0) VIEWS.splice(2, 0, { name: "pictures", title: "Pictures", make: picturesView, once: true });
-if (DATA.differences) VIEWS.unshift({ name: "differences", title: "Differences", make: comparedView, once: true });
-if (DATA.devices.length > 0) VIEWS.push({ name: "devices", title: "Other devices", make: devicesView });
+let VIEWS = [];
+
+function viewsOf(data) {
+  const alone = (name, title, make) => ({ name, title, make, once: true });
+  return [
+    data.live ? alone("live", "Live", liveView) : null,
+    data.differences ? alone("differences", "Differences", comparedView) : null,
+    { name: "graph", title: "Graph", make: graphView },
+    { name: "grid", title: "Passes × images", make: gridView },
+    data.captures.length > 0 ? alone("pictures", "Pictures", picturesView) : null,
+    { name: "memory", title: "Memory", make: memoryView },
+    { name: "steps", title: "Steps", make: stepsView },
+    { name: "cost", title: "Cost", make: costView },
+    { name: "queues", title: "Queues", make: queuesView },
+    { name: "images", title: "Images", make: imagesView },
+    { name: "notes", title: "Decisions", make: notesView },
+    { name: "source", title: "Source", make: sourceView },
+    data.devices.length > 0 ? { name: "devices", title: "Other devices", make: devicesView } : null,
+  ].filter((view) => view && (data.plans.length > 0 || view.name === "live"));
+}
 
 function makeView(view) {
   if (view.made) return;
-  const shown = view.once ? [models[0]] : models;
+  const shown = view.once ? [models[0] ?? null] : models;
   view.parts = shown.map((model) => view.make(model));
-  view.made = element("div", { class: "plans" }, shown.map((model, at) => element("section", { "aria-label": view.title + " of " + model.name },
+  view.made = element("div", { class: "plans" }, shown.map((model, at) => element("section", { "aria-label": model ? view.title + " of " + model.name : view.title },
     models.length > 1 && !view.once ? element("h2", {}, model.letter.toUpperCase() + ": " + model.name) : null, view.parts[at])));
   view.panel.append(view.made);
   view.reveal = (key) => view.parts.forEach((part) => part.reveal?.(key));
@@ -49,7 +55,7 @@ function showPlace(model, place) {
 
 /** Steps through the passes of the first Plan. */
 function go(by) {
-  const { nodes } = models[0];
+  const nodes = models[0]?.nodes ?? [];
   if (nodes.length === 0) return;
   const at = nodes.findIndex((node) => node.key === state.selected);
   const next = at < 0 ? (by > 0 ? 0 : nodes.length - 1) : Math.max(0, Math.min(nodes.length - 1, at + by));
@@ -93,7 +99,7 @@ function keyPressed(event) {
     event.preventDefault();
     input.focus();
   } else if (event.key === "ArrowRight" || event.key === "ArrowLeft") {
-    if (event.target.closest?.(".scroller")) return;
+    if (event.target.closest?.(".scroller, select, .controls input")) return;
     event.preventDefault();
     const by = event.key === "ArrowRight" ? 1 : -1;
     if (event.target.closest?.("#tabs")) {
@@ -103,30 +109,42 @@ function keyPressed(event) {
       next.tab.focus();
       writeHash();
     } else go(by);
-  } else if (/^[1-9]$/.test(event.key) && VIEWS[Number(event.key) - 1]) {
+  } else if (/^[1-9]$/.test(event.key) && !event.target.closest?.(".controls") && VIEWS[Number(event.key) - 1]) {
     showView(VIEWS[Number(event.key) - 1].name);
     writeHash();
   }
 }
 
-function start() {
+/** Shows Plans in place of those that are shown. The view, the selection and the places in lists stay. */
+function showData(data) {
+  const places = [...document.querySelectorAll("main, .view-panel:not([hidden]) .scroller")].map((box) => [box.scrollLeft, box.scrollTop]);
+  DATA = data;
+  models = data.plans.map((plan, index) => new Model(plan, index));
+  VIEWS = viewsOf(data);
   document.title = models.map((model) => model.name).join(" | ");
-  document.getElementById("title").append(visible(models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : "")).join("  |  ")));
+  const names = models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : ""));
+  document.getElementById("title").replaceChildren(visible(names.join("  |  ")));
   const totals = models.map((model) => model.outline.parts.find((line) => line.text === "totals")?.parts.map((line) => line.text).join("; ") ?? "");
-  document.getElementById("totals").append(...totals.map((text, at) => element("span", { class: "faint" }, (models.length > 1 ? models[at].letter.toUpperCase() + ": " : "") + text + " ")));
+  document.getElementById("totals").replaceChildren(...totals.map((text, at) => element("span", { class: "faint" }, (models.length > 1 ? models[at].letter.toUpperCase() + ": " : "") + text + " ")));
   for (const view of VIEWS) {
     view.tab = element("button", { type: "button", role: "tab", id: "tab-" + view.name, "aria-controls": "view-" + view.name, onclick: () => { showView(view.name); writeHash(); } }, view.title);
     view.panel = element("div", { role: "tabpanel", id: "view-" + view.name, class: "view-panel", "aria-labelledby": "tab-" + view.name, hidden: true });
-    document.getElementById("tabs").append(view.tab);
-    document.getElementById("views").append(view.panel);
   }
+  document.getElementById("tabs").replaceChildren(...VIEWS.map((view) => view.tab));
+  document.getElementById("views").replaceChildren(...VIEWS.map((view) => view.panel));
+  readHash();
+  document.querySelectorAll("main, .view-panel:not([hidden]) .scroller").forEach((box, at) => { if (places[at]) [box.scrollLeft, box.scrollTop] = places[at]; });
+}
+
+function start() {
   document.getElementById("find").addEventListener("input", (event) => find(event.target.value));
   document.addEventListener("click", (event) => { if (!event.target.closest(".find") || event.target.closest("#found")) document.getElementById("found").hidden = true; });
   document.addEventListener("keydown", keyPressed);
   addEventListener("hashchange", readHash);
   addEventListener("beforeprint", () => { printing = true; VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); }); });
   addEventListener("afterprint", () => { printing = false; showView(state.view); });
-  readHash();
+  showData(DATA);
+  if (DATA.live) follow();
 }
 
 start();

@@ -1,4 +1,5 @@
-const DATA = JSON.parse(document.getElementById("data").textContent);
+/** What the page shows, as the program gives it. */
+let DATA = JSON.parse(document.getElementById("data").textContent);
 
 /** A Plan with what its views look up. Keys name its parts: `pass:blur`, `image:color`, `buffer:lights`, `step:a3`. */
 class Model {
@@ -95,7 +96,8 @@ class Model {
   }
 }
 
-const models = DATA.plans.map((data, index) => new Model(data, index));
+/** The Plans of the page. */
+let models = [];
 
 /** The sum of what a step moves. */
 const movedSum = (moved) => moved.loaded + moved.stored + moved.resolved + moved.copied;

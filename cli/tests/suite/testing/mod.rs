@@ -2,6 +2,7 @@
 
 pub(crate) mod browser;
 pub(crate) mod results;
+pub(crate) mod server;
 
 use framewright_graph::device::Profile;
 use framewright_tests::drivers::{CURRENT_LAYER, DISTRIBUTION_LAYERS, Driver};

@@ -66,6 +66,12 @@ impl Scene {
         }
     }
 
+    /// How many objects are in a draw list.
+    #[must_use]
+    pub fn count(&self, list: DrawList) -> usize {
+        self.objects.iter().filter(|object| self.draw_list(object) == list).count()
+    }
+
     /// Whether an object moves, or a camera.
     #[must_use]
     pub fn moves(&self) -> bool {

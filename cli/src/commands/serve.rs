@@ -1,0 +1,57 @@
+//! `framewright serve`: the page of a pipeline, which follows every change to its files.
+
+use crate::command_line::serving::ServeArguments;
+use crate::error::Error;
+use crate::inspection;
+use crate::planning::{device, helper};
+use crate::serving::{self, Session};
+use crate::system::{Exit, interrupt, text};
+use framewright_vulkan::{Device, DeviceOptions};
+use std::sync::mpsc;
+use std::time::Duration;
+use tokio::sync::watch;
+
+/// Files are looked at this often.
+const EVERY: Duration = Duration::from_millis(100);
+/// Files that change stay as they are for this long before they are read.
+const AT_REST: Duration = Duration::from_millis(50);
+
+/// Serves the page until Ctrl-C.
+///
+/// # Errors
+/// If the port or the device can't be had, or the device is lost.
+pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
+    interrupt::watch();
+    let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
+    let choice = device::to_draw_on(arguments.device.as_deref())?;
+    let (publish, shown) = watch::channel(serving::Published::default());
+    let (send, choices) = mpsc::channel();
+    let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
+    let device = Device::open(&DeviceOptions { choice, validation: false, helper: Some(helper.clone()) })?;
+    device.cancel_when(interrupt::asked);
+    let mut session = Session::new(arguments, &device, helper);
+    text::print(&format!("http://{address}/ shows the page; Ctrl-C ends it\n")).map_err(Error::Print)?;
+    loop {
+        publish.send_replace(session.published(true)?);
+        match session.draw() {
+            Err(_) if interrupt::asked() => return Ok(Exit::Fine),
+            other => other?,
+        }
+        publish.send_replace(session.published(false)?);
+        loop {
+            if interrupt::asked() {
+                return Ok(Exit::Fine);
+            }
+            if let Ok(choice) = choices.recv_timeout(EVERY) {
+                session.choose(choice);
+                // Of a slider that is pulled only the last value is drawn.
+                choices.try_iter().for_each(|choice| session.choose(choice));
+                break;
+            }
+            if session.files_changed() {
+                session.let_files_rest(AT_REST);
+                break;
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+/** The page of `framewright serve`: it asks its server for the state, shows it, and asks for the next. */
+const live = { version: 0, frame: 0, state: null, view: null };
+
+/** Settings, pictures of the outputs, and what is wrong. It stays while the other views are made anew. */
+function liveView() {
+  if (live.view) return live.view.box;
+  const view = { status: element("p", { role: "status", id: "live-status" }), wrong: element("div", { role: "alert", id: "live-wrong" }),
+    controls: element("div", { class: "controls" }), outputs: element("div", { class: "outputs" }) };
+  view.box = element("div", { class: "live" }, view.status, view.wrong, view.controls, view.outputs);
+  live.view = view;
+  return view.box;
+}
+
+/** Sends a choice. The state that follows shows it. */
+async function choose(choice) {
+  const answer = await fetch("choose", { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(choice) });
+  if (!answer.ok) live.view.status.textContent = await answer.text();
+}
+
+/** The control of a setting. */
+function control(setting, shown) {
+  const send = (value) => choose({ set: { [setting.name]: String(value) } });
+  const about = { title: setting.about, "data-setting": setting.name };
+  let input;
+  if (setting.one_of) {
+    input = element("select", { ...about, onchange: (event) => send(event.target.value) }, setting.one_of.map((value) => element("option", { value, selected: value === shown }, value)));
+  } else {
+    const [min, max, step] = setting.between;
+    const slides = Number.isFinite(max - min) && max - min <= 1e6;
+    input = element("input", { ...about, type: slides ? "range" : "number", min, max, step: step ?? (slides ? (max - min) / 200 : "any"), value: shown });
+    const text = element("output", {}, shown);
+    input.addEventListener("input", () => { text.textContent = input.value; });
+    input.addEventListener("change", () => send(input.value));
+    return [input, " ", slides ? text : null];
+  }
+  return input;
+}
+
+/** Controls of all settings, unless one is being used. */
+function showControls(state) {
+  const { controls } = live.view;
+  const values = JSON.stringify([state.settings, state.presets, state.chosen, state.preset]);
+  if (values === live.controls) return;
+  live.controls = values;
+  const focused = document.activeElement?.dataset?.setting;
+  const presets = ["", ...state.presets];
+  controls.replaceChildren(
+    state.presets.length > 0 ? element("label", {}, "preset ", element("select", { onchange: (event) => choose({ preset: event.target.value || null }) },
+      presets.map((value) => element("option", { value, selected: value === (state.preset ?? "") }, value || "none")))) : "",
+    ...state.settings.map((setting) => element("label", { class: setting.name in state.chosen ? "chosen" : null }, setting.name + " ", control(setting, state.chosen[setting.name] ?? setting.value))),
+    Object.keys(state.chosen).length > 0 ? element("button", { type: "button", id: "as-begun", onclick: () => choose({ preset: state.preset }) }, "as begun") : "");
+  if (focused) [...controls.querySelectorAll("[data-setting]")].find((one) => one.dataset.setting === focused)?.focus();
+}
+
+/** The mistakes, each with its place, and below its line in the source. */
+function showWrong(state) {
+  const { wrong } = live.view;
+  wrong.replaceChildren();
+  if (state.mistakes.length === 0) return;
+  wrong.append(element("p", {}, element("strong", {}, live.frame > 0 ? "The last good frame is shown: " : "There is no frame yet: "), count(state.mistakes.length, "mistake", "mistakes")),
+    element("pre", {}, state.message));
+  for (const mistake of state.mistakes) {
+    if (!mistake.file) continue;
+    wrong.append(element("button", { type: "button", class: "link place", onclick: () => { showView("source"); writeHash(); showMistake(mistake); } }, `${mistake.file}:${mistake.line}`), " ");
+  }
+}
+
+/** The state's text of each file: with mistakes, the text that they are in. */
+function sourcesOf(state, page) {
+  if (state.mistakes.length === 0) return page?.plans[0]?.sources ?? [];
+  return state.sources;
+}
+
+/** Puts every mistake below its line in the source. */
+function markMistakes(state) {
+  document.querySelectorAll("#view-source .mistake").forEach((one) => one.remove());
+  for (const mistake of state.mistakes) {
+    const line = lineOf(mistake);
+    line?.append(element("p", { class: "mistake removed" }, mistake.message, mistake.help ? element("span", { class: "faint" }, " " + mistake.help) : null));
+  }
+}
+
+/** The line of the source that a mistake is in. */
+function lineOf({ file, line }) {
+  const source = live.state.sources.find((one) => one.shown === file);
+  const found = source && [...document.querySelectorAll("#view-source [data-file]")].find((one) => one.dataset.file === source.name);
+  return found?.querySelectorAll("ol.source > li")[line - 1] ?? null;
+}
+
+function showMistake(mistake) {
+  const line = lineOf(mistake);
+  document.querySelectorAll("#view-source .here").forEach((one) => one.classList.remove("here"));
+  line?.classList.add("here");
+  line?.scrollIntoView({ block: "center" });
+}
+
+/** Shows a state. Views are made anew only for another frame, or other texts. */
+function showState(state, page) {
+  live.state = state;
+  const texts = JSON.stringify(sourcesOf(state, page));
+  if (state.frame !== live.frame || texts !== live.texts) {
+    live.frame = state.frame;
+    live.texts = texts;
+    const data = page ?? { plans: [], differences: null, devices: [], captures: [] };
+    if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
+    showData({ ...data, live: true });
+  }
+  live.view.status.textContent = state.busy ? "drawing …" : state.took;
+  showWrong(state);
+  showControls(state);
+  live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
+  markMistakes(state);
+}
+
+/** Asks for states for ever. A server that is gone may come back. */
+async function follow() {
+  for (;;) {
+    try {
+      const answer = await fetch("state/" + live.version);
+      if (answer.status === 200) {
+        const { live: state, page } = await answer.json();
+        live.version = state.version;
+        showState(state, page);
+      } else if (answer.status !== 204) throw new Error(answer.statusText);
+    } catch {
+      live.view.status.textContent = "The server doesn't answer: it is asked again every second.";
+      await new Promise((done) => setTimeout(done, 1000));
+    }
+  }
+}

@@ -1,0 +1,36 @@
+//! The differences that other devices make.
+
+use super::loaded::{Loaded, View};
+use super::device;
+use crate::error::Error;
+use crate::inspection::{MOST_NODES, OnDevice};
+use framewright_graph::compile::Options;
+use framewright_graph::device::Estimated;
+use framewright_graph::difference::Differences;
+use framewright_graph::plan::Plan;
+
+impl Loaded {
+    /// The differences that every other shipped profile makes to the Plan, which has a name for people.
+    ///
+    /// # Errors
+    /// If a shipped profile can't be read, which a test rules out.
+    pub(crate) fn on_other_devices(
+        &mut self,
+        view: View<'_>,
+        options: &Options,
+        (name, plan): (&str, &Plan),
+    ) -> Result<Vec<OnDevice>, Error> {
+        // The differences of a Plan that is summarised would be longer than its page.
+        let shown = plan.steps.len() <= MOST_NODES;
+        let others = device::all()?.into_iter().filter(|(_, profile)| shown && profile.name != plan.device.name);
+        Ok(others
+            .map(|(profile, device)| {
+                let differences = match self.plan(view, &device, &mut Estimated(&device), options) {
+                    Ok(other) => Ok(Differences::between((name, plan), (name, &other.plan))),
+                    Err(error) => Err(error.shown()),
+                };
+                OnDevice { profile: profile.to_owned(), differences }
+            })
+            .collect())
+    }
+}

@@ -1,0 +1,298 @@
+//! A pipeline and a scene that are drawn anew whenever their files or choices change. What is wrong leaves the last good frame.
+
+use super::controls::{Choice, Controls};
+use super::published::{Live, Output, Published, SourceText};
+use crate::command_line::serving::ServeArguments;
+use crate::drawing::captures::{self, Drawing};
+use crate::drawing::{Prepared, diagnostics, pictures};
+use crate::error::Error;
+use crate::files::inputs;
+use crate::inspection::{self, Page, Shown, Thumbnail};
+use crate::picture::FileFormat;
+use crate::planning::{self, Loaded, Planned, View, totals};
+use crate::system::{interrupt, text};
+use framewright_graph::base::{self, ReadFiles, SourceFile, Sources};
+use framewright_graph::frame::DrawList;
+use framewright_graph::plan::Detail;
+use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, ExecutorOptions, Helper};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+/// Files that never rest are read all the same, after this many waits.
+const MOST_WAITS: u32 = 20;
+
+/// What is drawn, and what was drawn last.
+pub(crate) struct Session<'a> {
+    arguments: &'a ServeArguments,
+    device: &'a Device,
+    helper: Helper,
+    scene: Held<Scene>,
+    pipeline: Held<Loaded>,
+    /// Settings that were chosen in the page.
+    chosen: BTreeMap<String, String>,
+    /// The preset that was chosen in the page.
+    preset: Option<String>,
+    /// The number of the last state.
+    version: u64,
+    good: Good,
+    wrong: Wrong,
+}
+
+/// A thing that was read, with the files that it was read from; `None`: they were wrong.
+struct Held<T> {
+    value: Option<T>,
+    read: ReadFiles,
+}
+
+/// The last good frame.
+#[derive(Default)]
+struct Good {
+    /// The state that had it first.
+    version: u64,
+    page: Option<String>,
+    controls: Controls,
+    outputs: Vec<Output>,
+    pictures: Arc<BTreeMap<String, Arc<[u8]>>>,
+    took: String,
+}
+
+/// What keeps a newer frame from being drawn.
+#[derive(Default)]
+struct Wrong {
+    mistakes: Value,
+    message: String,
+    sources: Vec<SourceText>,
+}
+
+impl<T> Held<T> {
+    fn nothing() -> Held<T> {
+        Held { value: None, read: ReadFiles::default() }
+    }
+}
+
+impl<'a> Session<'a> {
+    /// One that has drawn nothing.
+    pub(crate) fn new(arguments: &'a ServeArguments, device: &'a Device, helper: Helper) -> Session<'a> {
+        // Numbers go on where an earlier server of the same address stopped: browsers ask for later ones.
+        let version = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_millis() as u64);
+        Session {
+            arguments,
+            device,
+            helper,
+            scene: Held::nothing(),
+            pipeline: Held::nothing(),
+            chosen: BTreeMap::new(),
+            preset: None,
+            version,
+            good: Good::default(),
+            wrong: Wrong { mistakes: json!([]), ..Wrong::default() },
+        }
+    }
+
+    /// Whether a file that was read is another one by now, or a missing one is there.
+    #[must_use]
+    pub(crate) fn files_changed(&self) -> bool {
+        self.scene.read.changed() || self.pipeline.read.changed()
+    }
+
+    /// Waits until files stay as they are for `time`: editors write them in several steps.
+    pub(crate) fn let_files_rest(&self, time: Duration) {
+        for _ in 0..MOST_WAITS {
+            let now = [&self.scene.read, &self.pipeline.read].map(ReadFiles::now);
+            std::thread::sleep(time);
+            if !now.iter().any(ReadFiles::changed) {
+                return;
+            }
+        }
+    }
+
+    /// Takes a choice. The next frame has it.
+    pub(crate) fn choose(&mut self, choice: Choice) {
+        match choice {
+            Choice::Set(values) => self.chosen.extend(values),
+            Choice::Preset(preset) => {
+                self.chosen.clear();
+                self.preset = preset;
+                // Presets are chosen when a pipeline is read.
+                self.pipeline = Held::nothing();
+            }
+        }
+    }
+
+    /// Draws anew, and says on standard error how that went. What is wrong leaves the last good frame.
+    ///
+    /// # Errors
+    /// Those of the device, which no change to a file mends.
+    pub(crate) fn draw(&mut self) -> Result<(), Error> {
+        let begun = Instant::now();
+        self.version += 1;
+        match self.drawn() {
+            Ok(good) => {
+                let seconds = begun.elapsed().as_secs_f64();
+                self.good = Good { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
+                self.wrong = Wrong { mistakes: json!([]), ..Wrong::default() };
+                text::say(&self.good.took);
+                Ok(())
+            }
+            Err(error) if error.can_be_mended_in_files() => {
+                self.wrong = Wrong::of(&error);
+                text::say(&self.wrong.message);
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The state of the page.
+    ///
+    /// # Errors
+    /// If it has no JSON form.
+    pub(crate) fn published(&mut self, busy: bool) -> Result<Published, Error> {
+        self.version += 1;
+        let live = Live {
+            format_version: 1,
+            version: self.version,
+            frame: self.good.version,
+            busy,
+            mistakes: &self.wrong.mistakes,
+            message: &self.wrong.message,
+            sources: &self.wrong.sources,
+            controls: &self.good.controls,
+            chosen: &self.chosen,
+            preset: self.preset.as_deref().or(self.arguments.pipeline.preset.as_deref()),
+            outputs: &self.good.outputs,
+            took: &self.good.took,
+        };
+        let live = serde_json::to_string(&live)?;
+        let page = self.good.page.as_deref().unwrap_or("null");
+        let json = format!("{{\"live\":{live},\"page\":{page}}}").into();
+        Ok(Published { version: self.version, json, pictures: Arc::clone(&self.good.pictures) })
+    }
+
+    fn drawn(&mut self) -> Result<Good, Error> {
+        let arguments = self.arguments;
+        if self.scene.value.is_none() || self.scene.read.changed() {
+            self.scene = Held::nothing();
+            self.scene.value = Some(inputs::scene(&arguments.scene, &self.scene.read)?);
+        }
+        if self.pipeline.value.is_none() || self.pipeline.read.changed() {
+            self.pipeline = Held::nothing();
+            let mut of_page = arguments.pipeline.clone();
+            of_page.preset = self.preset.clone().or(of_page.preset);
+            let loaded = planning::load_with(&of_page, &self.pipeline.read, self.helper.clone())?;
+            // A setting that the file no longer has can't be chosen any more.
+            let known = |name: &str| loaded.pipeline.settings.iter().any(|setting| *setting.name.text == *name);
+            self.chosen.retain(|name, _| known(name));
+            self.pipeline.value = Some(loaded);
+        }
+        let (Some(scene), Some(pipeline)) = (&self.scene.value, &mut self.pipeline.value) else {
+            return Ok(Good::default());
+        };
+        let of_command_line = arguments.pipeline.set.iter().map(|one| (one.name.clone(), one.value.clone()));
+        pipeline.set = of_command_line.chain(self.chosen.clone()).collect();
+        drawn(arguments, self.device, scene, pipeline, self.version)
+    }
+}
+
+/// Draws a frame, and gathers what the page shows of it.
+fn drawn(
+    arguments: &ServeArguments,
+    device: &Device,
+    scene: &Scene,
+    pipeline: &mut Loaded,
+    version: u64,
+) -> Result<Good, Error> {
+    let view = View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
+    let (options, profile) = (arguments.planning.options(), device.profile());
+    let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
+    diagnostics::cameras(&planned.frame, scene)?;
+    let mut files = BTreeMap::new();
+    let mut kept = |name: String, png: Vec<u8>| {
+        files.insert(format!("{version}/{name}"), png.into());
+        format!("picture/{version}/{name}")
+    };
+    let mut outputs = Vec::new();
+    for (name, png) in output_pictures(arguments, device, scene, pipeline, &planned)? {
+        let picture = kept(format!("{}.png", outputs.len()), png);
+        outputs.push(Output { name, picture });
+    }
+    let mut thumbnails: Vec<Thumbnail> = Vec::new();
+    if arguments.capture {
+        let (planned, size, frames) = (&planned, arguments.size, arguments.frames);
+        captures::draw(Drawing { device, pipeline, planned, scene, size, options, frames }, |captured| {
+            let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
+            thumbnails.push(captured.thumbnail(address));
+            Ok(())
+        })?;
+    }
+    let plan = &planned.plan;
+    let name = arguments.pipeline.file.to_string_lossy();
+    let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
+    let objects = |list: DrawList| scene.count(list);
+    let detail = Detail { objects: Some(&objects), verbose: true };
+    let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+    let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &thumbnails };
+    Ok(Good {
+        version,
+        page: Some(inspection::page_data(&page)?),
+        controls: Controls::of(&pipeline.pipeline, plan),
+        outputs,
+        pictures: Arc::new(files),
+        took: totals::sentence(&plan.totals),
+    })
+}
+
+/// Draws the frames, and encodes every output of the last.
+fn output_pictures(
+    arguments: &ServeArguments,
+    device: &Device,
+    scene: &Scene,
+    pipeline: &mut Loaded,
+    planned: &Planned,
+) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
+    let mut prepared = Prepared::new(device, planned, pipeline, scene, arguments.size, &options)?;
+    for drawn in 0..arguments.frames {
+        if interrupt::asked() {
+            return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
+        }
+        prepared.draw()?;
+    }
+    let requests = pictures::of_all_outputs(planned);
+    let encoded = requests.iter().map(|request| {
+        let (png, _) = request.encoded(&mut prepared.executor, &planned.plan)?;
+        Ok((request.name().to_owned(), png))
+    });
+    encoded.collect()
+}
+
+impl Wrong {
+    fn of(error: &Error) -> Wrong {
+        let message = error.shown();
+        match error {
+            Error::Mistakes { mistakes } => Wrong {
+                mistakes: base::to_json(&mistakes.sources, &mistakes.diagnostics),
+                message,
+                sources: texts(&mistakes.sources),
+            },
+            _ => Wrong {
+                mistakes: json!([{ "message": message.trim_start_matches("error: "), "help": null, "labels": [] }]),
+                message,
+                sources: Vec::new(),
+            },
+        }
+    }
+}
+
+fn texts(sources: &Sources) -> Vec<SourceText> {
+    let files = (0..).map_while(|file| sources.file(file));
+    let text = |file: &SourceFile| SourceText {
+        name: file.relative.to_string(),
+        shown: file.shown.clone(),
+        text: file.text.to_string(),
+    };
+    files.map(text).collect()
+}
