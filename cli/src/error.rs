@@ -92,10 +92,12 @@ pub(crate) enum Error {
     Sweep { what: String },
     /// A folder holds results of something else.
     #[error(
-        "`{}` holds results of another pipeline, device, reference, baseline or number of frames: name another folder",
-        text::path(folder)
+        "`{}` holds results of another sweep: `{field}` is {} there, and {} here\nhelp: name another folder",
+        text::path(folder),
+        text::escape(&values[0]),
+        text::escape(&values[1])
     )]
-    OtherSweep { folder: PathBuf },
+    OtherSweep { folder: PathBuf, field: &'static str, values: Box<[String; 2]> },
     /// A file of results that is none.
     #[error("`{}` {}", text::path(path), text::escape_lines(&problem.to_string()))]
     Results { path: PathBuf, problem: Box<dyn std::error::Error> },
@@ -276,7 +278,10 @@ impl Error {
     #[must_use]
     pub(crate) fn can_be_mended_in_files(&self) -> bool {
         use framewright_vulkan::Error::{DeviceLost, Timeout};
-        !matches!(self, Error::Interrupted { .. } | Error::Vulkan(DeviceLost { .. } | Timeout { .. }) | Error::Helper(_))
+        !matches!(
+            self,
+            Error::Interrupted { .. } | Error::Vulkan(DeviceLost { .. } | Timeout { .. }) | Error::Helper(_)
+        )
     }
 
     /// Whether the device may still be working for this process.

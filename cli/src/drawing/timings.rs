@@ -1,5 +1,6 @@
 //! The GPU time of each part of a frame.
 
+use crate::system::quantiles::median;
 use framewright_graph::plan::{ImageId, Plan, RenderScope, Resource, Transfer, Work};
 use framewright_vulkan::FrameReport;
 use serde::Serialize;
@@ -48,7 +49,7 @@ pub(crate) enum WorkKind {
 #[must_use]
 pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
     let Some(last) = frames.last() else { return Vec::new() };
-    let over = |time: &dyn Fn(&FrameReport) -> f64| median(frames.iter().map(time).collect());
+    let over = |time: &dyn Fn(&FrameReport) -> f64| median(frames.iter().map(time).collect()).unwrap_or_default();
     let mut rows = Vec::new();
     for (step, planned) in plan.steps.iter().enumerate() {
         let gpu_milliseconds = over(&|frame| frame.steps[step].milliseconds);
@@ -116,30 +117,5 @@ fn name(plan: &Plan, resource: Resource) -> &str {
     match resource {
         Resource::Image(image) => plan.images.get(image.0 as usize).map_or("", |image| &image.name),
         Resource::Buffer(buffer) => plan.buffers.get(buffer.0 as usize).map_or("", |buffer| &buffer.name),
-    }
-}
-
-/// The middle of some times, or the mean of the two in the middle; 0 of none.
-#[must_use]
-pub(crate) fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    let middle = times.len() / 2;
-    match times.len() {
-        0 => 0.0,
-        even if even % 2 == 0 => (times[middle - 1] + times[middle]) / 2.0,
-        _ => times[middle],
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_median_is_the_middle() {
-        assert_eq!(median(vec![]), 0.0);
-        assert_eq!(median(vec![3.0]), 3.0);
-        assert_eq!(median(vec![3.0, 1.0, 100.0]), 3.0);
-        assert_eq!(median(vec![4.0, 1.0]), 2.5);
     }
 }

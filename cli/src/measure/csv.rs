@@ -79,13 +79,13 @@ fn figures(row: &Row) -> [Option<String>; FIGURES.len()] {
     let flicker = |figure: fn(&Flicker) -> String| measured.and_then(|it| it.flicker.as_ref()).map(figure);
     let cost = |number: fn(&Cost) -> Option<u64>| measured.and_then(|it| number(&it.cost)).map(|it| it.to_string());
     let path = |path: fn(&Measured) -> &Option<String>| measured.and_then(|it| path(it).clone());
-    let spread = |spread: fn(&Cost) -> Spread| {
+    let spread = |spread: fn(&Cost) -> Option<Spread>| {
         let figures = |Spread { median, low, high }: Spread| [median, low, high].map(|number| Some(number.to_string()));
-        measured.map_or([None, None, None], |it| figures(spread(&it.cost)))
+        measured.and_then(|it| spread(&it.cost)).map_or([None, None, None], figures)
     };
     let [gpu, gpu_low, gpu_high] = spread(|cost| cost.gpu_milliseconds);
     let [ratio, ratio_low, ratio_high] = spread(|cost| cost.gpu_ratio);
-    let [recording, recording_low, recording_high] = spread(|cost| cost.recording_milliseconds);
+    let [recording, recording_low, recording_high] = spread(|cost| Some(cost.recording_milliseconds));
     [
         gpu,
         gpu_low,

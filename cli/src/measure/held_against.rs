@@ -1,6 +1,7 @@
 //! The pictures that choices are held against: still ones, and those of a moving scene.
 
 use super::digest::Digest;
+use super::pipeline_digest;
 use super::reference;
 use super::references::{self, Reference, References};
 use super::run::{Bench, settings};
@@ -101,6 +102,7 @@ impl Bench<'_> {
         let frame = if choice.scene.moving.moves() { frame } else { 0 };
         let rest = [
             env!("CARGO_PKG_VERSION").to_owned(),
+            pipeline_digest::of_shipped_shaders(),
             self.pipeline_digest.clone(),
             summary.name.clone(),
             summary.driver.clone(),

@@ -79,12 +79,15 @@ fn put(
 }
 
 /// The first field in which two subjects differ, and both values.
-fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
+pub(super) fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [String; 2])> {
     let fields = |subject: &Subject| {
-        let Subject { pipeline, pipeline_digest, device, driver, frames, flicker_frames, reference, baseline } =
-            subject;
+        let Subject { framewright, shipped_shaders, pipeline, pipeline_digest, device, driver, .. } = subject;
+        let Subject { frames, flicker_frames, reference, baseline, .. } = subject;
+        let known = |text: &str| if text.is_empty() { "unknown".to_owned() } else { format!("`{text}`") };
         let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
         [
+            ("framewright", known(framewright)),
+            ("shipped_shaders", known(shipped_shaders)),
             ("pipeline_digest", format!("`{pipeline_digest}`")),
             ("pipeline", format!("`{pipeline}`")),
             ("device", format!("`{device}`")),

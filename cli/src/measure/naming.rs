@@ -39,6 +39,13 @@ impl Row {
 }
 
 impl Measured {
+    /// Whether all pixels are finite, in the picture, its reference and all frames of the moving scene. If not, its figures are those
+    /// of the other pixels alone.
+    pub(crate) fn is_finite(&self) -> bool {
+        let still = self.errors.as_ref().is_none_or(|errors| errors.non_finite == [0, 0]);
+        still && self.flicker.as_ref().is_none_or(|flicker| flicker.non_finite == 0)
+    }
+
     /// The pictures that it names, as paths within the folder.
     pub(crate) fn pictures(&self) -> impl Iterator<Item = (&'static str, &String)> {
         let named = [

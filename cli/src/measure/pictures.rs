@@ -1,13 +1,13 @@
 //! Pictures of results that are joined. Each gets a name by its contents: so no folder's pictures take the place of another's,
 //! and the same picture has the same name wherever it comes from.
 
+use super::digest::Digest;
 use super::results::{Measured, Outcome, Results};
 use crate::error::Error;
 use crate::files::{inputs, outputs};
 use framewright_graph::base::ReadFiles;
 use std::collections::BTreeMap;
 use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// The folder of pictures in that of joined results.
@@ -55,10 +55,9 @@ impl Pictures {
             let source = source.clone();
             return Err(Error::OutsideResults { path: source, folder: folder.to_owned() });
         }
-        let mut hasher = DefaultHasher::new();
-        inputs::measured_picture(&source, read)?.hash(&mut hasher);
+        let digest = Digest::of_bytes([&*inputs::measured_picture(&source, read)?]);
         let ending = Path::new(path).extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let name = format!("{FOLDER}/{:016x}.{ending}", hasher.finish());
+        let name = format!("{FOLDER}/{digest}.{ending}");
         self.sources.entry(name.clone()).or_insert(source);
         Ok(name)
     }

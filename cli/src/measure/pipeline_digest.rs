@@ -4,6 +4,7 @@ use super::digest::Digest;
 use crate::planning::Loaded;
 use crate::variants::mentions::Mentions;
 use framewright_graph::base::FilePath;
+use framewright_passes::shipped::SHADERS;
 use std::collections::BTreeSet;
 
 /// The digest. It is that of the whole pipeline, whatever a choice leaves out of it: a shader is part of it if a string of a file
@@ -22,4 +23,9 @@ pub(super) fn of(pipeline: &Loaded) -> String {
     let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.textures.bytes(path).ok());
     let parts: Vec<Vec<u8>> = texts.chain(shaders.into_iter().map(String::into_bytes)).chain(pictures).collect();
     Digest::of_bytes(parts.iter().map(|part| &**part))
+}
+
+/// The digest of all shipped shaders.
+pub(super) fn of_shipped_shaders() -> String {
+    Digest::of(SHADERS.iter().flat_map(|(name, text)| [*name, *text]))
 }

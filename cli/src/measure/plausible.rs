@@ -9,6 +9,9 @@ use std::path::{Component, Path};
 /// Rounding may put a mean above the largest value by so much.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
+/// No two floating-point numbers are so far apart.
+const MOST_DECIBELS: f64 = 2000.0;
+
 /// The first thing in results that no measurement gives, in words.
 pub(super) fn problem(results: &Results) -> Option<String> {
     if results.subject.frames == 0 {
@@ -64,13 +67,13 @@ fn of_cost(cost: &Cost) -> Option<String> {
     let spreads = [
         ("gpu_milliseconds", cost.gpu_milliseconds),
         ("gpu_ratio", cost.gpu_ratio),
-        ("recording_milliseconds", cost.recording_milliseconds),
+        ("recording_milliseconds", Some(cost.recording_milliseconds)),
     ];
-    spreads.into_iter().find_map(|(name, spread)| of_spread(name, spread))
+    spreads.into_iter().find_map(|(name, spread)| of_spread(name, spread?))
 }
 
 fn of_passes(measured: &Measured) -> Option<String> {
-    measured.passes.iter().find_map(|pass| of_spread(&format!("pass `{}`", pass.name), pass.gpu_milliseconds))
+    measured.passes.iter().find_map(|pass| of_spread(&format!("pass `{}`", pass.name), pass.gpu_milliseconds?))
 }
 
 fn of_spread(name: &str, Spread { median, low, high }: Spread) -> Option<String> {
@@ -93,7 +96,11 @@ fn of_errors(name: &str, errors: &Errors, size: [u32; 2]) -> Option<String> {
         ("max_error", errors.max_error, within(errors.max_error, 0.0, f64::MAX)),
         ("rmse", errors.rmse, within(errors.rmse, 0.0, errors.max_error)),
         ("relative_mse", errors.relative_mse, within(errors.relative_mse, 0.0, f64::MAX)),
-        ("psnr", errors.psnr.unwrap_or(0.0), errors.psnr.is_none_or(|psnr| within(psnr, 0.0, f64::MAX))),
+        (
+            "psnr",
+            errors.psnr.unwrap_or(0.0),
+            errors.psnr.is_none_or(|psnr| within(psnr, -MOST_DECIBELS, MOST_DECIBELS)),
+        ),
         ("ssim", errors.ssim, within(errors.ssim, -ROUNDING, 1.0)),
     ];
     let wrong = figures.into_iter().find(|(_, _, is_possible)| !is_possible);

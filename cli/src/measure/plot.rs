@@ -32,8 +32,11 @@ pub(super) fn front(results: &Results) -> String {
     let mut groups: BTreeMap<Group, Vec<Point>> = BTreeMap::new();
     for row in &results.rows {
         let Outcome::Measured(measured) = &row.outcome else { continue };
-        let Some(errors) = measured.errors.as_ref().filter(|errors| errors.non_finite == [0, 0]) else { continue };
-        let figures = [measured.cost.gpu_milliseconds.median, errors.flip.mean];
+        let (Some(errors), Some(time), true) = (&measured.errors, measured.cost.gpu_milliseconds, measured.is_finite())
+        else {
+            continue;
+        };
+        let figures = [time.median, errors.flip.mean];
         groups.entry(row.group()).or_default().push(Point { figures, name: results.shown(&row.settings) });
     }
     let (width, height) = (WIDTHS[0] + WIDTHS[1], HEIGHT * groups.len().max(1) as f64);

@@ -22,6 +22,12 @@ pub(crate) struct Results {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Subject {
+    /// Framewright's version. Empty: an earlier one, which didn't say it.
+    #[serde(default)]
+    pub(crate) framewright: String,
+    /// A digest of all shipped shaders. Empty as above.
+    #[serde(default)]
+    pub(crate) shipped_shaders: String,
     /// The pipeline's file, as it was named.
     pub(crate) pipeline: String,
     /// A digest of the pipeline and of all files that it names, the user's own shaders among them.
@@ -96,10 +102,10 @@ pub(crate) struct Measured {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Cost {
-    /// Milliseconds on the device.
-    pub(crate) gpu_milliseconds: Spread,
-    /// The time on the device relative to the baseline's, frame by frame in the same run.
-    pub(crate) gpu_ratio: Spread,
+    /// Milliseconds on the device; `None` if the device doesn't tell times.
+    pub(crate) gpu_milliseconds: Option<Spread>,
+    /// The time on the device relative to the baseline's, frame by frame in the same run; `None` if the device doesn't tell times.
+    pub(crate) gpu_ratio: Option<Spread>,
     /// Milliseconds that the processor takes to record the frame.
     pub(crate) recording_milliseconds: Spread,
     /// Bytes of transient memory.
@@ -115,12 +121,12 @@ pub(crate) struct Cost {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PassCost {
     pub(crate) name: String,
-    /// Milliseconds on the device.
-    pub(crate) gpu_milliseconds: Spread,
+    /// Milliseconds on the device; `None` if the device doesn't tell times.
+    pub(crate) gpu_milliseconds: Option<Spread>,
 }
 
 /// Many figures of one thing.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Spread {
     pub(crate) median: f64,

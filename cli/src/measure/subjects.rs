@@ -10,6 +10,7 @@ use crate::planning::Loaded;
 use crate::system::text;
 use crate::variants::axes;
 use framewright_graph::base::ReadFiles;
+use framewright_graph::expand;
 use framewright_passes::scene::Scene;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -86,6 +87,7 @@ pub(crate) fn choices(
         )));
     }
     let settings = &pipeline.pipeline.settings;
+    let sweeps = sweeps.into_iter().map(|sweep| canonical(pipeline, sweep)).collect::<Result<Vec<_>, Error>>()?;
     for (at, Sweep { name, .. }) in sweeps.iter().enumerate() {
         if sweeps[..at].iter().any(|other| other.name == *name) {
             return Err(wrong(format!("`{}` is swept twice", text::escape(name))));
@@ -135,6 +137,23 @@ pub(crate) fn choices(
         choices.push(choice);
     }
     Ok((baseline, choices))
+}
+
+/// A sweep with its values in the form that Plans have them in: so `2.0` and `2` are one choice, and a choice that can't be drawn has the
+/// settings of one that can. What is no value stays as it is: it is told of later.
+fn canonical(pipeline: &Loaded, sweep: Sweep) -> Result<Sweep, Error> {
+    let setting = pipeline.pipeline.settings.iter().find(|it| *it.name.text == *sweep.name);
+    let value = |text: &String| match setting {
+        Some(setting) => expand::canonical_value(&setting.kind, text),
+        None if sweep.name == SIZE => text.parse::<Size>().ok().map(|size| size.to_string()),
+        None => None,
+    };
+    let values: Vec<String> = sweep.values.iter().map(|text| value(text).unwrap_or_else(|| text.clone())).collect();
+    if let Some(at) = (1..values.len()).find(|at| values[..*at].contains(&values[*at])) {
+        let [name, value] = [&sweep.name, &values[at]].map(|text| text::escape(text));
+        return Err(Error::Sweep { what: format!("`{name}` is swept over `{value}` twice") });
+    }
+    Ok(Sweep { name: sweep.name, values })
 }
 
 /// A sweep over each setting that the preset `reference` names.

@@ -22,8 +22,11 @@ pub(super) fn table(results: &Results) -> String {
                 };
                 table.add_row([
                     choice,
-                    format!("{:.2}", time.median),
-                    format!("{:.2} ({:.2}–{:.2})", ratio.median, ratio.low, ratio.high),
+                    time.map_or_else(|| "-".to_owned(), |time| format!("{:.2}", time.median)),
+                    ratio.map_or_else(
+                        || "-".to_owned(),
+                        |it| format!("{:.2} ({:.2}–{:.2})", it.median, it.low, it.high),
+                    ),
                     mebibytes(transient_bytes),
                     mebibytes(moved_bytes),
                     figure(|errors| errors.flip.mean),

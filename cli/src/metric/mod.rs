@@ -32,7 +32,7 @@ pub(crate) enum Metric {
     MaxError,
     /// The mean of squared differences, each beside the square of the reference.
     RelativeMse,
-    /// The peak signal-to-noise ratio of what a display shows, in dB.
+    /// The peak signal-to-noise ratio in linear light, in dB.
     Psnr,
     /// The structural similarity of what a display shows.
     Ssim,
@@ -66,7 +66,8 @@ pub(crate) struct Errors {
     pub(crate) max_error: f64,
     /// The mean of squared differences over `reference² + 0.01`.
     pub(crate) relative_mse: f64,
-    /// Of values from 0 to 1 in the curve of sRGB, in dB; `None` if there is no difference.
+    /// `20 log10(peak / rmse)` in dB; `None` if there is no difference. The peak is 1, or the largest light of a reference that is
+    /// brighter.
     pub(crate) psnr: Option<f64>,
     /// Of values from 0 to 1 in the curve of sRGB: 1 if there is no difference.
     pub(crate) ssim: f64,
@@ -147,9 +148,10 @@ impl Errors {
         let references = a.iter().zip(&both).filter(|(_, finite)| **finite).flat_map(|(texel, _)| *texel);
         let relative = light
             .iter()
-            .zip(references)
+            .zip(references.clone())
             .map(|(difference, reference)| difference * difference / (reference * reference + RELATIVE_FLOOR));
-        let noise = mean(differences(&shown_a, &shown_b).iter().map(|it| it * it), 0.0);
+        let rmse = mean(light.iter().map(|it| it * it), 0.0).sqrt();
+        let peak = references.clone().fold(1.0, f64::max);
         Errors {
             flip: FlipErrors {
                 exposures,
@@ -158,10 +160,10 @@ impl Errors {
                 percentile_95: pooled.percentile_95,
                 worst: pooled.worst,
             },
-            rmse: mean(light.iter().map(|it| it * it), 0.0).sqrt(),
+            rmse,
             max_error: light.iter().fold(0.0, |most, it| it.abs().max(most)),
             relative_mse: mean(relative, 0.0),
-            psnr: (noise > 0.0).then(|| -10.0 * noise.log10()),
+            psnr: (rmse > 0.0).then(|| 20.0 * (peak / rmse).log10()),
             ssim,
             non_finite: [0, 1].map(|at| counts(at).iter().filter(|finite| !**finite).count()),
             of_nothing: !both.contains(&true),

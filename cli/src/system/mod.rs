@@ -6,6 +6,7 @@ pub(crate) mod html;
 pub(crate) mod interrupt;
 pub(crate) mod links;
 pub(crate) mod progress;
+pub(crate) mod quantiles;
 pub(crate) mod text;
 pub(crate) mod xml;
 

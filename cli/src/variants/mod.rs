@@ -98,7 +98,7 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let decisions = SharedDecisions::of(subject.devices.len());
     let threads = arguments.threads.map_or_else(processors, usize::from);
     let words = Words { doing: "checking", done: "checked", things: "variants" };
-    let progress = Progress::new(space.len(), words, Duration::from_secs(5));
+    let progress = Progress::new(space.len(), 0, words, Duration::from_secs(5));
     let mut found = run::run(&subject, &space, &library, &decisions, threads, &progress);
     progress.finish();
     let failures = std::mem::take(&mut found.failures);

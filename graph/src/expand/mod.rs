@@ -47,3 +47,4 @@ mod written;
 
 pub use flatten::{expand, expand_reading};
 pub use inputs::{Inputs, check_inputs};
+pub use settings::canonical_value;

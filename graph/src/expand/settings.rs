@@ -32,6 +32,12 @@ pub(super) fn values(chosen: &[InForce]) -> Vec<Value> {
     chosen.iter().map(|chosen| chosen.value.clone()).collect()
 }
 
+/// A value of a setting in the form that Plans have it in; `None`: the text is none of this kind. `2` and `2.0` are one number.
+#[must_use]
+pub fn canonical_value(kind: &SettingKind, text: &str) -> Option<String> {
+    parse(kind, text).map(|value| show(&value))
+}
+
 /// Settings in force, as they are shown.
 pub(super) fn shown(settings: &[Setting], values: &[InForce]) -> Vec<(Arc<str>, String)> {
     settings.iter().zip(values).map(|(setting, chosen)| (setting.name.text.clone(), show(&chosen.value))).collect()

@@ -1,7 +1,8 @@
 //! The answer, in words and as JSON.
 
-use crate::measure::choosing::{Candidate, Candidates, Chosen, LeftOut, Limit, Quantity};
-use crate::measure::results::Results;
+use crate::measure::Group;
+use crate::measure::choosing::{Binding, Candidate, Candidates, Chosen, Limit, Quantity, Reason};
+use crate::measure::results::{Results, Spread};
 use crate::metric::Metric;
 use crate::system::text;
 use serde::Serialize;
@@ -28,6 +29,12 @@ pub(super) struct Json<'a> {
     /// If none are chosen: the settings that miss the limits by least.
     nearest_miss: Option<Entry<'a>>,
     limits: Vec<StatedLimit<'a>>,
+    /// The limits that bind only together.
+    binding_together: Vec<Together<'a>>,
+    /// The groups whose worst figures count.
+    groups: Vec<String>,
+    /// The groups in which no settings can be chosen, and which don't count.
+    left_out_groups: Vec<String>,
     left_out: BTreeMap<&'static str, usize>,
 }
 
@@ -40,18 +47,24 @@ struct StatedLimit<'a> {
 }
 
 #[derive(Debug, Serialize)]
+struct Together<'a> {
+    options: Vec<&'static str>,
+    /// The settings that would be chosen without these limits.
+    without: Entry<'a>,
+}
+
+#[derive(Debug, Serialize)]
 struct Entry<'a> {
     settings: &'a BTreeMap<String, String>,
-    gpu_milliseconds: f64,
-    gpu_ratio: f64,
+    /// `null`: the device doesn't tell times.
+    gpu_milliseconds: Option<f64>,
+    gpu_ratio: Option<Spread>,
     transient_bytes: u64,
     moved_bytes: u64,
     /// The mean; `null`: it wasn't measured.
     flicker: Option<f64>,
     /// By metric; `null`: no difference.
     errors: BTreeMap<&'static str, f64>,
-    /// Where they were measured. Figures are the worst of all.
-    groups: Vec<String>,
     /// By option, for each limit that is missed: by what part of it; of a limit of 0 the distance itself.
     overshoot: BTreeMap<&'static str, f64>,
 }
@@ -59,14 +72,15 @@ struct Entry<'a> {
 impl Answer<'_> {
     /// The answer for programs.
     pub(super) fn json(&self) -> Json<'_> {
-        let (best, without, next, nearest) = match self.chosen {
-            Chosen::Best { best, without, next } => (Some(*best), &without[..], *next, None),
+        let (best, binding, next, nearest) = match self.chosen {
+            Chosen::Best { best, binding, next } => (Some(*best), &binding[..], *next, None),
             Chosen::Nearest(nearest) => (None, &[][..], None, *nearest),
         };
+        let together = binding.iter().filter(|it| it.limits.len() > 1);
         let limits = self.limits.iter().enumerate().map(|(at, limit)| StatedLimit {
             option: limit.quantity.option(),
             limit: limit.value,
-            without: without.get(at).copied().flatten().map(|it| self.entry(it)),
+            without: alone(binding, at).map(|it| self.entry(it.without)),
         });
         Json {
             format_version: 1,
@@ -76,7 +90,12 @@ impl Answer<'_> {
             next_better: next.map(|it| self.entry(it)),
             nearest_miss: nearest.map(|it| self.entry(it)),
             limits: limits.collect(),
-            left_out: reasons(self.candidates.left_out).map(|(name, _, count)| (name, count)).collect(),
+            binding_together: together
+                .map(|it| Together { options: self.options(it), without: self.entry(it.without) })
+                .collect(),
+            groups: self.candidates.groups.iter().map(Group::name).collect(),
+            left_out_groups: self.candidates.left_out_groups.iter().map(Group::name).collect(),
+            left_out: self.reasons().map(|(reason, count)| (name(reason), count)).collect(),
         }
     }
 
@@ -90,7 +109,6 @@ impl Answer<'_> {
             moved_bytes: candidate.moved_bytes,
             flicker: candidate.flicker,
             errors: Metric::ALL.map(|metric| (metric.name(), candidate.of(Quantity::Error(metric)))).into(),
-            groups: candidate.groups.iter().map(|group| group.name()).collect(),
             overshoot: missed.filter(|(_, overshoot)| *overshoot > 0.0).collect(),
         }
     }
@@ -98,9 +116,11 @@ impl Answer<'_> {
     /// The answer for people. `written` is the settings file, which is written if settings are chosen.
     pub(super) fn words(&self, written: Option<&Path>) -> String {
         let mut lines = match self.chosen {
-            Chosen::Best { best, without, next } => {
+            Chosen::Best { best, binding, next } => {
                 let mut lines = self.described("best", best);
-                lines.extend(self.limits.iter().zip(without).map(|(limit, without)| self.limit(limit, best, *without)));
+                lines.extend((0..self.limits.len()).map(|at| self.limit(at, best, binding)));
+                let together = binding.iter().filter(|it| it.limits.len() > 1);
+                lines.extend(together.map(|it| self.together(it)));
                 lines.push(match next {
                     Some(next) => format!("next better: {}; {}", self.in_short(next), self.missed(next)),
                     None => "nothing better was measured".to_owned(),
@@ -116,8 +136,12 @@ impl Answer<'_> {
                 lines
             }
         };
-        let left_out = reasons(self.candidates.left_out).filter(|(_, _, count)| *count > 0);
-        lines.extend(left_out.map(|(_, why, count)| format!("left out: {count} {why}")));
+        let left_out = self.reasons().filter(|(_, count)| *count > 0);
+        lines.extend(left_out.map(|(reason, count)| format!("left out: {count} {}", why(reason))));
+        let groups = self.candidates.left_out_groups.iter();
+        lines.extend(groups.map(|group| {
+            format!("left out: {}, where nothing that was measured can be chosen", text::escape(&group.name()))
+        }));
         lines.join("\n") + "\n"
     }
 
@@ -130,30 +154,29 @@ impl Answer<'_> {
             .into_iter()
             .chain(flicker)
             .map(|(name, quantity, value)| format!("{name} {}", figure(quantity, value)));
-        let (moved, groups) = (text::bytes(candidate.moved_bytes), self.groups(candidate));
         vec![
             format!("{what}: {}", text::escape(&self.results.shown(&candidate.settings))),
-            format!("  {}, {moved} moved, {:.3} × the baseline's time", self.cost(candidate), candidate.ratio),
+            format!("  {}, {} moved", self.cost(candidate), text::bytes(candidate.moved_bytes)),
             format!("  {}", errors.collect::<Vec<_>>().join(", ")),
-            format!("  {groups}"),
+            format!("  {}", self.groups()),
         ]
     }
 
-    /// Where settings were measured, and where others were.
-    fn groups(&self, candidate: &Candidate) -> String {
-        let all: std::collections::BTreeSet<_> = self.results.rows.iter().map(|row| row.group()).collect();
-        let names: Vec<String> = candidate.groups.iter().map(|group| text::escape(&group.name())).collect();
+    /// Where settings were measured.
+    fn groups(&self) -> String {
+        let names: Vec<String> = self.candidates.groups.iter().map(|group| text::escape(&group.name())).collect();
         let worst = if names.len() > 1 { "the worst figures of " } else { "measured with " };
-        let missing = match all.len() - candidate.groups.len() {
-            0 => String::new(),
-            missing => format!("; not measured with {missing} of {}", all.len()),
-        };
-        format!("{worst}{}{missing}", names.join("; "))
+        format!("{worst}{}", names.join("; "))
     }
 
     fn cost(&self, candidate: &Candidate) -> String {
         let memory = text::bytes(candidate.transient_bytes);
-        format!("{}, {memory} transient", figure(Quantity::Milliseconds, candidate.milliseconds))
+        let ratio = candidate.ratio.map_or_else(
+            || "no times".to_owned(),
+            |Spread { median, low, high }| format!("{median:.3} ({low:.3}–{high:.3}) × the baseline's time"),
+        );
+        let time = candidate.milliseconds.map(|time| format!(", {}", figure(Quantity::Milliseconds, time)));
+        format!("{ratio}{}, {memory} transient", time.unwrap_or_default())
     }
 
     fn in_short(&self, candidate: &Candidate) -> String {
@@ -162,13 +185,33 @@ impl Answer<'_> {
     }
 
     /// A limit, and whether it binds.
-    fn limit(&self, limit: &Limit, best: &Candidate, without: Option<&Candidate>) -> String {
+    fn limit(&self, at: usize, best: &Candidate, binding: &[Binding<'_>]) -> String {
+        let limit = &self.limits[at];
         let shown = figure(limit.quantity, best.of(limit.quantity));
-        let binds = match without {
-            Some(better) => format!("binds: without it {}", self.in_short(better)),
-            None => "doesn't bind".to_owned(),
+        let binds = match (alone(binding, at), binding.iter().any(|it| it.limits.contains(&at))) {
+            (Some(alone), _) => format!("binds: without it {}", self.in_short(alone.without)),
+            (None, true) => "binds together with others".to_owned(),
+            (None, false) => "doesn't bind".to_owned(),
         };
         format!("{} {}: {shown}; {binds}", limit.quantity.option(), limit.value)
+    }
+
+    /// Limits that bind only together.
+    fn together(&self, binding: &Binding<'_>) -> String {
+        format!(
+            "{} bind together: without them {}",
+            self.options(binding).join(" and "),
+            self.in_short(binding.without)
+        )
+    }
+
+    fn options(&self, binding: &Binding<'_>) -> Vec<&'static str> {
+        binding.limits.iter().map(|at| self.limits[*at].quantity.option()).collect()
+    }
+
+    /// How many settings are left out for each reason.
+    fn reasons(&self) -> impl Iterator<Item = (Reason, usize)> + '_ {
+        Reason::ALL.into_iter().map(|reason| (reason, self.candidates.left_out.get(&reason).copied().unwrap_or(0)))
     }
 
     /// The limits that settings miss, and by how much.
@@ -184,20 +227,37 @@ impl Answer<'_> {
     }
 }
 
-/// The reasons for which settings are left out, and how many are.
-fn reasons(left_out: LeftOut) -> impl Iterator<Item = (&'static str, &'static str, usize)> {
-    let LeftOut { failed, non_finite, without_errors } = left_out;
-    [
-        ("failed", "that can't be drawn", failed),
-        ("non_finite", "with pixels that aren't finite", non_finite),
-        ("without_errors", "without a reference", without_errors),
-    ]
-    .into_iter()
+/// What a limit by itself excludes.
+fn alone<'b, 'a>(binding: &'b [Binding<'a>], at: usize) -> Option<&'b Binding<'a>> {
+    binding.iter().find(|it| it.limits == [at])
+}
+
+/// A reason's name for programs.
+fn name(reason: Reason) -> &'static str {
+    match reason {
+        Reason::Failed => "failed",
+        Reason::NonFinite => "non_finite",
+        Reason::WithoutErrors => "without_errors",
+        Reason::NotEverywhere => "not_everywhere",
+    }
+}
+
+/// A reason for people.
+fn why(reason: Reason) -> &'static str {
+    match reason {
+        Reason::Failed => "that can't be drawn",
+        Reason::NonFinite => "with pixels that aren't finite",
+        Reason::WithoutErrors => "without a reference",
+        Reason::NotEverywhere => "that weren't measured with every scene, size and way of stereo",
+    }
 }
 
 /// A figure with its unit.
 fn figure(quantity: Quantity, value: f64) -> String {
     match quantity {
+        Quantity::Milliseconds | Quantity::Ratio | Quantity::Flicker if value.is_infinite() => {
+            "not measured".to_owned()
+        }
         Quantity::Milliseconds => format!("{value:.3} ms"),
         Quantity::Ratio => format!("{value:.3} × the baseline's time"),
         Quantity::Mebibytes | Quantity::MovedMebibytes => format!("{value:.1} MiB"),

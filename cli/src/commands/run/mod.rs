@@ -12,6 +12,7 @@ use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, Planned, View, device, notes};
+use crate::system::quantiles::median;
 use crate::system::{Exit, interrupt, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Image, Lifetime, Stereo};
@@ -72,6 +73,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }
     let (frames, pictures) = draw(arguments, &planned, &requests, &mut pipeline, &scene, &device)?;
+    let over = |time: fn(&FrameReport) -> f64| median(frames.iter().map(time).collect()).unwrap_or_default();
     let mut report = Report {
         format_version: 2,
         pipeline: shown(&arguments.pipeline.file),
@@ -82,8 +84,8 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         device: device.summary().into(),
         memory: (&planned.plan.totals).into(),
         barriers: (&planned.plan.totals).into(),
-        gpu_milliseconds: timings::median(frames.iter().map(|frame| frame.milliseconds).collect()),
-        recording_milliseconds: timings::median(frames.iter().map(|frame| frame.recording_milliseconds).collect()),
+        gpu_milliseconds: over(|frame| frame.milliseconds),
+        recording_milliseconds: over(|frame| frame.recording_milliseconds),
         passes: timings::rows(&planned.plan, &frames),
         notes: planned.plan.notes.clone(),
         scene_notes: scene.notes.clone(),

@@ -1,5 +1,5 @@
 "use strict";
-const results = JSON.parse(document.getElementById("data").textContent);
+const { results, not_finite } = JSON.parse(document.getElementById("data").textContent);
 const at = id => document.getElementById(id);
 
 // Elements are made with text alone: nothing of a file is ever read as HTML.
@@ -15,8 +15,8 @@ const cost = figure => measured => figure(measured.cost);
 const error = figure => measured => measured.errors && figure(measured.errors);
 const MIB = 1024 * 1024;
 const AXES = [
-  ["GPU ms", cost(it => it.gpu_milliseconds.median), 1],
-  ["GPU ratio", cost(it => it.gpu_ratio.median), 1],
+  ["GPU ms", cost(it => it.gpu_milliseconds?.median), 1],
+  ["GPU ratio", cost(it => it.gpu_ratio?.median), 1],
   ["recording ms", cost(it => it.recording_milliseconds.median), 1],
   ["MiB", cost(it => it.transient_bytes / MIB), 1],
   ["moved MiB", cost(it => it.moved_bytes / MIB), 1],
@@ -43,7 +43,7 @@ const rows = results.rows.map((row, index) => {
   const name = swept.filter(name => value(name) !== undefined).map(name => `${name}=${value(name)}`).join(" ");
   return { index, row, place, value, name: name || place, measured: row.outcome.measured, failed: row.outcome.failed };
 });
-const lacking = row => row.measured && row.measured.errors && row.measured.errors.non_finite.some(count => count > 0);
+const lacking = row => not_finite.includes(row.index);
 const shown = value => value === null || value === undefined ? "" : value === Infinity ? "∞"
   : value === 0 ? "0" : Math.abs(value) >= 1e5 || Math.abs(value) < 1e-4 ? value.toExponential(3) : String(Number(value.toPrecision(5)));
 
@@ -87,7 +87,7 @@ const WIDTH = 640, HEIGHT = 420, LEFT = 70, RIGHT = 16, TOP = 16, BOTTOM = 48;
 function draw() {
   const both = axes(), signs = both.map(axis => axis.sign);
   const points = visible().map(row => ({ row, signs, values: both.map(axis => axis.of(row)) }))
-    .filter(point => !lacking(point.row) && point.values.every(value => value !== null && Number.isFinite(value)));
+    .filter(point => !lacking(point.row) && point.values.every(value => Number.isFinite(value)));
   const ranges = both.map((axis, index) => range(points.map(point => point.values[index]), axis));
   const along = (value, { low, high }, from, to) => from + (value - low) / (high - low) * (to - from);
   const x = value => along(value, ranges[0], LEFT, WIDTH - RIGHT), y = value => along(value, ranges[1], HEIGHT - BOTTOM, TOP);
@@ -182,19 +182,20 @@ function detail() {
   const list = [];
   if (picked.failed !== undefined) list.push(["error", picked.failed]);
   if (lacking(picked)) {
-    const [reference, picture] = picked.measured.errors.non_finite;
-    list.push(["not finite", `${picture} pixels of the picture, ${reference} of the reference; they are no part of the figures`]);
+    const { errors, flicker } = picked.measured, [reference, picture] = errors?.non_finite ?? [0, 0];
+    const counts = [[picture, "of the picture"], [reference, "of the reference"], [flicker?.non_finite ?? 0, "of moving frames"]];
+    const said = counts.filter(([count]) => count > 0).map(([count, of]) => `${count} pixels ${of}`).join(", ");
+    list.push(["not finite", `${said}; they are no part of the figures`]);
   }
   const floor = picked.measured?.reference_errors;
   if (floor) list.push(["reference's own error", `FLIP ${shown(floor.flip.mean)}, RMSE ${shown(floor.rmse)} estimated`]);
-  for (const pass of picked.measured?.passes ?? []) list.push([pass.name, `${shown(pass.gpu_milliseconds.median)} ms`]);
+  for (const pass of picked.measured?.passes ?? []) list.push([pass.name, pass.gpu_milliseconds ? `${shown(pass.gpu_milliseconds.median)} ms` : "not timed"]);
   const lines = list.map(([name, text]) => [make("dt", {}, name), make("dd", {}, text)]);
   const settings = Object.entries(picked.row.settings).map(([name, value]) =>
     [make("dt", swept.includes(name) ? { class: "swept" } : {}, name), make("dd", {}, value)]);
   at("settings").replaceChildren(...settings.concat(lines).flat());
 }
 
-const spread = figures => figures && ` (${shown(figures.low)} to ${shown(figures.high)})`;
 const COLUMNS = [
   ...swept.map(name => ({ name, of: row => row.value(name), text: true })),
   { name: "scene", of: row => row.place, text: true },
@@ -235,8 +236,8 @@ function table() {
     for (const column of COLUMNS) {
       if (row.failed !== undefined && !column.text) continue;
       const value = column.of(row), cell = make("td", { class: column.text ? "text" : "" }, column.text ? value ?? "" : shown(value));
-      const name = SPREADS[column.name];
-      if (name) cell.title = "a quarter is below, a quarter above" + spread(row.measured.cost[name]);
+      const spread = row.measured?.cost[SPREADS[column.name]];
+      if (spread) cell.title = `a quarter is below ${shown(spread.low)}, a quarter above ${shown(spread.high)}`;
       line.append(cell);
     }
     if (row.failed !== undefined) line.append(make("td", { class: "failed", colspan: AXES.length }, row.failed));

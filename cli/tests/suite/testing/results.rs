@@ -73,6 +73,20 @@ impl Row {
         })
     }
 
+    /// The time relative to the baseline's, which differs from frame to frame by a part of it.
+    pub(crate) fn ratio(self, median: f64, part: f64) -> Row {
+        let ratio = json!({ "median": median, "low": median * (1.0 - part), "high": median * (1.0 + part) });
+        self.measured(|measured| measured["cost"]["gpu_ratio"] = ratio)
+    }
+
+    pub(crate) fn without_times(self) -> Row {
+        self.measured(|measured| {
+            measured["cost"]["gpu_milliseconds"] = Value::Null;
+            measured["cost"]["gpu_ratio"] = Value::Null;
+            measured["passes"][0]["gpu_milliseconds"] = Value::Null;
+        })
+    }
+
     pub(crate) fn moved(self, bytes: u64) -> Row {
         self.measured(|measured| measured["cost"]["moved_bytes"] = json!(bytes))
     }
@@ -86,6 +100,14 @@ impl Row {
             "non_finite": [0, 0],
         });
         self.measured(|measured| measured["errors"] = errors)
+    }
+
+    pub(crate) fn further_errors(self, max_error: f64, relative_mse: f64, psnr: f64) -> Row {
+        self.measured(|measured| {
+            measured["errors"]["max_error"] = json!(max_error);
+            measured["errors"]["relative_mse"] = json!(relative_mse);
+            measured["errors"]["psnr"] = json!(psnr);
+        })
     }
 
     pub(crate) fn flicker(self, mean: f64, non_finite: u32) -> Row {
@@ -129,6 +151,8 @@ pub(crate) fn results(rows: Vec<Value>) -> Value {
     json!({
         "format_version": 1,
         "subject": {
+            "framewright": "1.2.3",
+            "shipped_shaders": "89abcdef01234567",
             "pipeline": "no_such_pipeline.ron",
             "pipeline_digest": "0123456789abcdef",
             "device": "a device",
