@@ -96,6 +96,13 @@ fn each_planted_error_moves_the_metrics_that_see_it() {
     assert!(gamma["flip"]["mean"].as_f64() > shifted["flip"]["mean"].as_f64(), "{shifted} {gamma}");
 }
 
+/// Light beyond white is part of the noise.
+#[test]
+fn light_that_is_cut_off_at_white_is_noise() {
+    let clipped = errors("bright.exr", "bright_clipped.exr");
+    assert!(clipped["psnr"].as_f64().is_some_and(|psnr| psnr < 15.0) && clipped["ssim"] == 1.0, "{clipped}");
+}
+
 #[test]
 fn limits_decide_how_the_command_ends() {
     let (place, [shown, noise]) = (Place::new(), ["shown.png", "noise.png"].map(picture));

@@ -27,6 +27,7 @@ mod interrupts;
 mod large;
 mod licences;
 mod many_machines;
+mod measured_page;
 mod measuring;
 mod merging;
 mod never_overwritten;

@@ -43,15 +43,23 @@ fn more_samples_cost_memory_and_come_nearer_to_the_reference() {
         let bytes = |row: &Value| number(&row["cost"]["transient_bytes"]);
         assert!(bytes(small) < bytes(whole) && bytes(whole) < bytes(large));
         for row in [small, whole, large] {
-            // The error of the reference itself is below all that it is to show.
-            assert!(number(&row["reference_errors"]["flip"]["mean"]) < flip(row), "{row}");
+            // The error of the reference itself is below all that it is to show, and it has one.
+            let own = &row["reference_errors"];
+            assert!(number(&own["flip"]["mean"]) < flip(row) && number(&own["rmse"]) > 0.0, "{row}");
             let cost = &row["cost"];
             assert!(number(&cost["gpu_milliseconds"]["median"]) > 0.0 && number(&cost["moved_bytes"]) > 0.0, "{row}");
             // Lavapipe counts them: each pixel is drawn at least once.
             assert!(number(&cost["fragment_invocations"]) >= 96.0 * 54.0, "{row}");
             let [low, median, high] = ["low", "median", "high"].map(|it| number(&cost["gpu_ratio"][it]));
             assert!(0.0 < low && low <= median && median <= high, "{row}");
-            assert!(row["passes"].as_array().is_some_and(|passes| passes.len() >= 3), "{row}");
+            // A figure that spreads, and is that of this row: recording takes longer than nothing, and less than a second.
+            let recording = number(&cost["recording_milliseconds"]["median"]);
+            assert!(0.0 < recording && recording < 1000.0, "{row}");
+            // Its passes take what the frame takes, or a little less: barriers are the frame's.
+            let passes = row["passes"].as_array().expect("passes");
+            let times = passes.iter().map(|pass| number(&pass["gpu_milliseconds"]["median"]));
+            let part = times.sum::<f64>() / number(&cost["gpu_milliseconds"]["median"]);
+            assert!(passes.len() >= 3 && (0.5..1.5).contains(&part), "{part} in passes: {row}");
             for file in ["picture", "reference", "heat_map"] {
                 let name = row[file].as_str().expect("a file");
                 assert!(place.path("swept").join(name).is_file(), "{name}");
@@ -72,6 +80,15 @@ fn a_sweep_goes_on_where_it_stopped_and_mixes_no_two() {
     let again = measure(&place, &first).expect("lavapipe").exits(0);
     assert!(again.err.contains("note: 2 choices are measured already"), "{}", again.err);
     assert_eq!(results(&place, "swept"), kept);
+    // Another version of the program, or of its shaders, is another sweep.
+    for (field, value) in [("framewright", "0.0.1"), ("shipped_shaders", "0123456789abcdef")] {
+        let mut older = kept.clone();
+        older["subject"][field] = value.into();
+        place.file("swept/results.json", older.to_string());
+        let said = measure(&place, &first).expect("lavapipe").exits(2);
+        said.mentions(&format!("`swept` holds results of another sweep: `{field}` is `{value}` there, and `"));
+    }
+    place.file("swept/results.json", serde_json::to_string_pretty(&kept).expect("JSON") + "\n");
     // More choices: those that are there stay.
     let more = ["--sweep", "msaa=1,2,4", "--reference", "none", "-o", "swept"];
     measure(&place, &more).expect("lavapipe").exits(0);
@@ -85,7 +102,7 @@ fn a_sweep_goes_on_where_it_stopped_and_mixes_no_two() {
     ];
     for other in others {
         let other = [&["--sweep", "msaa=1,2,4", "-o", "swept"], other].concat();
-        measure(&place, &other).expect("lavapipe").exits(2).mentions("holds results of another");
+        measure(&place, &other).expect("lavapipe").exits(2).mentions("holds results of another sweep: `");
     }
     assert_eq!(results(&place, "swept"), all);
 }
@@ -234,10 +251,71 @@ fn a_pipeline_is_another_if_its_own_shaders_or_pictures_are() {
     place.file("other.frag", "something that nothing names");
     measure("swept").exits(0);
     place.file("part.glsl", "float part() { return 0.5; }");
-    measure("swept").exits(2).mentions("holds results of another pipeline");
+    measure("swept").exits(2).mentions("holds results of another sweep: `pipeline_digest` is `");
     measure("again").exits(0);
     grain(9);
-    measure("again").exits(2).mentions("holds results of another pipeline");
+    measure("again").exits(2).mentions("holds results of another sweep: `pipeline_digest` is `");
+}
+
+#[test]
+fn each_look_has_a_reference_of_its_own_and_choices_of_quality_share_one() {
+    let place = Place::new();
+    let sweep = ["--sweep", "blur=0,2", "--sweep", "msaa=1,4", "--frames", "1", "-o", "swept"];
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let arguments = ["measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "32x18"];
+    place.run_with(&variables, &[&arguments[..], &sweep].concat()).exits(0);
+    let results = results(&place, "swept");
+    let reference = |blur: &str, msaa: &str| &row(&results, &[("blur", blur), ("msaa", msaa)])["reference"];
+    for blur in ["0", "2"] {
+        assert!(reference(blur, "1").is_string() && reference(blur, "1") == reference(blur, "4"), "{results}");
+    }
+    assert_ne!(reference("0", "1"), reference("2", "1"));
+}
+
+/// Values have one form, however a row ended and however they were written.
+#[test]
+fn settings_that_failed_once_are_not_chosen() {
+    let place = Place::new();
+    let pipeline = r#"Pipeline(
+        version: 1,
+        settings: [(name: "scale", value: Number(default: 1.0, min: 1.0, max: 4.0))],
+        presets: {"reference": {"scale": 4.0}},
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "clear", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (name: "own", when: "scale > 1 && scene.has_transparent", custom: "mine", color: ["screen"]),
+        ],
+        outputs: ["screen"],
+    )"#;
+    place.file("p.ron", pipeline);
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let run = |sweep: &[&str]| {
+        let arguments = ["measure", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x8", "--frames", "1"];
+        place.run_with(&variables, &[&arguments[..], sweep].concat())
+    };
+    let black = image::RgbImage::new(16, 8);
+    black.save(place.path("black.png")).expect("written");
+    let cube = crate::testing::repository("examples/sweeps/one_unlit_cube.ron");
+    let scenes = format!("@scene=spheres_and_cubes,{}", cube.display());
+    let sweep = ["--sweep", "scale=1.0,2.0", "--sweep", &scenes, "--reference", "black.png", "-o", "swept"];
+    run(&sweep).exits(0);
+    let all = results(&place, "swept");
+    let outcomes = all["rows"].as_array().expect("rows").iter().map(|row| {
+        assert_eq!(row["choice"]["scale"], row["settings"]["scale"]);
+        (row["settings"]["scale"].as_str().expect("a text"), row["outcome"]["failed"].is_string())
+    });
+    assert_eq!(outcomes.collect::<Vec<_>>(), [("1", false), ("1", false), ("2", true), ("2", false)]);
+    // The sky covers each of 16×8 pixels once.
+    assert_eq!(all["rows"][0]["outcome"]["measured"]["cost"]["fragment_invocations"], 128);
+    let chosen = place.run(&["choose", "swept", "--max-ms", "10000"]).exits(0).out;
+    assert!(chosen.starts_with("best: scale=1\n") && chosen.contains("left out: 1 that can't be drawn\n"), "{chosen}");
+    // What is measured under another form of the same value stays.
+    let again = ["--sweep", "scale=1,2", "--sweep", &scenes, "--reference", "black.png", "-o", "swept"];
+    let said = run(&again).exits(0).err;
+    assert!(said.contains("note: 3 choices are measured already"), "{said}");
+    run(&["--sweep", "scale=2,2.0", "--reference", "none", "-o", "other"])
+        .exits(2)
+        .mentions("`scale` is swept over `2` twice");
 }
 
 #[test]
@@ -268,6 +346,11 @@ fn bars_flicker_less_with_temporal_anti_aliasing() {
         let [without, with] = ["false", "true"].map(|taa| flicker(taa, figure));
         assert!(0.0 < with && with < without, "{figure}: {with} with it, {without} without");
     }
+    // Each frame has a reference of its own: what moves in it too is no flicker.
+    let pictures = std::fs::read_dir(place.path("swept/pictures")).expect("a folder");
+    let files = pictures.map(|file| file.expect("a file").file_name().to_string_lossy().into_owned());
+    assert_eq!(files.filter(|name| name.starts_with("reference_") && name.ends_with(".exr")).count(), 12);
+    assert!(flicker("false", "mean") < 0.03, "{}", flicker("false", "mean"));
     for taa in ["false", "true"] {
         let map = row(&results, &[("taa", taa)])["flicker_map"].as_str().expect("a path");
         let map = image::open(place.path("swept").join(map)).expect("a picture");

@@ -106,6 +106,9 @@ fn results_of_different_things_are_not_joined() {
         ("device", json!("another")),
         ("driver", json!("a driver 2.0")),
         ("frames", json!(17)),
+        ("flicker_frames", json!(16)),
+        ("framewright", json!("1.2.4")),
+        ("shipped_shaders", json!("0000000000000000")),
         ("reference", json!("none")),
         ("baseline", json!({ "msaa": "8", "scale": "1" })),
     ] {
@@ -232,7 +235,7 @@ fn damaged_results_are_refused_with_their_place() {
         (whole.replacen("\"worst\": 1.0", "\"worst\": 1.5", 1), "`errors.flip.worst` can't be 1.5"),
         (whole.replacen("\"ssim\": 1.0", "\"ssim\": 1.25", 1), "`errors.ssim` can't be 1.25"),
         (whole.replacen("\"rmse\": 0.0", "\"rmse\": 5.0", 1), "`errors.rmse` can't be 5"),
-        (whole.replacen("\"psnr\": 30.0", "\"psnr\": -30.0", 1), "`errors.psnr` can't be -30"),
+        (whole.replacen("\"psnr\": 30.0", "\"psnr\": -3000.0", 1), "`errors.psnr` can't be -3000"),
         (whole.replacen("\"frames\": 16", "\"frames\": 0", 1), "`frames` is 0"),
         (whole.replacen("64", "0", 1), "the size 0x64 is none"),
         (too_many, "can't be 9000 of 8192 pixels"),
@@ -268,7 +271,65 @@ fn the_table_and_the_page_hold_whatever_texts_results_hold() {
     assert_eq!(addresses, 0, "the page asks for nothing");
     let (_, data) = page.split_once("id=\"data\">").expect("the data");
     let data: Value = serde_json::from_str(data.split_once("</script>").expect("its end").0).expect("JSON");
-    assert_eq!(data, serde_json::from_str::<Value>(&text("b/results.json")).expect("JSON"));
+    assert_eq!(data["results"], serde_json::from_str::<Value>(&text("b/results.json")).expect("JSON"));
     let plot = text("b/front.svg");
     assert!(plot.contains("&lt;/script&gt;") && !plot.contains("<script"), "{plot}");
+}
+
+/// Each column of the table holds the figure that it is named for.
+#[test]
+fn every_column_of_the_table_is_its_own_figure() {
+    let place = Place::new();
+    let (row, columns) = numbered(Row::new(&[("msaa", "4")]).flicker(0.5, 0).pictures("p.png", "r.png").value());
+    for picture in ["p.png", "r.png"] {
+        std::fs::create_dir_all(place.path("a")).expect("a folder");
+        place.file(format!("a/{picture}"), picture);
+    }
+    write(&place, "a", &results(vec![row]));
+    place.run(&["merge", "a", "-o", "b"]).exits(0);
+    let mut table = csv::Reader::from_path(place.path("b/results.csv")).expect("a table");
+    let head = table.headers().expect("a head").clone();
+    let line = table.records().next().expect("a line").expect("a line");
+    let shown: BTreeMap<&str, &str> = head.iter().zip(&line).collect();
+    for (column, figure) in columns {
+        assert_eq!(shown[column].parse::<f64>().ok(), Some(figure), "{column}");
+    }
+}
+
+/// A row whose figures all differ, and the columns in which they stand.
+fn numbered(mut row: Value) -> (Value, Vec<(&'static str, f64)>) {
+    row["outcome"]["measured"]["reference_errors"] = row["outcome"]["measured"]["errors"].clone();
+    let at = [
+        ("gpu_ms", "cost/gpu_milliseconds/median", 5.0),
+        ("gpu_ms_low", "cost/gpu_milliseconds/low", 4.0),
+        ("gpu_ms_high", "cost/gpu_milliseconds/high", 6.0),
+        ("gpu_ratio", "cost/gpu_ratio/median", 1.5),
+        ("gpu_ratio_low", "cost/gpu_ratio/low", 1.25),
+        ("gpu_ratio_high", "cost/gpu_ratio/high", 1.75),
+        ("recording_ms", "cost/recording_milliseconds/median", 0.5),
+        ("recording_ms_low", "cost/recording_milliseconds/low", 0.375),
+        ("recording_ms_high", "cost/recording_milliseconds/high", 0.625),
+        ("transient_bytes", "cost/transient_bytes", 1000.0),
+        ("moved_bytes", "cost/moved_bytes", 2000.0),
+        ("fragment_invocations", "cost/fragment_invocations", 3000.0),
+        ("flip", "errors/flip/mean", 0.015),
+        ("flip_95", "errors/flip/percentile_95", 0.025),
+        ("flip_worst", "errors/flip/worst", 0.035),
+        ("rmse", "errors/rmse", 0.045),
+        ("max_error", "errors/max_error", 0.055),
+        ("relative_mse", "errors/relative_mse", 0.065),
+        ("psnr", "errors/psnr", 27.0),
+        ("ssim", "errors/ssim", 0.925),
+        ("reference_flip", "reference_errors/flip/mean", 0.0125),
+        ("reference_rmse", "reference_errors/rmse", 0.0225),
+        ("flicker", "flicker/mean", 0.0325),
+        ("flicker_95", "flicker/percentile_95", 0.0425),
+        ("flicker_worst", "flicker/worst", 0.0525),
+    ];
+    for (_, path, figure) in at {
+        let path = format!("/outcome/measured/{path}");
+        let whole = path.ends_with("_bytes") || path.ends_with("invocations");
+        *row.pointer_mut(&path).expect("a figure") = if whole { json!(figure as u64) } else { json!(figure) };
+    }
+    (row, at.map(|(column, _, figure)| (column, figure)).into())
 }
