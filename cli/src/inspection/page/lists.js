@@ -73,6 +73,7 @@ function sourceView(model) {
     return { name, lines, made: element("div", { "data-file": name }, element("h2", {}, name), element("ol", { class: "source" }, lines)) };
   });
   const box = element("div", {}, files.map((file) => file.made));
+  markMistakes(box);
   box.showPlace = ({ file, line }) => {
     box.querySelectorAll(".here").forEach((one) => one.classList.remove("here"));
     const found = files.find((one) => one.name === file)?.lines[line - 1];
