@@ -3,6 +3,7 @@
 //! Samples, clears and draws aren't part of it, nor is what a device compresses or keeps in its caches.
 
 use super::{Attachment, ImageId, Plan, Resource, Side, Step, Transfer, Work};
+use crate::frame::EyeForm;
 use crate::vulkan::{LoadOp, StoreOp, Subresources};
 use serde::Serialize;
 use std::ops::Add;
@@ -104,7 +105,8 @@ impl Plan {
         let [width, height, depth] = image.made();
         let texel = image.format.plane_bytes(range.aspects).unwrap_or_else(|| image.format.texel_bytes());
         let mips = range.mips.min(image.mips.saturating_sub(range.base_mip));
-        let layers = range.layers.min(image.made_layers().saturating_sub(range.base_layer));
+        // Layers in ranges are those of one eye, and an operation is done to both eyes' parts.
+        let layers = EyeForm::layers(image.eyes, range.layers.min(image.layers.saturating_sub(range.base_layer)));
         let mip = |mip: u32| {
             [width, height, depth].iter().map(|side| u64::from((side >> mip.min(31)).max(1))).product::<u64>()
         };
