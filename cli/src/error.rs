@@ -114,6 +114,13 @@ pub(crate) enum Error {
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
+    /// A pass that no scene draws.
+    #[error(
+        "nobody records `{}`, which the custom pass `{}` asks for\nhelp: the program that draws the pipeline records it; `framewright check --interface` checks a pipeline for such a program",
+        text::escape(name),
+        text::escape(pass)
+    )]
+    CustomPass { pass: String, name: String },
     /// Captured pictures have no place but a page.
     #[error("`--capture` puts pictures on a page: add `--format html`")]
     CaptureWithoutPage,
@@ -315,6 +322,7 @@ impl Error {
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }
+            | Error::CustomPass { .. }
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,

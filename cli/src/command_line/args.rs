@@ -293,6 +293,18 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
             return conflict(format!("`{}` would be written twice", text::path(file)));
         }
     }
+    let (drawn, by) = match &line.command {
+        Command::Run(run) => (Some(&run.pipeline), "`run` draws"),
+        Command::Measure(measure) => (Some(&measure.pipeline), "`measure` draws"),
+        Command::Inspect(inspect) if inspect.capture => (Some(&inspect.pipeline), "`--capture` draws"),
+        _ => (None, ""),
+    };
+    if drawn.is_some_and(|pipeline| pipeline.interface.is_some()) {
+        return conflict(format!(
+            "{by} scenes of the command's own, which bring along what its shaders know: `--interface` is for `check`, `inspect`, \
+             `diff` and `explain`, which draw nothing"
+        ));
+    }
     let limits = match &line.command {
         Command::Check(check) => Some(check.pipeline.limits),
         Command::Inspect(inspect) => Some(inspect.pipeline.limits),

@@ -4,6 +4,8 @@ use super::diagnostics;
 use crate::command_line::values::Size;
 use crate::error::Error;
 use crate::planning::{Loaded, Planned};
+use framewright_graph::frame::Draw;
+use framewright_graph::plan::{Pass, Plan, Work};
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, FrameReport};
@@ -19,7 +21,7 @@ impl<'p> Prepared<'p> {
     /// Uploads the scene, and makes pipelines and memory.
     ///
     /// # Errors
-    /// Mistakes of textures and shaders, or of the device.
+    /// Custom passes, which another program records; mistakes of textures and shaders, or of the device.
     pub(crate) fn new(
         device: &Device,
         planned: &'p Planned,
@@ -28,6 +30,9 @@ impl<'p> Prepared<'p> {
         size: Size,
         options: &ExecutorOptions,
     ) -> Result<Prepared<'p>, Error> {
+        if let Some(pass) = custom(&planned.plan) {
+            return Err(Error::CustomPass { pass: pass.name.to_string(), name: pass.shader.to_string() });
+        }
         let source = SceneDrawSource::for_plan(device, scene, [size.width, size.height], &planned.plan)?;
         let Loaded { shaders, textures, .. } = pipeline;
         let executor = Executor::with_textures(device, &planned.plan, shaders, textures, options)
@@ -43,4 +48,13 @@ impl<'p> Prepared<'p> {
         let frame = self.executor.frame(&mut self.source)?;
         Ok(self.executor.report(frame)?)
     }
+}
+
+/// The first pass that only the program of another draw source can record.
+fn custom(plan: &Plan) -> Option<&Pass> {
+    plan.steps.iter().find_map(|step| match &step.work {
+        Work::Custom(pass) => Some(pass),
+        Work::Render(scope) => scope.passes.iter().find(|pass| pass.draw == Some(Draw::Custom)),
+        _ => None,
+    })
 }

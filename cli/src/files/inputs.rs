@@ -37,6 +37,8 @@ impl FileRole {
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
     /// A Plan.
     pub(crate) const PLAN: FileRole = FileRole { name: "Plan", recorded: "a Plan that is read" };
+    /// The interfaces of another program's draws.
+    pub(crate) const INTERFACE: FileRole = FileRole { name: "interface", recorded: "the interface itself" };
     /// A budget.
     pub(crate) const BUDGET: FileRole = FileRole { name: "budget", recorded: "the budget itself" };
     /// A picture.
@@ -95,7 +97,9 @@ pub(crate) fn pipeline(arguments: &args::PipelineArguments, read: &ReadFiles) ->
 pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
     let settings = arguments.settings.iter().map(|file| (FileRole::SETTINGS, file));
     let extensions = arguments.extend.iter().map(|file| (FileRole::EXTENSION, file));
-    for (what, file) in std::iter::once((FileRole::PIPELINE, &arguments.file)).chain(settings).chain(extensions) {
+    let interface = arguments.interface.iter().map(|file| (FileRole::INTERFACE, file));
+    let pipeline = std::iter::once((FileRole::PIPELINE, &arguments.file));
+    for (what, file) in pipeline.chain(settings).chain(extensions).chain(interface) {
         read.expect(what.recorded, file);
     }
 }

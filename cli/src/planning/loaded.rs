@@ -14,6 +14,7 @@ use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::language::{self, Document, Facts, Files, Found, PipelineFiles, Unread};
 use framewright_graph::plan::Plan;
+use framewright_graph::shader::{self, DrawInterfaces};
 use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw;
@@ -21,7 +22,7 @@ use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::{Helper, ShaderLibrary};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
@@ -123,17 +124,27 @@ pub(crate) fn load_with(
         Error::mistakes(sources.clone(), diagnostics, exit)
     })?;
     choose(arguments, &mut pipeline, &mut sources, read)?;
+    let draws = arguments.interface.as_deref().map_or_else(|| Ok(draw::interface.into()), |path| draws(path, read))?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),
         textures: named.textures,
         pictures: named.pictures,
-        shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draw::interface)
+        shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draws)
             .with_helper(&helper),
         helper,
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         stereo: arguments.stereo.clone(),
     })
+}
+
+/// Reads what the draws of another program bring along.
+fn draws(path: &Path, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
+    let text = inputs::text(FileRole::INTERFACE, path, shader::LARGEST_INTERFACE, read)?;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let mut sources = Sources::default();
+    DrawInterfaces::read(&mut sources, &path.to_string_lossy(), &name, text)
+        .map_err(|mistakes| wrong(&sources, mistakes))
 }
 
 /// Applies settings files and a preset.

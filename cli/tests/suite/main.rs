@@ -15,6 +15,7 @@ mod deferred;
 mod depth_ladder;
 mod diff;
 mod encodings;
+mod engine_interfaces;
 mod every_device;
 mod explain;
 mod extend;

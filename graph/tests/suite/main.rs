@@ -10,6 +10,7 @@ mod decided;
 mod demotion;
 mod depth_ladder;
 mod difference;
+mod draw_interfaces;
 mod encodings;
 mod expression;
 mod format_fallback;
