@@ -1,9 +1,12 @@
 //! From a pipeline file to its verified Plan: what `check`, `inspect` and `run` share.
 
+mod assets;
 pub(crate) mod device;
 pub(crate) mod helper;
 mod loaded;
 pub(crate) mod notes;
+pub(crate) mod plan_file;
 pub(crate) mod totals;
 
+pub(crate) use assets::Assets;
 pub(crate) use loaded::{Loaded, Planned, View, inputs, load};
