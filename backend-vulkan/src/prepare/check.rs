@@ -34,6 +34,11 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
     for buffer in &plan.buffers {
         checked_buffer(gpu, plan, buffer, poison)?;
     }
+    for (index, heap) in plan.heaps.iter().enumerate() {
+        if heap.lazily_allocated && heap.type_bits & gpu.lazy_types() == 0 {
+            return bad(format!("heap {index} is lazily allocated, and {} has no such memory", gpu.summary.name));
+        }
+    }
     all_memory(gpu, plan)?;
     layouts(gpu, plan)?;
     queues(gpu, plan)?;

@@ -101,14 +101,14 @@ fn shaders_are_found_where_a_pipeline_finds_them() {
     std::fs::create_dir(bench.place.path("elsewhere")).expect("made");
     std::fs::copy(bench.place.path("plan.json"), bench.place.path("elsewhere/plan.json")).expect("copied");
     let elsewhere = bench.run(&[&["--plan", "elsewhere/plan.json"], &SCENE]).exits(1);
-    elsewhere.mentions("error: shader `plain`: not found in elsewhere, the shipped shaders");
+    elsewhere.mentions("error: shader `plain`: not found in elsewhere; the shipped shaders");
     let outside = bench.run(&[&["--plan", "plan.json", "--root", "elsewhere"], &SCENE]).exits(2);
     outside.mentions("`plan.json` lies outside of `elsewhere`");
     bench.place.file(
         "changed.json",
         String::from_utf8(bench.read("plan.json")).expect("text").replace("\"plain\"", "\"../plain\""),
     );
-    assert!(bench.refused().contains("lies outside"), "{}", bench.refused());
+    assert!(bench.refused().contains("leads out of"), "{}", bench.refused());
 }
 
 #[test]
@@ -147,6 +147,8 @@ fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
         "error: changed.json: the Plan has format version 12, this program reads version 11: compile it again"
     );
     bench.changed("\"layers\": 1", "\"layers\": 1000000000");
+    assert!(bench.refused().contains("has no images like `color`"), "{}", bench.refused());
+    bench.changed("\"load\": \"CLEAR\"", "\"load\": \"LOAD\"");
     assert!(bench.refused().starts_with("error: changed.json: the Plan is not right: "), "{}", bench.refused());
     bench.changed("\"name\": \"color\"", "\"name\": \"\\u001b[31m\\u202e\"");
     let hostile = bench.run(&[&["--plan", "changed.json"], &SCENE, &["-o", "nothing=x.png"]]).exits(2);
@@ -156,7 +158,7 @@ fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
     assert!(bench.refused().starts_with("error: changed.json: not a Plan: EOF while parsing"), "{}", bench.refused());
     bench.place.file("changed.json", [0xff]);
     assert!(bench.refused().contains("is not UTF-8"), "{}", bench.refused());
-    let outcome = bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "plan.json"]]).exits(2);
+    let outcome = bench.run(&[&["--plan", "plan.json"], &SCENE, &["--report", "plan.json"]]).exits(2);
     outcome.mentions("`plan.json` is a Plan that is read, which would be lost");
     bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "colour=x.png"]]).exits(2).mentions("there are `screen`");
     let poisoned = bench.run(&[&["--plan", "plan.json"], &SCENE, &["--poison"]]).exits(1);
@@ -167,7 +169,7 @@ fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
 #[test]
 fn a_plan_for_another_device_is_refused_with_the_command_that_makes_one_for_this() {
     let Some(bench) = Bench::new() else { return };
-    for device in ["nvidia-rtx-2080", "mali-g78", "meta-quest-3"] {
+    for device in ["mali-g78", "meta-quest-3"] {
         let inspect = ["inspect", "forward", "--device", device, "--format", "json", "-o", "changed.json"];
         bench.place.run(&inspect).exits(0);
         let said = bench.refused();
