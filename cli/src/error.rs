@@ -392,6 +392,10 @@ fn remedy(problem: &framewright_vulkan::Error) -> String {
         framewright_vulkan::Error::Vulkan { .. } => {
             "\nhelp: the driver refused: choose another device with --device (`framewright devices` lists them), or install a newer driver".to_owned()
         }
+        framewright_vulkan::Error::BadPlan { .. } | framewright_vulkan::Error::OtherMemoryNeeds { .. } => {
+            "\nhelp: framewright run PIPELINE --scene SCENE --save-plan PLAN.json makes a Plan for this device, with --poison one that can be poisoned; without a scene do so framewright devices --save PROFILE.ron and framewright inspect PIPELINE --device PROFILE.ron --format json"
+                .to_owned()
+        }
         framewright_vulkan::Error::Lacking { .. } => {
             "\nhelp: --device chooses another (`framewright devices` lists them)".to_owned()
         }

@@ -62,9 +62,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
             let captures = match (&drawn_on, &scene, &arguments.output) {
                 (Some(device), Some(scene), Some(page)) => {
-                    let (planned, size) = (&planned, arguments.size);
-                    let pipeline = &mut pipeline;
-                    captured(Drawing { device, pipeline, planned, scene, size, options, frames: 1 }, page, &read)?
+                    let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
+                    captured(Drawing { device, pipeline, made, scene, options, frames: 1 }, page, &read)?
                 }
                 _ => Vec::new(),
             };
@@ -84,7 +83,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 fn open(pipeline: &Loaded) -> Result<Device, Error> {
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
-    let helper = Some(pipeline.helper.clone());
+    let helper = Some(pipeline.assets.helper.clone());
     let choice = device::to_draw_on(None)?;
     let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
     device.cancel_when(interrupt::asked);

@@ -76,7 +76,7 @@ pub(crate) fn pipeline(arguments: &args::PipelineArguments, read: &ReadFiles) ->
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
             path: (&*path.file_name().unwrap_or(path.as_os_str()).to_string_lossy()).into(),
-            root: Some(limited(arguments, Root::new(path.parent().unwrap_or(Path::new("")).to_owned()))?),
+            root: Some(root(arguments)?),
             bytes,
         }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
@@ -104,7 +104,14 @@ pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
     }
 }
 
-/// The folder that a pipeline's files come from: its own, or the one that the user names.
+/// The folder that the files which a pipeline or a Plan names come from: its own, or within the one that the user names.
+///
+/// # Errors
+/// If it lies outside of the folder that `--root` names, or one of the folders can't be read.
+pub(crate) fn root(arguments: &args::PipelineArguments) -> Result<Root, Error> {
+    limited(arguments, Root::new(arguments.file.parent().unwrap_or(Path::new("")).to_owned()))
+}
+
 fn limited(arguments: &args::PipelineArguments, own: Root) -> Result<Root, Error> {
     if arguments.allow_outside {
         return Ok(own.allow_outside());

@@ -254,14 +254,14 @@ fn output_pictures(
     planned: &Planned,
 ) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
-    let mut prepared = Prepared::new(device, planned, pipeline, scene, arguments.size, &options)?;
+    let mut prepared = Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
         prepared.draw()?;
     }
-    let requests = pictures::of_all_outputs(planned);
+    let requests = pictures::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
         let (png, _) = request.encoded(&mut prepared.executor, &planned.plan)?;
         Ok((request.name().to_owned(), png))

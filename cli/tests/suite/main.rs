@@ -34,6 +34,7 @@ mod never_overwritten;
 mod outputs;
 mod page;
 mod pictures;
+mod plan_files;
 mod plans;
 mod profiles;
 mod readme;

@@ -57,6 +57,7 @@ fn pass_values(results: &StageResults<'_>, op: u32, planned: &mut Pass) {
 /// Brings sizes and values up to date. Steps and barriers are the same.
 pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
     values(results, plan);
+    plan.extent = results.frame.extent;
     let Plan { images, buffers, .. } = plan;
     for ((resource, placement), index) in results.adapted.resources.iter().zip(&results.placed.placements).zip(0..) {
         let role = match &resource.kind {
