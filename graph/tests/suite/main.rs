@@ -20,6 +20,7 @@ mod local_reads;
 mod memory_model;
 mod odd_frames;
 mod plan_format;
+mod queue_costs;
 mod queues;
 mod random_frames;
 mod reference;
