@@ -74,7 +74,7 @@ fn document(file: &str) -> (Document, Sources) {
     (pipeline.expect("a shipped pipeline is right"), sources)
 }
 
-fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
+pub(crate) fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
     let (pipeline, sources) = document(file);
     let sources = Arc::new(sources);
     expand(&pipeline, sources.clone(), inputs, &mut Table)

@@ -19,6 +19,7 @@ mod layers_and_planes;
 mod local_reads;
 mod memory_model;
 mod odd_frames;
+mod on_chip;
 mod plan_format;
 mod queue_costs;
 mod queues;
