@@ -39,6 +39,7 @@ mod json;
 mod moved;
 pub(crate) mod names;
 mod note;
+mod on_chip;
 mod output;
 mod part;
 mod reason;

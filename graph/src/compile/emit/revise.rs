@@ -3,7 +3,7 @@
 use super::barriers::StepBarriers;
 use super::stage_results::{StageResults, frame_work};
 use super::values::{settings, views, with_bytes};
-use super::{attachments, passes};
+use super::{attachments, notes, passes};
 use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
@@ -98,6 +98,7 @@ pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
             _ => {}
         }
     }
+    notes::renew_sizes(results, &mut plan.notes);
     plan.totals = with_bytes(results, plan.totals);
 }
 
