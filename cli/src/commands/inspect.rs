@@ -56,7 +56,11 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         PlanFormat::Tree => text::escape_lines(&plan.outline(detail).draw()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),
         PlanFormat::Dot => inspection::dot(plan, &Dataflow::of(plan)),
-        PlanFormat::Mermaid => inspection::mermaid(plan, &Dataflow::of(plan)),
+        PlanFormat::Mermaid => {
+            let (shown, beyond) = inspection::mermaid(plan, &Dataflow::of(plan));
+            beyond.iter().for_each(|limit| text::say(&format!("note: {limit}")));
+            shown
+        }
         PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
         PlanFormat::Html => {
             let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;

@@ -208,7 +208,7 @@ fn drawn(
     let view = View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let (options, profile) = (arguments.planning.options(), device.profile());
     let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
-    diagnostics::cameras(&planned.frame, scene)?;
+    diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
     let mut files = BTreeMap::new();
     let mut kept = |name: String, png: Vec<u8>| {
         files.insert(format!("{version}/{name}"), png.into());
@@ -221,8 +221,8 @@ fn drawn(
     }
     let mut thumbnails: Vec<Thumbnail> = Vec::new();
     if arguments.capture {
-        let (planned, size, frames) = (&planned, arguments.size, arguments.frames);
-        captures::draw(Drawing { device, pipeline, planned, scene, size, options, frames }, |captured| {
+        let (made, frames) = (planned.parts(), arguments.frames);
+        captures::draw(Drawing { device, pipeline, made, scene, options, frames }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
             thumbnails.push(captured.thumbnail(address));
             Ok(())

@@ -18,7 +18,7 @@ fn list<'v>(value: &'v Value, name: &str) -> &'v Vec<Value> {
 }
 
 /// Work in a Plan: passes, resolves that scopes carry, and transfers.
-fn nodes(plan: &Value) -> usize {
+pub(crate) fn nodes(plan: &Value) -> usize {
     let of = |step: &Value| match &step["work"] {
         Value::String(_) => 0,
         work if work.get("render").is_some() => {
