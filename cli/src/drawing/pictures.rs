@@ -129,7 +129,13 @@ pub(crate) fn of_all_outputs(plan: &Plan) -> Vec<PictureRequest<'_>> {
         next += outputs.len();
         if let Resource::Image(image) = resource {
             let in_layers = plan.image(*image).eyes == Some(EyeForm::Layers);
-            requests.push(PictureRequest { outputs, in_layers, name, path: Path::new(""), file_format: FileFormat::Png });
+            requests.push(PictureRequest {
+                outputs,
+                in_layers,
+                name,
+                path: Path::new(""),
+                file_format: FileFormat::Png,
+            });
         }
     }
     requests

@@ -205,7 +205,8 @@ fn drawn(
     pipeline: &mut Loaded,
     version: u64,
 ) -> Result<Good, Error> {
-    let view = View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
+    let view =
+        View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let (options, profile) = (arguments.planning.options(), device.profile());
     let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
     diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
@@ -221,7 +222,7 @@ fn drawn(
     }
     let mut thumbnails: Vec<Thumbnail> = Vec::new();
     if arguments.capture {
-        let (made, frames) = (planned.parts(), arguments.frames);
+        let (made, frames) = ((&planned.plan, &planned.frame), arguments.frames);
         captures::draw(Drawing { device, pipeline, made, scene, options, frames }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
             thumbnails.push(captured.thumbnail(address));

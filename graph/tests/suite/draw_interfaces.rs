@@ -100,7 +100,7 @@ fn each_mistake_is_told_at_its_place() {
     wrong("of: [Sky, ", "of: [Objects(Masked), ", "17:18", &["`Objects(Masked)` stands here twice"]);
     wrong("of: [Sky, Custom]", "of: []", "17:17", &["is for one kind of draw at least", "`Sky`"]);
     wrong("[Sky", "[Skye", "17:18", &["`Skye` is not a kind of draw", "did you mean `Sky`?"]);
-    wrong("Objects(Masked)", "Objects(Mask)", "5:43", &["`Mask` is not a draw list", "did you mean `Masked`?"]);
+    wrong("Objects(Masked)", "Objects(Maskd)", "5:43", &["`Maskd` is not a draw list", "did you mean `Masked`?"]);
     wrong("[Sky", "[Casters(Transparent)", "17:26", &["`Transparent` is not a draw list", "`Opaque` or `Masked`"]);
     wrong("vertex_stride: 20", "vertex_stride: 4000", "6:28", &["vertices of 4000 bytes: every device allows 2048"]);
     wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);

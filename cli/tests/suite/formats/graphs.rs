@@ -97,11 +97,24 @@ fn words() -> String {
     text + "(name: \"last\", draw: FullScreen(\"reinhard\"), sample: {\"source\": \"漢字\"}, color: [\"screen\"])], outputs: [\"screen\"])"
 }
 
+/// A pipeline whose fill is worth the waits for another queue.
+const SEVERAL_QUEUES: &str = r#"Pipeline(version: 1, images: [
+    (name: "wall", format: R16G16B16A16_SFLOAT, size: Fixed(4096, 4096)),
+    (name: "color", format: Color(hdr: true), size: Output),
+    (name: "mixed", format: Color(hdr: true), size: Output),
+    (name: "screen", format: Output, size: Output)], passes: [
+    (name: "filled", fill: (to: "wall", value: (0.5, 0.5, 0.5, 1.0))),
+    (name: "opaque", draw: Objects(Opaque), shader: "lit", color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+    (name: "mix", draw: FullScreen("downsample"), sample: {"source": "wall"}, color: ["mixed"]),
+    (name: "tone_map", draw: FullScreen("reinhard"), sample: {"source": "color"}, color: ["screen"])],
+    outputs: ["screen", "mixed"])"#;
+
 /// The graphs of shipped pipelines, for one eye and for two, on one queue and on several, with what they must hold.
 pub(super) fn graphs(place: &Place, format: &str) -> Vec<(String, String, Held)> {
     place.file("words.ron", words());
+    place.file("queues.ron", SEVERAL_QUEUES);
     let shipped = shipped_pipelines();
-    let names = shipped.iter().map(String::as_str).chain(["words.ron"]);
+    let names = shipped.iter().map(String::as_str).chain(["words.ron", "queues.ron"]);
     let ways = [
         &[][..],
         &["--stereo", "multi-pass", "--device", "nvidia-rtx-2080"],

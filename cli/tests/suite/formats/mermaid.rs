@@ -30,7 +30,7 @@ const JUDGE: &str = "async (text) => {
 /// A browser with Mermaid.
 struct Mermaid {
     browser: Browser,
-    place: Place,
+    _place: Place,
 }
 
 impl Mermaid {
@@ -49,7 +49,7 @@ impl Mermaid {
             "import({module}).then((it) => {{ window.mermaid = it.default; return mermaid.initialize({{startOnLoad: false}}) ?? 1; }})"
         );
         browser.ask(&load);
-        Some(Mermaid { browser, place })
+        Some(Mermaid { browser, _place: place })
     }
 
     /// The verdict on a graph; an error is told in words.
@@ -108,7 +108,7 @@ fn graphs_beyond_the_limits_of_mermaid_are_written_and_the_limits_are_said() {
     let said = "note: the graph has 501 edges, and Mermaid draws at most 500 unless its setting maxEdges is raised, which code hosts don't \
                 do: --format svg and --format dot hold more";
     assert_eq!(beyond.err.trim_end(), said);
-    let long = inspect(1000);
+    let long = inspect(1500);
     let length = long.out.encode_utf16().count();
     let long = long.mentions(&format!(
         "the graph has {length} characters, and Mermaid draws at most 50000 unless its setting maxTextSize"
