@@ -106,14 +106,22 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
 /// Whether the device has the memory that the Plan takes altogether. Of each piece alone the allocator says so; but software
 /// drivers promise all of the machine's memory for each.
 fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let kept = |role: &Role| !matches!(role, Role::Transient(_));
-    let images = plan.images.iter().filter(|image| kept(&image.role));
-    let images = images.map(|image| (image.name.to_string(), gpu.memory_needs(&descriptor(image)).bytes));
-    let buffers = plan.buffers.iter().filter(|buffer| kept(&buffer.role));
-    let buffers = buffers.map(|buffer| (buffer.name.to_string(), buffer.bytes));
-    let heaps = plan.heaps.iter().enumerate().map(|(index, heap)| (format!("heap {index}"), heap.bytes));
-    let parts: Vec<(String, u64)> = heaps.chain(images).chain(buffers).collect();
-    let bytes = parts.iter().map(|(_, bytes)| *bytes).fold(0, u64::saturating_add);
+    let placed = |role: &Role| match role {
+        Role::Transient(place) => Some(place.bytes),
+        Role::Persistent { .. } | Role::External { .. } => None,
+    };
+    let of_image = |image: &Image| {
+        let bytes = placed(&image.role).unwrap_or_else(|| gpu.memory_needs(&descriptor(image)).bytes);
+        (image.name.to_string(), bytes)
+    };
+    let of_buffer = |buffer: &Buffer| (buffer.name.to_string(), placed(&buffer.role).unwrap_or(buffer.bytes));
+    let parts: Vec<(String, u64)> =
+        plan.images.iter().map(of_image).chain(plan.buffers.iter().map(of_buffer)).collect();
+    // Those that are placed share heaps; all others have memory of their own.
+    let images = plan.images.iter().map(|image| &image.role);
+    let roles = images.chain(plan.buffers.iter().map(|buffer| &buffer.role));
+    let kept = roles.zip(&parts).filter(|(role, _)| placed(role).is_none()).map(|(_, (_, bytes))| *bytes);
+    let bytes = plan.heaps.iter().map(|heap| heap.bytes).chain(kept).fold(0, u64::saturating_add);
     let all = gpu.all_heaps();
     if bytes <= all {
         return Ok(());
