@@ -24,7 +24,7 @@ impl Bench<'_> {
         frames: &[FrameReport],
         of_baseline: &[FrameReport],
     ) -> Result<Measured, Error> {
-        let plan = &drawn.planned.plan;
+        let plan = drawn.plan;
         let mut measured = Measured {
             cost: cost::cost(plan, frames, of_baseline),
             errors: None,
@@ -36,7 +36,7 @@ impl Bench<'_> {
             flicker: None,
             flicker_map: None,
         };
-        let Some(request) = pictures::of_first_output(drawn.planned) else { return Ok(measured) };
+        let Some(request) = pictures::of_first_output(plan) else { return Ok(measured) };
         let picture = request.encode(&mut drawn.executor, plan)?;
         let name = |folder: &str, ending: &str| format!("{folder}/{}.{ending}", choice.key());
         let ending = picture.path.extension().map_or("png", |ending| if ending == "exr" { "exr" } else { "png" });

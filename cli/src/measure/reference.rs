@@ -36,8 +36,9 @@ pub(crate) fn draw(
     scene: &Scene,
     size: Size,
 ) -> Result<Option<Drawn>, Error> {
-    let Some(request) = pictures::of_first_output(planned) else { return Ok(None) };
-    let mut prepared = Prepared::new(device, planned, pipeline, scene, size, &ExecutorOptions::default())?;
+    let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
+    let mut prepared =
+        Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &ExecutorOptions::default())?;
     let (extent, samples) = drawn(&planned.plan, size);
     let frames = frames(extent, samples, size);
     // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.

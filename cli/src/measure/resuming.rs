@@ -51,7 +51,7 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     }
     outputs::make_folder(&arguments.output)?;
     interrupt::watch();
-    let helper = Some(pipeline.helper.clone());
+    let helper = Some(pipeline.assets.helper.clone());
     let device = Device::open(&DeviceOptions { choice: chosen, validation: false, helper })?;
     device.cancel_when(interrupt::asked);
     let set = pipeline.set.clone();

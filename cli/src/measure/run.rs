@@ -13,6 +13,7 @@ use crate::system::{Exit, interrupt};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Stereo;
+use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
@@ -51,7 +52,7 @@ impl Bench<'_> {
         let view = View { facts, size: choice.size, rotation: Rotation::Identity, dump: &[] };
         let (profile, mut memory) = (self.device.profile(), self.device.memory());
         let planned = self.pipeline.plan(view, &profile, &mut memory, &Options::default())?;
-        diagnostics::cameras(&planned.frame, scene)?;
+        diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
         Ok(planned)
     }
 
@@ -71,8 +72,8 @@ impl Bench<'_> {
         let mut prepared = Vec::with_capacity(all.len());
         for (choice, planned) in all.iter().zip(&plans) {
             let ready = planned.as_ref().map_err(Clone::clone).map(|planned| {
-                let (scene, size) = (&choice.scene.scene, choice.size);
-                Prepared::new(&self.device, planned, &mut self.pipeline, scene, size, &options)
+                let assets = &mut self.pipeline.assets;
+                Prepared::new(&self.device, planned.parts(), assets, &choice.scene.scene, &options)
             });
             prepared.push(match ready {
                 Ok(ready) => kept(ready)?,
@@ -106,7 +107,7 @@ impl Bench<'_> {
                 Ok(mut drawn) => {
                     let measured = self.measured(choice, &mut drawn, frames, of_baseline)?;
                     let outcome = Outcome::Measured(Box::new(measured));
-                    (settings(drawn.planned), drawn.planned.plan.stereo, outcome)
+                    (settings(drawn.plan), drawn.plan.stereo, outcome)
                 }
                 Err(why) => {
                     let settings = all_settings.iter().filter(|(name, _)| !name.starts_with('@'));
@@ -143,7 +144,7 @@ fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
     }
 }
 
-/// All settings of a planned frame.
-pub(super) fn settings(planned: &Planned) -> BTreeMap<String, String> {
-    planned.plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
+/// All settings of a Plan.
+pub(super) fn settings(plan: &Plan) -> BTreeMap<String, String> {
+    plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
 }

@@ -161,9 +161,9 @@ fn a_picture_that_the_device_has_no_memory_for_is_refused_at_once() {
     Place::new()
         .run_with(&variables, &["run", "forward", "--scene", SCENE, "--size", "16384x16384"])
         .exits(3)
-        .mentions("error: no memory for heap 0, 14.0 GiB for `color` (8.0 GiB), ")
+        .mentions("error: no memory for the Plan, 15.0 GiB for `color` (8.0 GiB), ")
         .mentions(": the device has ")
-        .mentions("GiB of such memory\nhelp: choose a smaller --size, fewer samples, or fewer or smaller images");
+        .mentions("GiB\nhelp: choose a smaller --size, fewer samples, or fewer or smaller images");
 }
 
 #[test]

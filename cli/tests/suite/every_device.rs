@@ -128,13 +128,13 @@ const BESIDE: &str = r#"Pipeline(
     version: 1,
     images: [(name: "color", format: Color(hdr: true), size: Output), (name: "screen", format: Output, size: Output)],
     buffers: [
-        (name: "flakes", bytes: 16000, lifetime: History),
-        (name: "seen", bytes: 4000),
+        (name: "flakes", bytes: 16000000, lifetime: History),
+        (name: "seen", bytes: 4000000),
         (name: "counts", bytes: 16),
     ],
     passes: [
         (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
-        (name: "fall", dispatch: "snow_fall", groups: Invocations(1000, 1, 1),
+        (name: "fall", dispatch: "snow_fall", groups: Invocations(1000000, 1, 1),
             storage: {"before": (buffer: "flakes", previous: 1), "flakes": (buffer: "flakes", access: Write)},
             params: {"seconds": 0.016, "wind": 0.0}),
         (name: "gather", dispatch: "snow_gather", groups: Count(1, 1, 1), storage: {
@@ -155,7 +155,7 @@ fn work_on_other_queues_is_told_with_what_it_waits_for() {
         |word: &'static str, more: &[&'static str]| [&[word, "p.ron", "--device", "amd-rx-7800-xt"], more].concat();
     let said = place.run(&command("check", &[])).exits(0).out;
     assert!(said.contains(" between queues, "), "{said}");
-    assert!(said.contains("note: `fall`: runs on the compute queue, beside `sky` (p.ron:11:"), "{said}");
+    assert!(said.contains("note: `fall`: runs on the compute queue, beside `sky`: that saves up to "), "{said}");
     let tree = place.run(&command("inspect", &[])).exits(0).out;
     assert!(tree.contains(" on the compute queue: dispatch") && tree.contains("waits in "), "{tree}");
     let plan = json(&place, &command("inspect", &[]), 0);
