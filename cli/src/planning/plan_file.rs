@@ -2,6 +2,7 @@
 
 use super::{Assets, helper};
 use crate::command_line::args::PipelineArguments;
+use crate::command_line::values::MAX_SIZE;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use framewright_graph::base::ReadFiles;
@@ -33,9 +34,13 @@ pub(crate) fn read(path: &Path, read: &ReadFiles) -> Result<Plan, Error> {
 /// The Plan that the command line names, with the files that it names in turn: they are looked for where a pipeline's are.
 ///
 /// # Errors
-/// Those of [`read`]; if the Plan lies outside of the folder that `--root` names.
+/// Those of [`read`]; if the output has no size that a command takes; if the Plan lies outside of the folder that `--root` names.
 pub(crate) fn load(arguments: &PipelineArguments, recorded: &ReadFiles) -> Result<(Plan, Assets), Error> {
     let plan = read(&arguments.file, recorded)?;
+    if let Some(side) = plan.extent.into_iter().find(|side| !(1..=MAX_SIZE).contains(side)) {
+        let problem = format!("`extent`: a side of {side} pixels; a side has 1 to {MAX_SIZE}");
+        return Err(Error::NoPlan { path: arguments.file.clone(), problem });
+    }
     let root = inputs::root(arguments)?;
     let helper = helper::with(&arguments.limits, arguments.caching)?;
     Ok((plan, Assets::of(Some(&root), arguments, helper, recorded)?))

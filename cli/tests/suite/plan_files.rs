@@ -148,6 +148,8 @@ fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
     );
     bench.changed("\"layers\": 1", "\"layers\": 1000000000");
     assert!(bench.refused().contains("has no images like `color`"), "{}", bench.refused());
+    bench.changed("\"extent\": [\n    ", "\"extent\": [\n    999");
+    assert!(bench.refused().contains("`extent`: a side of 999"), "{}", bench.refused());
     bench.changed("\"load\": \"CLEAR\"", "\"load\": \"LOAD\"");
     assert!(bench.refused().starts_with("error: changed.json: the Plan is not right: "), "{}", bench.refused());
     bench.changed("\"name\": \"color\"", "\"name\": \"\\u001b[31m\\u202e\"");

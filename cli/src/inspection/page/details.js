@@ -81,6 +81,8 @@ function without(model, node, step) {
   const alive = model.alive.map((amount, at) => [...dropped].reduce((left, one) => within(one, at) ? left - one.role.transient.bytes : left, amount));
   const [before, peak] = [model.plan.totals.live_peak_bytes, Math.max(0, ...alive)];
   lines.push(`The frame moves ${bytes(moved)} less. The peak of memory ${peak < before ? `falls from ${bytes(before)} to ${bytes(peak)}` : `stays at ${bytes(before)}`}.`);
+  const outputs = [...new Set(model.edges.filter((edge) => edge.from === node.at_index && edge.to === null).map((edge) => model.resourceOf(edge.resource)))];
+  for (const one of outputs) lines.push([link(model.keyOf(one), one.name), " outlives the frame: something else would have to write it, which saves less."]);
   const readers = [...new Set(model.edges.filter((edge) => edge.from === node.at_index && edge.to !== null && !gone.has(model.nodes[edge.to])).map((edge) => edge.to))];
   if (readers.length > 0) {
     lines.push([readers.map((at, index) => [index > 0 ? ", " : "", link(model.nodes[at].key, model.nodes[at].name)]), readers.length === 1 ? " needs" : " need",

@@ -72,7 +72,7 @@ function notesView(model) {
 
 /** The files, line by line. */
 function sourceView(model) {
-  if (model.sources.length === 0) return element("p", {}, "The Plan came from a file of its own: the pipeline's text isn't in it.");
+  if (model.sources.length === 0) return element("p", {}, DATA.live ? "There is no file to show." : "The Plan came from a file of its own: the pipeline's text isn't in it.");
   const files = model.sources.map(({ name, text }) => {
     const lines = text.split("\n").map((line) => element("li", {}, line));
     return { name, lines, made: element("div", { "data-file": name }, element("h2", {}, name), element("ol", { class: "source" }, lines)) };
