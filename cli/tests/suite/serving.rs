@@ -134,6 +134,18 @@ fn scenes_shaders_and_files_that_were_missing_are_watched_too() {
 }
 
 #[test]
+fn a_pipeline_or_scene_that_is_not_there_ends_it_at_once() {
+    let place = begun();
+    for (arguments, what) in [
+        (["serve", "frist.ron", "--scene", "scene.ron", "--port", "0"], "there is no pipeline `frist.ron`"),
+        (["serve", "first.ron", "--scene", "secne.ron", "--port", "0"], "there is no scene `secne.ron`"),
+    ] {
+        let said = place.run(&arguments).exits(1).err;
+        assert!(said.contains(what), "{said}");
+    }
+}
+
+#[test]
 fn other_sites_other_hosts_and_other_machines_get_nothing() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let place = begun();
