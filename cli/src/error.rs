@@ -384,7 +384,7 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     let (name, outputs) = (text::escape(name), text::escape(&outputs.join("`, `")));
     let help =
         if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
-    format!("the pipeline has no output named `{name}`\nhelp: {help}")
+    format!("there is no output named `{name}`\nhelp: {help}")
 }
 
 fn pixels([width, height]: [usize; 2]) -> String {

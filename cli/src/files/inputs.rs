@@ -153,6 +153,8 @@ pub(crate) fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles
 /// # Errors
 /// If there is neither, or the file is no scene.
 pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
+    // One that is missing may come.
+    read.expect(FileRole::SCENE.recorded, path);
     let scene = match path.try_exists() {
         Ok(false) => {
             let (file, text) = carried("scene", path, shipped::SCENES)?;
