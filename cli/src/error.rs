@@ -331,6 +331,8 @@ impl Error {
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
+            // What has no output at all is wrong itself.
+            Error::NoOutput { outputs, .. } if outputs.is_empty() => Exit::Found,
             Error::Mistakes { mistakes } => mistakes.exit,
             Error::Scene(problem) => match &**problem {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
@@ -346,12 +348,12 @@ impl Error {
                 Blame::Environment => Exit::Environment,
                 Blame::Files | Blame::Program => Exit::Found,
             },
-            Error::TooManyVariants { .. }
+            Error::NoOutput { .. }
+            | Error::TooManyVariants { .. }
             | Error::TooManyPairs { .. }
             | Error::OutsideRoot { .. }
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
-            | Error::NoOutput { .. }
             | Error::Sweep { .. }
             | Error::CaptureWithoutPage
             | Error::ChoiceForPlan { .. }
@@ -378,10 +380,13 @@ impl Error {
 }
 
 fn no_output(name: &str, outputs: &[String], image: bool) -> String {
+    if outputs.is_empty() {
+        return "there is no output, so there is no picture to write".to_owned();
+    }
     let (name, outputs) = (text::escape(name), text::escape(&outputs.join("`, `")));
     let help =
         if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
-    format!("the pipeline has no output named `{name}`\nhelp: {help}")
+    format!("there is no output named `{name}`\nhelp: {help}")
 }
 
 fn pixels([width, height]: [usize; 2]) -> String {

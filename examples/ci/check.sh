@@ -8,15 +8,18 @@
 # Files of the pipeline NAME.ron:
 #        goldens/NAME.png     the picture that it must draw; --accept writes it
 #        budgets/NAME.ron     upper bounds for its Plans, if there are any
+#        interfaces/NAME.ron  what the draws of its own program bring along, if it isn't made for scenes: then it is not drawn here
 #
 # Variables, with what they are by default:
 #        SCENE     spheres_and_cubes      the scene that is drawn, a file or a shipped one
 #        SIZE      320x180                the size of the picture
 #        MAX_FLIP  0.01                   the most that a picture may differ, as a mean of FLIP
 #        VARIANTS  --all-variants         what `framewright check` is asked; with many settings: "--all-variants --pairwise"
+#        OPTIONS                          options of every command that reads the pipeline, such as "--settings low.ron --root ."
 #        REPORTS   sarif junit            the forms of reports that are written
 #        GOLDENS   goldens                the folder of right pictures
 #        BUDGETS   budgets                the folder of budgets
+#        INTERFACES interfaces            the folder of interfaces
 #        RESULTS   framewright-results    the folder of reports, pictures and pages
 #
 # Exit codes are those of framewright: 0 all is well, 1 something is wrong, 2 the command line is, 3 something isn't installed. Of
@@ -38,6 +41,9 @@ if ! command -v framewright >/dev/null; then
 fi
 
 scene=${SCENE:-spheres_and_cubes} size=${SIZE:-320x180} goldens=${GOLDENS:-goldens} results=${RESULTS:-framewright-results}
+# A folder of such a name isn't meant as an option.
+case $results in -*) results=./$results ;; esac
+read -ra options <<<"${OPTIONS:-}"
 read -ra variants <<<"${VARIANTS:---all-variants}"
 read -ra reports <<<"${REPORTS-sarif junit}"
 
@@ -66,8 +72,10 @@ ended() {
 
 # check_one PIPELINE NAME
 check_one() {
-    local pipeline=$1 name=$2 form report
-    local check=(framewright check "$pipeline" --size "$size")
+    local pipeline=$1 name=$2 form report interface=${INTERFACES:-interfaces}/$2.ron
+    local read=("$pipeline" --size "$size" ${options[@]+"${options[@]}"})
+    if [ -e "$interface" ]; then read+=(--interface "$interface"); fi
+    local check=(framewright check "${read[@]}")
     if [ -e "${BUDGETS:-budgets}/$name.ron" ]; then check+=(--budget "${BUDGETS:-budgets}/$name.ron"); fi
 
     attempt "$name: variants and budget" "${check[@]}" "${variants[@]}" || true
@@ -80,17 +88,27 @@ check_one() {
     done
 
     # What can't be compiled with its defaults can't be drawn either.
-    framewright check "$pipeline" --size "$size" >/dev/null 2>&1 || return 0
-    draw "$pipeline" "$name"
-    attempt "$name: page" framewright inspect "$pipeline" --scene "$scene" --size "$size" --capture --format html \
-        -o "$results/pages/$name.html" || true
+    local code=0
+    framewright check "${read[@]}" >/dev/null 2>&1 || code=$?
+    if [ "$code" -ne 0 ]; then
+        ended "$name: not drawn: its defaults are wrong" "$code" || true
+        return
+    fi
+    local page=(framewright inspect "${read[@]}" --scene "$scene" --format html -o "$results/pages/$name.html")
+    if [ -e "$interface" ]; then
+        attempt "$name: page, without pictures: only its own program can draw it" "${page[@]}" || true
+    else
+        draw "$name" "${read[@]}"
+        attempt "$name: page" "${page[@]}" --capture || true
+    fi
 }
 
-# draw PIPELINE NAME: draws under the validation layer, and holds the picture against the right one.
+# draw NAME PIPELINE OPTION…: draws under the validation layer, and holds the picture against the right one.
 draw() {
-    local pipeline=$1 name=$2
+    local name=$1 pipeline=$2
+    shift
     local right=$goldens/$name.png picture=$results/pictures/$name.png map=$results/pictures/$name.difference.png
-    attempt "$name: drawn, and nothing said by the validation layer" framewright run "$pipeline" --scene "$scene" --size "$size" \
+    attempt "$name: drawn, and nothing said by the validation layer" framewright run "$@" --scene "$scene" \
         --validate -o "$picture" --report "$results/reports/$name.json" || true
     if [ ! -e "$picture" ]; then return; fi
     if [ -n "$accept" ]; then
@@ -104,8 +122,8 @@ draw() {
     fi
 }
 
-# Nothing of an earlier run is taken for this one's.
-rm -rf "$results"
+# Nothing of an earlier run is taken for this one's. Whatever else lies in the folder stays.
+rm -rf "$results"/{sarif,junit,pictures,pages,reports}
 mkdir -p "$results/pictures" "$results/pages" "$results/reports"
 declare -A seen
 for pipeline; do

@@ -5,7 +5,7 @@ use super::import::Import;
 use super::initial_contents::initialise;
 use super::output_readback::OutputReadback;
 use crate::base::Error;
-use crate::gpu::{Device, Gpu};
+use crate::gpu::{Device, Gpu, PipelineHold};
 use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport};
 use crate::shaders::ShaderLibrary;
@@ -64,6 +64,8 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: PreparedPlan,
+    /// Behind all that uses pipelines.
+    _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
     staged: Vec<StagedTexture>,
     pub(crate) initialised: bool,
@@ -128,11 +130,14 @@ impl Executor {
         check(gpu, plan, refuse, options.poison)?;
         let uses = ResourceUses::new(plan);
         let imports = Import::all(plan, &uses);
+        // Before any is made.
+        let pipelines = PipelineHold::new(gpu);
         Ok(Executor {
             gpu: gpu.clone(),
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
+            _pipelines: pipelines,
             plan: plan.clone(),
             options: options.clone(),
             imports,

@@ -1,5 +1,9 @@
-//! Objects that are made once for each description and live as long as the device. A key is the whole description.
+//! Objects that are made once for each description. A key is the whole description.
+//!
+//! Samplers and layouts live as long as the device. Pipelines do so while an executor is there: it may be using any of them. Those that
+//! were not asked for in a while are destroyed when none is left, so that a program whose shaders change again and again doesn't grow.
 
+use super::handle::Gpu;
 use crate::base::Error;
 use crate::shaders::Spirv;
 use ash::vk;
@@ -8,7 +12,10 @@ use framewright_graph::plan::DepthState;
 use framewright_graph::vulkan::{AddressMode, Filter, Format, Rotation};
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// A pipeline that was not asked for in so many rounds is destroyed. A round ends whenever no executor is left.
+const KEPT_ROUNDS: u64 = 16;
 
 /// The caches of a device.
 #[derive(Default)]
@@ -18,35 +25,86 @@ pub(crate) struct Caches {
     pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
     pub(crate) pipelines: Cache<PipelineDescriptor, vk::Pipeline>,
     pub(crate) compute_pipelines: Cache<(Spirv, vk::PipelineLayout), vk::Pipeline>,
+    /// How many executors there are.
+    executors: Mutex<u32>,
 }
 
+/// An executor's hold on pipelines: none is destroyed while it is there.
+pub(crate) struct PipelineHold(Arc<Gpu>);
+
 /// One kind of object by its description.
-pub(crate) struct Cache<K, V>(Mutex<HashMap<K, V>>);
+pub(crate) struct Cache<K, V>(Mutex<Known<K, V>>);
+
+struct Known<K, V> {
+    /// Each object, with the round in which it was last asked for.
+    objects: HashMap<K, (V, u64)>,
+    round: u64,
+}
 
 impl<K, V> Default for Cache<K, V> {
     fn default() -> Self {
-        Cache(Mutex::default())
+        Cache(Mutex::new(Known { objects: HashMap::new(), round: 0 }))
     }
 }
 
 impl<K: Hash + Eq, V: Copy> Cache<K, V> {
     /// The object for `key`, made by `make` if there is none yet.
     pub(crate) fn get(&self, key: K, make: impl FnOnce(&K) -> Result<V, Error>) -> Result<V, Error> {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = known.get(&key) {
+        let Known { objects, round } = &mut *self.known();
+        if let Some((found, asked)) = objects.get_mut(&key) {
+            *asked = *round;
             return Ok(*found);
         }
         let made = make(&key)?;
-        known.insert(key, made);
+        objects.insert(key, (made, *round));
         Ok(made)
     }
 
     fn drain(&self) -> Vec<V> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).drain().map(|(_, made)| made).collect()
+        self.known().objects.drain().map(|(_, (made, _))| made).collect()
+    }
+
+    /// Ends a round. Takes out what was not asked for in [`KEPT_ROUNDS`].
+    fn end_round(&self) -> Vec<V> {
+        let Known { objects, round } = &mut *self.known();
+        *round += 1;
+        let old = objects.extract_if(|_, (_, asked)| *asked + KEPT_ROUNDS < *round);
+        old.map(|(_, (made, _))| made).collect()
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known<K, V>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl PipelineHold {
+    pub(crate) fn new(gpu: &Arc<Gpu>) -> PipelineHold {
+        *gpu.caches.executors() += 1;
+        PipelineHold(Arc::clone(gpu))
+    }
+}
+
+impl Drop for PipelineHold {
+    fn drop(&mut self) {
+        let Gpu { caches, raw, .. } = &*self.0;
+        let mut executors = caches.executors();
+        *executors -= 1;
+        if *executors > 0 || self.0.is_abandoned() {
+            return;
+        }
+        for pipeline in caches.pipelines.end_round().into_iter().chain(caches.compute_pipelines.end_round()) {
+            // SAFETY: only executors use pipelines. The last one has waited for its frames, and no other begins while their number
+            // is locked.
+            unsafe { raw.destroy_pipeline(pipeline, None) };
+        }
     }
 }
 
 impl Caches {
+    fn executors(&self) -> MutexGuard<'_, u32> {
+        self.executors.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Destroys everything.
     ///
     /// # Safety

@@ -22,7 +22,9 @@ pub use summary::{DeviceChoice, DeviceSummary};
 pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
-pub(crate) use cached::{LayoutBinding, LocalRead, PipelineDescriptor, RotationConstants, VertexAttribute};
+pub(crate) use cached::{
+    LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+};
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};
 pub(crate) use labels::c_string;

@@ -2,6 +2,7 @@
 
 use crate::command_line::serving::ServeArguments;
 use crate::error::Error;
+use crate::files::inputs;
 use crate::inspection;
 use crate::planning::{device, helper};
 use crate::serving::{self, Session};
@@ -19,8 +20,10 @@ const AT_REST: Duration = Duration::from_millis(50);
 /// Serves the page until Ctrl-C.
 ///
 /// # Errors
-/// If the port or the device can't be had, or the device is lost.
+/// If there is no such pipeline or scene, the port or the device can't be had, or the device is lost.
 pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
+    // A name that leads nowhere is a slip. Files that go missing later are waited for.
+    inputs::are_there(&arguments.pipeline.file, &arguments.scene)?;
     interrupt::watch();
     let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;

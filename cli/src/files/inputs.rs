@@ -153,6 +153,8 @@ pub(crate) fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles
 /// # Errors
 /// If there is neither, or the file is no scene.
 pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
+    // One that is missing may come.
+    read.expect(FileRole::SCENE.recorded, path);
     let scene = match path.try_exists() {
         Ok(false) => {
             let (file, text) = carried("scene", path, shipped::SCENES)?;
@@ -209,10 +211,25 @@ fn bytes(what: FileRole, path: &Path, limit: usize, read: &ReadFiles) -> Result<
     Ok(bytes)
 }
 
+/// Makes sure that there are a pipeline and a scene of these names, as files or shipped, whatever they hold.
+///
+/// # Errors
+/// If one is missing.
+pub(crate) fn are_there(pipeline: &Path, scene: &Path) -> Result<(), Error> {
+    let named = [(FileRole::PIPELINE.name, pipeline, shipped::PIPELINES), ("scene", scene, shipped::SCENES)];
+    let gone = |(_, path, files): &(_, &Path, _)| {
+        matches!(path.try_exists(), Ok(false)) && shipped::find(*files, path).is_none()
+    };
+    named.into_iter().find(gone).map_or(Ok(()), |(what, path, files)| Err(missing(what, path, files)))
+}
+
+fn missing(what: &'static str, path: &Path, files: Shipped) -> Error {
+    Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() }
+}
+
 /// File name and text of the shipped file that `path` asks for.
 fn carried(what: &'static str, path: &Path, files: Shipped) -> Result<(&'static str, &'static str), Error> {
-    let missing = || Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() };
-    let found = shipped::find(files, path).ok_or_else(missing)?;
+    let found = shipped::find(files, path).ok_or_else(|| missing(what, path, files))?;
     text::say(&format!("note: there is no file `{}` here; this is the shipped {what} of that name", text::path(path)));
     Ok(found)
 }

@@ -1,5 +1,6 @@
 //! Findings of a check, with their places.
 
+use crate::system::text;
 use serde_json::Value;
 
 /// A thing that was checked: a device, or variants that have a mistake in common.
@@ -107,6 +108,14 @@ impl Finding {
     #[cfg(test)]
     pub(super) fn at(kind: Kind, message: String, place: FilePlace) -> Finding {
         Finding { kind, message, more: Vec::new(), place: Some(place), related: Vec::new() }
+    }
+
+    /// The message with its remarks and all other places that it is about.
+    pub(super) fn text_with_places(&self) -> String {
+        let places = self.related.iter().map(|(FilePlace { file, line, column, .. }, remark)| {
+            format!("\n{}:{line}:{column}: {remark}", text::escape(file))
+        });
+        std::iter::once(self.text()).chain(places).collect()
     }
 
     /// The message with its remarks.

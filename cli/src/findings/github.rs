@@ -14,7 +14,7 @@ pub(super) fn github(pipeline: &str, cases: &[Case]) -> String {
                 let file = property(file);
                 format!(",file={file},line={line},endLine={end_line},col={column},endColumn={end_column}")
             });
-            let _ = writeln!(commands, "::error title={title}{place}::{}", data(&finding.text()));
+            let _ = writeln!(commands, "::error title={title}{place}::{}", data(&finding.text_with_places()));
         }
     }
     if commands.is_empty() {

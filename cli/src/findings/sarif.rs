@@ -70,3 +70,16 @@ fn plain(text: &str) -> String {
     }
     text.replace('\\', "\\\\").replace('[', "\\[").replace(']', "\\]")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Code hosts refuse a whole file for one result without a line.
+    #[test]
+    fn what_has_no_place_stands_at_the_first_line_of_the_pipeline() {
+        let case = Case::new("lavapipe", &json!([])).violations(&["step 0: a barrier is missing".to_owned()]);
+        let place = &result("p.ron", &case.name, &case.findings[0])["locations"][0]["physicalLocation"];
+        assert_eq!(*place, json!({"artifactLocation": {"uri": "p.ron"}, "region": {"startLine": 1}}));
+    }
+}

@@ -13,10 +13,10 @@ const MARGIN: f64 = 16.0;
 const MOST_LABELS: usize = 80;
 
 const STYLE: &str = "svg{background:#fff;color:#1c1c1c;font:12px system-ui,sans-serif}text{fill:currentColor;text-anchor:middle}\
-.kind,.along{font-size:10px;opacity:.75}rect{fill:#eef3fa;stroke:#5c7ea8}.dispatch rect{fill:#e3f4e3;stroke:#4d8a4d}\
+.kind{font-size:10px;opacity:.75}.along{font-size:10px;fill:#5c5c5c;paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round}rect{fill:#eef3fa;stroke:#5c7ea8}.dispatch rect{fill:#e3f4e3;stroke:#4d8a4d}\
 .resolve rect{fill:#fde8d0;stroke:#b5651d}.beside rect{fill:#f4f4f4;stroke:#888}path{fill:none;stroke:currentColor;opacity:.45}\
 @media (prefers-color-scheme:dark){svg{background:#181818;color:#eee}rect{fill:#223147}.dispatch rect{fill:#1f3a1f}\
-.resolve rect{fill:#4a3218}.beside rect{fill:#333}}";
+.resolve rect{fill:#4a3218}.beside rect{fill:#333}.along{fill:#aaa;stroke:#181818}}";
 
 /// The picture.
 pub(crate) fn svg(plan: &Plan, flow: &Dataflow) -> String {
@@ -30,16 +30,19 @@ pub(crate) fn svg(plan: &Plan, flow: &Dataflow) -> String {
         -MARGIN
     );
     let labelled = graph.edges.len() <= MOST_LABELS;
+    // Above all edges: none crosses them out.
+    let mut labels = String::new();
     for (points, resources) in layout.ways.iter().zip(graph.edges.values()) {
         let along = escaped(&graph.along(resources));
         let _ = write!(svg, "<g><title>{along}</title><path marker-end=\"url(#end)\" d=\"{}\"/>", curve(points));
         if let (true, [first, second, ..]) = (labelled, points.as_slice()) {
             let middle = [0, 1].map(|axis| (first[axis] + second[axis]) / 2.0);
-            let _ =
-                write!(svg, "<text class=\"along\" x=\"{:.1}\" y=\"{:.1}\">{along}</text>", middle[0], middle[1] + 3.0);
+            let [x, y] = [middle[0], middle[1] + 3.0];
+            let _ = writeln!(labels, "<text class=\"along\" x=\"{x:.1}\" y=\"{y:.1}\">{along}</text>");
         }
         svg += "</g>\n";
     }
+    svg += &labels;
     for (vertex, [x, y, width]) in graph.vertices.iter().zip(&layout.places) {
         let node = graph.node(*vertex);
         let class = match (vertex, node.map(|node| node.kind)) {

@@ -83,7 +83,9 @@ pub(crate) fn start(
 async fn own_pages_alone(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     let port = shared.address.port();
-    let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
+    // Browsers leave out the port that HTTP has anyway.
+    let end = if port == 80 { String::new() } else { format!(":{port}") };
+    let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}{end}"));
     let is_own = |host: &str| own.iter().any(|own| own == host);
     let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
     let host = text(HOST).is_some_and(is_own);

@@ -10,7 +10,7 @@ use crate::files::inputs;
 use crate::inspection::{self, Page, Shown, Thumbnail};
 use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, Planned, View, totals};
-use crate::system::{interrupt, text};
+use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::{self, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::Detail;
@@ -125,7 +125,7 @@ impl<'a> Session<'a> {
     /// Draws anew, and says on standard error how that went. What is wrong leaves the last good frame.
     ///
     /// # Errors
-    /// Those of the device, which no change to a file mends.
+    /// Those of the device, which no change to a file mends; a wrong command line, before the first frame.
     pub(crate) fn draw(&mut self) -> Result<(), Error> {
         let begun = Instant::now();
         self.version += 1;
@@ -137,13 +137,19 @@ impl<'a> Session<'a> {
                 text::say(&self.good.took);
                 Ok(())
             }
-            Err(error) if error.can_be_mended_in_files() => {
+            Err(error) if error.can_be_mended_in_files() && !self.begins_wrong(&error) => {
                 self.wrong = Wrong::of(&error);
                 text::say(&self.wrong.message);
                 Ok(())
             }
             Err(error) => Err(error),
         }
+    }
+
+    /// Whether the command line itself is wrong: nothing was drawn yet by it alone.
+    fn begins_wrong(&self, error: &Error) -> bool {
+        let by_itself = self.good.version == 0 && self.chosen.is_empty() && self.preset.is_none();
+        by_itself && (error.exit() == Exit::Usage || matches!(error, Error::Stereo { .. }))
     }
 
     /// The state of the page.
@@ -162,7 +168,7 @@ impl<'a> Session<'a> {
             sources: &self.wrong.sources,
             controls: &self.good.controls,
             chosen: &self.chosen,
-            preset: self.preset.as_deref().or(self.arguments.pipeline.preset.as_deref()),
+            preset: self.preset.as_deref(),
             outputs: &self.good.outputs,
             took: &self.good.took,
         };
@@ -173,27 +179,35 @@ impl<'a> Session<'a> {
     }
 
     fn drawn(&mut self) -> Result<Good, Error> {
-        let arguments = self.arguments;
-        if self.scene.value.is_none() || self.scene.read.changed() {
-            self.scene = Held::nothing();
-            self.scene.value = Some(inputs::scene(&arguments.scene, &self.scene.read)?);
-        }
-        if self.pipeline.value.is_none() || self.pipeline.read.changed() {
-            self.pipeline = Held::nothing();
-            let mut of_page = arguments.pipeline.clone();
-            of_page.preset = self.preset.clone().or(of_page.preset);
-            let loaded = planning::load_with(&of_page, &self.pipeline.read, self.helper.clone())?;
-            // A setting that the file no longer has can't be chosen any more.
-            let known = |name: &str| loaded.pipeline.settings.iter().any(|setting| *setting.name.text == *name);
-            self.chosen.retain(|name, _| known(name));
-            self.pipeline.value = Some(loaded);
-        }
+        // Both are read before a mistake in either is told: a file that isn't read again counts as changed for ever.
+        let (scene, pipeline) = (self.read_scene(), self.read_pipeline());
+        scene.and(pipeline)?;
         let (Some(scene), Some(pipeline)) = (&self.scene.value, &mut self.pipeline.value) else {
             return Ok(Good::default());
         };
-        let of_command_line = arguments.pipeline.set.iter().map(|one| (one.name.clone(), one.value.clone()));
+        // A setting that the file doesn't have, or no longer, can't be chosen.
+        self.chosen.retain(|name, _| pipeline.pipeline.settings.iter().any(|setting| *setting.name.text == **name));
+        let of_command_line = self.arguments.pipeline.set.iter().map(|one| (one.name.clone(), one.value.clone()));
         pipeline.set = of_command_line.chain(self.chosen.clone()).collect();
-        drawn(arguments, self.device, scene, pipeline, self.version)
+        drawn(self.arguments, self.device, scene, pipeline, self.version)
+    }
+
+    fn read_scene(&mut self) -> Result<(), Error> {
+        if self.scene.value.is_none() || self.scene.read.changed() {
+            self.scene = Held::nothing();
+            self.scene.value = Some(inputs::scene(&self.arguments.scene, &self.scene.read)?);
+        }
+        Ok(())
+    }
+
+    fn read_pipeline(&mut self) -> Result<(), Error> {
+        if self.pipeline.value.is_none() || self.pipeline.read.changed() {
+            self.pipeline = Held::nothing();
+            let mut of_page = self.arguments.pipeline.clone();
+            of_page.preset = self.preset.clone().or(of_page.preset);
+            self.pipeline.value = Some(planning::load_with(&of_page, &self.pipeline.read, self.helper.clone())?);
+        }
+        Ok(())
     }
 }
 

@@ -116,6 +116,7 @@ fn ci_systems_are_told_each_finding_with_its_place() {
             && first.contains(",file=first.ron,line=27,endLine=27,col=32,endColumn=41::"),
         "{first}"
     );
+    assert!(first.ends_with("%0Abudget.ron:2:5: the limit"), "{first}");
     // Without a finding each form says so.
     place.file("budget.ron", "Budget(version: 1, limits: [(resolves: 9)])");
     assert_eq!(check("github", 0), "::notice title=framewright::first.ron is fine: 1 case\n");

@@ -192,6 +192,30 @@ fn what_the_machine_or_the_command_line_lacks_is_said() {
     std::fs::create_dir(place.path("more")).expect("made");
     std::fs::copy(place.path("pipelines/first.ron"), place.path("more/first.ron")).expect("copied");
     check(&place, &["pipelines/first.ron", "more/first.ron"], &[]).exits(2).mentions("have the same name");
+    // Only the results of an earlier run are removed.
+    std::fs::create_dir(place.path("-kept")).expect("made");
+    place.file("-kept/notes.txt", "mine");
+    check(&place, &["pipelines/first.ron"], &[("RESULTS", "-kept")]).exits(0);
+    assert!(place.path("-kept/notes.txt").exists() && place.path("-kept/pictures/first.png").exists());
+    // Defaults that are wrong, where the variants that are asked for are right.
+    let text = std::fs::read_to_string(place.path("pipelines/first.ron")).expect("a file");
+    let off = "passes: [\n(name: \"late\", when: \"msaa == 4\", draw: FullScreen(\"gone\"), color: [\"screen\"]),";
+    place.file("pipelines/four.ron", text.replacen("passes: [", off, 1));
+    let said = check(&place, &["pipelines/four.ron"], &[("VARIANTS", "--set msaa=1")]).exits(1).out;
+    assert!(said.contains("fine: four: variants") && said.contains("FAILED (exit code 1): four: not drawn"), "{said}");
+    // Options for every command.
+    let low = [("VARIANTS", "--set msaa=1"), ("OPTIONS", "--set msaa=1"), ("MAX_FLIP", "1"), ("GOLDENS", "more")];
+    check(&place, &["--accept", "pipelines/four.ron"], &low).exits(0);
+    // A pipeline for the draws of an engine: it is checked and shown, and not drawn.
+    for file in ["engine.ron", "grass.frag", "grass.vert", "terrain.frag", "terrain.vert"] {
+        std::fs::copy(repository("examples/engine").join(file), place.path("pipelines").join(file)).expect("copied");
+    }
+    check(&place, &["pipelines/engine.ron"], &[]).exits(1);
+    std::fs::create_dir(place.path("interfaces")).expect("made");
+    std::fs::copy(repository("examples/engine/interface.ron"), place.path("interfaces/engine.ron")).expect("copied");
+    let said = check(&place, &["pipelines/engine.ron"], &[]).exits(0).out;
+    assert!(said.contains("fine: engine: page, without pictures"), "{said}");
+    assert!(has(&place, "pages/engine.html") && !has(&place, "pictures/engine.png"));
     // A driver that isn't there.
     let no_driver = [("VK_DRIVER_FILES", "/none"), ("VK_ICD_FILENAMES", "/none")];
     let said = check(&place, &["pipelines/first.ron"], &no_driver).exits(3);

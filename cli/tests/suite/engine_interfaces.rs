@@ -172,6 +172,7 @@ fn commands_that_draw_take_no_interface() {
     let scene = ["engine.ron", "--scene", "spheres_and_cubes", "--interface", "interface.ron"];
     for (command, more) in [
         ("run", &[][..]),
+        ("serve", &["--port", "0"]),
         ("measure", &["--sweep", "grass=true,false", "-o", "swept"]),
         ("inspect", &["--capture", "--format", "html", "-o", "page.html"]),
     ] {

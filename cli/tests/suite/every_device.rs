@@ -155,7 +155,9 @@ fn work_on_other_queues_is_told_with_what_it_waits_for() {
         |word: &'static str, more: &[&'static str]| [&[word, "p.ron", "--device", "amd-rx-7800-xt"], more].concat();
     let said = place.run(&command("check", &[])).exits(0).out;
     assert!(said.contains(" between queues, "), "{said}");
-    assert!(said.contains("note: `fall`: runs on the compute queue, beside `sky`: that saves up to "), "{said}");
+    let note = "note: `fall`: runs on the compute queue, beside `sky`: that saves up to 7.0 MiB of work for it and the other step \
+                that needs the same waits, and 2 waits cost as much as 4.0 MiB (p.ron:11:16)";
+    assert!(said.contains(note), "{said}");
     let tree = place.run(&command("inspect", &[])).exits(0).out;
     assert!(tree.contains(" on the compute queue: dispatch") && tree.contains("waits in "), "{tree}");
     let plan = json(&place, &command("inspect", &[]), 0);

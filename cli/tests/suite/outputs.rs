@@ -81,13 +81,13 @@ fn what_is_no_output_is_not_written_and_said() {
     let place = Place::new();
     place.file("p.ron", pipeline(&OUTPUTS));
     let Some(outcome) = run(&place, &["-o", "unshown=a.png"]) else { return };
-    outcome.exits(2).mentions(
-        "error: the pipeline has no output named `unshown`\nhelp: `--dump unshown=FILE.png` writes any image",
-    );
+    outcome
+        .exits(2)
+        .mentions("error: there is no output named `unshown`\nhelp: `--dump unshown=FILE.png` writes any image");
     if let Some(outcome) = run(&place, &["-o", "sceen=a.png", "--dump", "light=b.png"]) {
         outcome
             .exits(2)
-            .mentions("error: the pipeline has no output named `sceen`\nhelp: there are `screen`, `light`, `depth`");
+            .mentions("error: there is no output named `sceen`\nhelp: there are `screen`, `light`, `depth`");
     }
     assert_eq!(place.names(), ["p.ron"]);
 }

@@ -112,7 +112,13 @@ fn what_is_selected_is_marked_in_every_view_and_stands_in_the_address() {
     let (_, page) = plan_and_page(&place, &["first.ron"]);
     browser.open_file(&page, "#view=grid&pass=tone_map");
     assert_eq!(browser.text("document.querySelector('#details h2').textContent"), "tone_map", "a deep link");
+    for (asked, missing) in [("#view=grid&pass=toon_map", "pass toon_map"), ("#view=grit", "view grit")] {
+        browser.open_file(&page, asked);
+        assert_eq!(browser.text("document.querySelector('#details [role=status] code').textContent"), missing);
+    }
+    browser.open_file(&page, "#view=grid");
     browser.click("#view-grid g.folded_resolve");
+    assert_eq!(browser.count("document.querySelectorAll('#details [role=status]').length"), 0);
     let details = "document.querySelector('#details').innerText";
     let about = browser.text(details);
     assert!(about.contains("tone_map samples color and it has 4 samples"), "{about}");

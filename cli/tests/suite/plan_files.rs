@@ -66,6 +66,24 @@ fn every_shipped_pipeline_draws_the_same_from_its_plan() {
 }
 
 #[test]
+fn a_plan_for_another_device_is_told_and_one_without_outputs_gives_no_picture() {
+    let Some(bench) = Bench::new() else { return };
+    let drawn = || bench.run(&[&["--plan", "changed.json"], &SCENE, &["-o", "x.png"]]);
+    bench.changed("", "");
+    assert!(!drawn().exits(0).err.contains("was made for"));
+    bench.changed("\"name\": \"llvmpipe", "\"name\": \"other \\u001b[31m");
+    let said = drawn().exits(0).err;
+    assert!(said.contains("note: the Plan was made for other \\u{1b}[31m (LLVM "), "{said}");
+    assert!(said.contains(", and is drawn on llvmpipe (LLVM "), "{said}");
+
+    let mut plan: Value = serde_json::from_slice(&bench.read("plan.json")).expect("JSON");
+    plan["outputs"] = serde_json::json!([]);
+    bench.place.file("changed.json", plan.to_string());
+    let said = drawn().exits(1).err;
+    assert!(said.contains("error: there is no output, so there is no picture to write"), "{said}");
+}
+
+#[test]
 fn plans_made_in_every_way_draw_the_same() {
     let Some(bench) = Bench::new() else { return };
     for stereo in ["multi-pass", "double-wide", "instanced"] {

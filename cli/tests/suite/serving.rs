@@ -3,6 +3,7 @@
 use crate::testing::browser::Browser;
 use crate::testing::server::Server;
 use crate::testing::{Place, Vulkan, repository};
+use framewright_tests::sweep;
 use serde_json::Value;
 use std::path::Path;
 
@@ -131,6 +132,77 @@ fn scenes_shaders_and_files_that_were_missing_are_watched_too() {
     changes(&|| drop(place.file("reinhard.frag", inverted.replace("1.0", "0.5"))), "an edited shader");
     changes(&|| std::fs::remove_file(place.path("reinhard.frag")).expect("removed"), "the shipped shader again");
     assert_eq!(server.said().iter().filter(|line| line.contains("drawn in")).count(), 5, "one frame for an edit");
+
+    // A scene that is gone for a while, as while an editor writes it.
+    let gone = std::fs::read(place.path("scene.ron")).expect("it is there");
+    std::fs::remove_file(place.path("scene.ron")).expect("removed");
+    let missing = server.state_after(version(&state));
+    assert!(missing["live"]["message"].as_str().expect("text").contains("there is no scene"), "{}", missing["live"]);
+    place.file("scene.ron", gone);
+    let back = server.state_after(version(&missing));
+    assert_eq!(back["live"]["mistakes"], serde_json::json!([]), "{}", back["live"]["message"]);
+}
+
+#[test]
+fn while_a_scene_is_wrong_each_edit_of_the_pipeline_is_looked_at_once() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = begun();
+    let server = Server::start(&place, &variables, &SMALL);
+    let first = server.state_after(0);
+    edit(&place, "scene.ron", "Scene(", "Scenery(");
+    let wrong = server.state_after(version(&first));
+    assert_ne!(wrong["live"]["message"], "", "{}", wrong["live"]);
+    edit(&place, "first.ron", "\"sky\", draw: Sky", "\"horizon\", draw: Sky");
+    let still = server.state_after(version(&wrong));
+    // Whatever is wrong here would be looked at again ten times a second.
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let later = server.state_after(0);
+    assert!(version(&later) <= version(&still) + 2, "{} after {}", version(&later), version(&still));
+    edit(&place, "scene.ron", "Scenery(", "Scene(");
+    let good = server.state_after(version(&later));
+    assert_eq!(good["live"]["mistakes"], serde_json::json!([]), "{}", good["live"]["message"]);
+    assert!(good["page"].to_string().contains("horizon"));
+}
+
+#[test]
+fn what_is_wrong_from_the_start_is_shown_at_its_place() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let Some(mut browser) = Browser::start() else { return };
+    let place = begun();
+    edit(&place, "first.ron", "samples: \"msaa\"", "samples: \"msa\"");
+    let server = Server::start(&place, &variables, &SMALL);
+    browser.open(&server.address());
+    browser.until("document.querySelector('#live-wrong button.place') !== null");
+    browser.click("#live-wrong button.place");
+    let line = browser.text("document.querySelector('.view-panel:not([hidden]) li:has(> .mistake)').textContent");
+    assert!(line.contains("samples: \"msa\"") && line.contains("did you mean `msaa`"), "{line}");
+    // A setting may be called as a member that every object has.
+    let text = std::fs::read_to_string(place.path("first.ron")).expect("it is there");
+    place.file("first.ron", text.replace("\"msa\"", "\"constructor\"").replace("\"msaa\"", "\"constructor\""));
+    browser.until("live.state.mistakes.length === 0 && live.state.busy === false");
+    browser.click("#tab-live");
+    assert_eq!(browser.text("document.querySelector('[data-setting=constructor]').value"), "4");
+    assert_eq!(browser.count("document.querySelectorAll('.chosen, #as-begun').length"), 0);
+    // A server that is gone is told, also to who chooses something.
+    drop(server);
+    browser.ask("choose({ set: { constructor: '1' } })");
+    browser.until("document.querySelector('#live-status').textContent.includes(\"doesn't answer\")");
+}
+
+#[test]
+fn a_pipeline_or_scene_that_is_not_there_ends_it_at_once() {
+    let place = begun();
+    for (arguments, what) in [
+        (["serve", "frist.ron", "--scene", "scene.ron", "--port", "0"], "there is no pipeline `frist.ron`"),
+        (["serve", "first.ron", "--scene", "secne.ron", "--port", "0"], "there is no scene `secne.ron`"),
+    ] {
+        let said = place.run(&arguments).exits(1).err;
+        assert!(said.contains(what), "{said}");
+    }
+    // A wrong command line ends it too: no edit mends that.
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let port = ["--port", "0", "--set", "nope=1"];
+    place.run_with(&variables, &[&["serve"], &SMALL[..], &port].concat()).exits(2).mentions("nope");
 }
 
 #[test]
@@ -200,12 +272,15 @@ fn choices_that_are_wrong_or_no_longer_known_do_no_harm() {
         (good["live"]["message"].as_str(), good["live"]["settings"][0]["value"].as_str()),
         (Some(""), Some("1"))
     );
+    // One that the pipeline never had is forgotten.
+    let unknown = choose("{\"set\": {\"bogus\": \"1\"}}");
+    assert_eq!(unknown["live"]["chosen"], serde_json::json!({"msaa": "1"}));
     // The file loses the setting: so does the choice.
     let text = std::fs::read_to_string(place.path("first.ron")).expect("it is there");
     let without =
         text.replace("(name: \"msaa\", value: OneOf(default: 4, of: [1, 2, 4])),", "").replace("\"msaa\"", "1");
     place.file("first.ron", without);
-    let later = server.state_after(version(&good));
+    let later = server.state_after(version(&unknown));
     assert_eq!(later["live"]["mistakes"], serde_json::json!([]), "{}", later["live"]["message"]);
     assert_eq!(later["live"]["chosen"], serde_json::json!({}));
 }
@@ -250,18 +325,20 @@ fn a_hundred_edits_take_no_more_memory_than_ten() {
     let mut server = Server::start(&place, &variables, &small);
     let mut state = server.state_after(0);
     let text = std::fs::read_to_string(place.path("first.ron")).expect("it is there");
-    let edits = std::env::var("FRAMEWRIGHT_LONG").map_or(100, |_| 1000);
+    let shader = "#version 450\nlayout(set = 0, binding = 0) uniform sampler2D source;\nlayout(location = 0) in vec2 uv;\n\
+        layout(location = 0) out vec4 color;\nvoid main() { color = vec4(VALUE) - texture(source, uv); }\n";
+    let edits = if sweep::is_long() { 1000 } else { 100 };
     let mut held = 0;
     for edit in 0..edits {
-        // Other values, another graph, and a mistake by turns.
-        let changed = match edit % 3 {
-            0 => text.replace("(0.0, 0.0, 0.0, 1.0)", &format!("(0.0, 0.0, {}.0, 1.0)", edit)),
-            1 => text.replace("default: 4", "default: 1"),
-            _ => text.replace("\"opaque\", draw", "\"opaque\", drew"),
+        // Other values, another graph, another shader, and a mistake by turns.
+        match edit % 4 {
+            0 => place.file("first.ron", text.replace("(0.0, 0.0, 0.0, 1.0)", &format!("(0.0, 0.0, {edit}.0, 1.0)"))),
+            1 => place.file("first.ron", text.replace("default: 4", "default: 1")),
+            2 => place.file("reinhard.frag", shader.replace("VALUE", &format!("{edit}.0"))),
+            _ => place.file("first.ron", text.replace("\"opaque\", draw", "\"opaque\", drew")),
         };
-        place.file("first.ron", changed);
         state = server.state_after(version(&state));
-        assert_eq!(state["live"]["mistakes"] == serde_json::json!([]), edit % 3 < 2, "{edit}: {}", state["live"]);
+        assert_eq!(state["live"]["mistakes"] == serde_json::json!([]), edit % 4 < 3, "{edit}: {}", state["live"]);
         if edit == 10 {
             held = resident(server.process.id());
         }

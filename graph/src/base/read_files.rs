@@ -29,9 +29,9 @@ struct Records {
 struct Stamp {
     bytes: u64,
     written: Option<SystemTime>,
-    /// Device and inode.
+    /// Device and inode, and when anything about it changed last, such as who may read it: seconds and nanoseconds.
     #[cfg(unix)]
-    inode: (u64, u64),
+    inode: (u64, u64, i64, i64),
 }
 
 /// One file on disk.
@@ -110,7 +110,7 @@ impl Stamp {
         #[cfg(unix)]
         let inode = {
             use std::os::unix::fs::MetadataExt;
-            (metadata.dev(), metadata.ino())
+            (metadata.dev(), metadata.ino(), metadata.ctime(), metadata.ctime_nsec())
         };
         Stamp {
             bytes: metadata.len(),
@@ -194,6 +194,14 @@ mod tests {
         fs::remove_file(at("file")).expect("removed");
         assert!(files.changed(), "removed");
         fs::write(at("file"), "a").expect("written");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            let files = begun(&["file"], &[]);
+            fs::set_permissions(at("file"), fs::Permissions::from_mode(0o600)).expect("set");
+            fs::set_permissions(at("file"), fs::Permissions::from_mode(0o644)).expect("set");
+            assert!(files.changed(), "who may read it");
+        }
         let files = begun(&["file"], &["missing"]);
         fs::create_dir(at("missing")).expect("made");
         assert!(!files.changed(), "a folder is no file");

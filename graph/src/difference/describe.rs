@@ -13,6 +13,8 @@ use crate::vulkan::{Shape, Sharing, State, name_of};
 pub(super) struct Description {
     pub(super) kind: Kind,
     pub(super) name: String,
+    /// What stays of the name whatever other passes the step has.
+    pub(super) of_itself: Option<String>,
     pub(super) fields: Vec<(&'static str, String)>,
     pub(super) because: Option<String>,
     pub(super) at: Option<Place>,
@@ -20,7 +22,12 @@ pub(super) struct Description {
 
 impl Description {
     pub(super) fn new(kind: Kind, name: String, fields: Vec<(&'static str, String)>) -> Description {
-        Description { kind, name, fields, because: None, at: None }
+        Description { kind, name, of_itself: None, fields, because: None, at: None }
+    }
+
+    /// A part of a step, whose name tells the step's passes too.
+    pub(super) fn of_step(self, of_itself: String) -> Description {
+        Description { of_itself: Some(of_itself), ..self }
     }
 
     pub(super) fn caused(self, cause: &Cause) -> Description {
@@ -33,7 +40,7 @@ impl Description {
     }
 
     pub(super) fn entry(self, change: impl FnOnce(Vec<(&'static str, String)>) -> Change) -> Entry {
-        let Description { kind, name, fields, because, at } = self;
+        let Description { kind, name, fields, because, at, .. } = self;
         Entry { kind, name, change: change(fields), because, at }
     }
 }

@@ -163,28 +163,36 @@ impl Differences {
     }
 }
 
-/// Entries of one kind and name are compared in their order.
+/// Entries of one kind and name are compared in their order; then those that only the passes of their steps tell apart.
 fn entries(of_a: Vec<Description>, of_b: Vec<Description>) -> Vec<Entry> {
-    let mut found: BTreeMap<(Kind, String), Vec<Description>> = BTreeMap::new();
-    for one in of_a.into_iter().rev() {
-        found.entry((one.kind, one.name.clone())).or_default().push(one);
-    }
     let mut entries = Vec::new();
-    for b in of_b {
-        let key = (b.kind, b.name.clone());
-        match found.get_mut(&key).and_then(Vec::pop) {
-            None => entries.push(b.entry(|fields| Change::Added { fields: of_one(fields, |value| (None, value)) })),
-            Some(a) => {
-                let fields = differing(a.fields, &b.fields);
-                if !fields.is_empty() {
-                    entries.push(b.entry(|_| Change::Changed { fields }));
+    let mut compare = |of_a: Vec<Description>, of_b: Vec<Description>, name: fn(&Description) -> &str| {
+        let mut found: BTreeMap<(Kind, String), Vec<Description>> = BTreeMap::new();
+        for one in of_a.into_iter().rev() {
+            found.entry((one.kind, name(&one).to_owned())).or_default().push(one);
+        }
+        let mut left = Vec::new();
+        for b in of_b {
+            match found.get_mut(&(b.kind, name(&b).to_owned())).and_then(Vec::pop) {
+                None => left.push(b),
+                Some(a) => {
+                    let name = name(&b).to_owned();
+                    let fields = differing(a.fields, &b.fields);
+                    if !fields.is_empty() {
+                        entries.push(Entry { name, ..b.entry(|_| Change::Changed { fields }) });
+                    }
                 }
             }
         }
-    }
-    let left = found.into_values().flat_map(|left| left.into_iter().rev());
-    entries.extend(left.map(|a| a.entry(|fields| Change::Removed { fields: of_one(fields, |value| (value, None)) })));
-    // Stable: B's order, then what only A has.
+        (found.into_values().flat_map(|left| left.into_iter().rev()).collect(), left)
+    };
+    let (of_a, of_b) = compare(of_a, of_b, |one| &one.name);
+    let (of_a, of_b) = compare(of_a, of_b, |one| one.of_itself.as_ref().unwrap_or(&one.name));
+    let added = |b: Description| b.entry(|fields| Change::Added { fields: of_one(fields, |value| (None, value)) });
+    let removed = |a: Description| a.entry(|fields| Change::Removed { fields: of_one(fields, |value| (value, None)) });
+    entries.extend(of_b.into_iter().map(added));
+    entries.extend(of_a.into_iter().map(removed));
+    // Stable: what both have, then what only B has, then what only A has.
     entries.sort_by_key(|entry| entry.kind);
     entries
 }

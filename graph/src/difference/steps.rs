@@ -38,8 +38,9 @@ impl Described<'_> {
         }
         for wait in &self.step.waits {
             let frame = if wait.frames_ago == 0 { "" } else { " of a frame before" };
-            let name = format!("{} for {}{frame}", self.name(None), self.plan.step_name(wait.step));
-            all.push(Description::new(Kind::Wait, name, vec![("stages", name_of(&wait.stages))]));
+            let waited_for = format!("for {}{frame}", self.plan.step_name(wait.step));
+            let name = format!("{} {waited_for}", self.name(None));
+            all.push(Description::new(Kind::Wait, name, vec![("stages", name_of(&wait.stages))]).of_step(waited_for));
         }
     }
 
@@ -85,9 +86,10 @@ impl Described<'_> {
             fields.push(("clear value", format!("{clear:?}")));
         }
         fields.push(("layout", name_of(&attachment.layout)));
-        let name = format!("{image}, {}, of the scope of {first}", name_of(&attachment.range.aspects));
+        let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
+        let name = format!("{of_itself}, of the scope of {first}");
         let because = Some(Shown(&attachment.because.to_string()).to_string());
-        Description { because, ..Description::new(Kind::Attachment, name, fields) }
+        Description { because, ..Description::new(Kind::Attachment, name, fields).of_step(of_itself) }
     }
 
     fn pass(self, pass: &Pass, mut fields: Vec<(&'static str, String)>) -> Description {
@@ -194,7 +196,7 @@ impl Described<'_> {
             [name_of(&barrier.src_stages), name_of(&barrier.dst_stages)],
             [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
         ));
-        Description::new(Kind::Barrier, name, fields)
+        Description::new(Kind::Barrier, name, fields).of_step(format!("{image}: {}", words(barrier.hazard)))
     }
 
     fn memory_barrier(self, barrier: &MemoryBarrier, all: &mut Vec<Description>) {
@@ -202,14 +204,15 @@ impl Described<'_> {
             [name_of(&barrier.src_stages), name_of(&barrier.dst_stages)],
             [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
         );
-        let mut add = |name: String| all.push(Description::new(Kind::Barrier, name, fields.to_vec()));
+        let described = |name: String| Description::new(Kind::Barrier, name, fields.to_vec());
         for [before, after] in &barrier.hand_overs {
             let [before, after] = [before, after].map(|resource| self.resource(*resource));
-            add(format!("memory of {before} becomes that of {after}"));
+            all.push(described(format!("memory of {before} becomes that of {after}")));
         }
         for hazard in &barrier.buffers {
             let buffer = self.resource(Resource::Buffer(hazard.buffer));
-            add(format!("{buffer} before {}: {}", self.name(hazard.needed_by), words(hazard.hazard)));
+            let name = format!("{buffer} before {}: {}", self.name(hazard.needed_by), words(hazard.hazard));
+            all.push(described(name).of_step(format!("{buffer}: {}", words(hazard.hazard))));
         }
     }
 

@@ -53,6 +53,7 @@ pub enum PlanError {
 
 /// The one field that every version has.
 #[derive(Deserialize)]
+#[serde(expecting = "a Plan")]
 struct Versioned {
     format_version: u64,
 }

@@ -57,11 +57,12 @@ pub fn verify(plan: &Plan) -> Vec<Violation> {
     } else if let Some(frames) = structure::check(plan, &mut found)
         && let Some(program) = work::check(plan, &mut found)
     {
-        totals::check(plan, &mut found);
         redraws::check(plan, &mut found);
         rotation::check(plan, &mut found);
         eyes::check(plan, &mut found);
         walk::walk(plan, &program, frames, &mut found);
+        // Last: any other mistake makes totals wrong too.
+        totals::check(plan, &mut found);
     }
     found.violations
 }

@@ -122,6 +122,35 @@ fn only_what_one_plan_alone_has_is_added_or_removed() {
     assert!(passes > 20, "{passes}");
 }
 
+/// A pass that leaves a rendering scope takes nothing with it that the scope needs as before.
+#[test]
+fn what_a_scope_needs_stays_when_its_first_pass_leaves() {
+    let graph = |passes: &str| {
+        let text = format!(
+            r#"Pipeline(
+    version: 1,
+    images: [(name: "color", format: Color(), size: Output), (name: "screen", format: Output, size: Output)],
+    passes: [{passes}
+        (name: "glass", draw: Objects(Transparent), shader: "lit", color: ["color"]),
+        (name: "show", draw: FullScreen("reinhard"), sample: {{"source": "color"}}, color: ["screen"]),
+    ],
+    outputs: ["screen"],
+)"#
+        );
+        compiled(&right(&text, &INPUTS))
+    };
+    const CLEARED: &str = r#"[(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]"#;
+    let opaque = |color: &str| format!(r#"(name: "opaque", draw: Objects(Opaque), shader: "lit", color: {color}),"#);
+    let sky = format!(r#"(name: "sky", draw: Sky, color: {CLEARED}),"#);
+    let a = graph(&(sky + &opaque(r#"["color"]"#)));
+    let b = graph(&opaque(CLEARED));
+    assert_eq!(a.totals.scopes, b.totals.scopes);
+    let found = between(&a, &b);
+    // Passes tell whose scope they are in; attachments, barriers and resolves are the same.
+    let told: Vec<(Kind, &str)> = found.entries.iter().map(|entry| (entry.kind, &*entry.name)).collect();
+    assert_eq!(told, ["`opaque`", "`glass`", "`sky`"].map(|name| (Kind::Pass, name)), "{}", found.text());
+}
+
 /// With 4 samples `forward` draws into 4 samples a texel, keeps none of them and resolves once.
 #[test]
 fn samples_bring_a_resolve_and_its_cause() {

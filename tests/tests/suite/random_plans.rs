@@ -30,7 +30,9 @@ fn options(seed: u64) -> Options {
 /// The mistakes in the Plan of a frame.
 fn fault(frame: &Frame, options: &Options, seed: u64) -> Option<String> {
     let sharing = if seed % 5 == 1 { Sharing::Concurrent } else { Sharing::Exclusive };
-    let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing, wait_bytes: 0 };
+    // Waits that cost nothing, about as much as what passes move, and more than that.
+    let wait_bytes = [0, 4 << 10, 64 << 10][(seed / 5 % 3) as usize];
+    let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing, wait_bytes };
     let device = Profile { local_read: seed.is_multiple_of(2), queues, ..device() };
     let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut Estimated(&device), options)));
     let plan = match compiled {

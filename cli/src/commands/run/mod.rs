@@ -57,6 +57,9 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     device.cancel_when(interrupt::asked);
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let (plan, frame) = subject.planned(arguments, &scene, &device)?;
+    if let Some(note) = subject.made_elsewhere(&device.profile().name) {
+        text::say(&note);
+    }
     diagnostics::cameras(&plan, frame.as_ref(), &scene)?;
     // Now its shaders are known.
     spare()?;

@@ -49,6 +49,16 @@ impl Subject {
         }
     }
 
+    /// The note about a Plan from a file that was made for another device than this one.
+    pub(super) fn made_elsewhere(&self, device: &str) -> Option<String> {
+        let Subject::Plan(plan) = self else { return None };
+        let made_for = &plan.0.device.name;
+        (made_for != device).then(|| {
+            let [made_for, device] = [made_for, device].map(text::escape);
+            format!("note: the Plan was made for {made_for}, and is drawn on {device}: a Plan of its own may take less")
+        })
+    }
+
     /// The Plan for the device, with the frame that it was made of. Says what dumping changes. A Plan from a file is as it is.
     ///
     /// # Errors

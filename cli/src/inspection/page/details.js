@@ -3,6 +3,7 @@ function showDetails() {
   const panel = document.querySelector("#details > div");
   panel.replaceChildren();
   if (!state.selected) {
+    if (state.unknown) panel.append(element("p", { role: "status" }, "The address asks for ", element("code", {}, state.unknown), ", which isn't here."));
     panel.append(element("p", { class: "faint" }, "Select a pass, an image or a step to see why it is there, what it needs and what it costs."));
     return;
   }

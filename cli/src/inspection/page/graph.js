@@ -12,6 +12,7 @@ function graphView(model) {
     svg.setAttribute("viewBox", [left - EDGE, top - EDGE, width, height].join(" "));
     svg.append(shape("defs", {}, shape("marker", { id: "end", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto" }, shape("path", { class: "arrow", d: "M0 0L8 4L0 8z" }))));
     const seen = [left - EDGE, top - EDGE];
+    const labels = [];
     graph.edges.forEach((edge, at) => {
       const points = graph.ways[at];
       const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
@@ -25,9 +26,10 @@ function graphView(model) {
       }).join("");
       svg.append(shape("path", { class: "way", d: way, "marker-end": "url(#end)", "data-key": keys.join("\u0001"), onclick: () => select(keys[0], { reveal: false }) }, shape("title", {}, names)));
       if (graph.edges.length <= 80) {
-        svg.append(shape("text", { class: "small middle", x: (points[0][0] + points[1][0]) / 2, y: (points[0][1] + points[1][1]) / 2 + 3 }, short(names, 40)));
+        labels.push(shape("text", { class: "along middle", x: (points[0][0] + points[1][0]) / 2, y: (points[0][1] + points[1][1]) / 2 + 3 }, short(names, 40)));
       }
     });
+    svg.append(...labels);
     graph.vertices.forEach((vertex, at) => {
       const [x, y, wide] = graph.places[at];
       if (!inSight(x - wide / 2, x + wide / 2, seen[0], width) || !inSight(y - 20, y + 20, seen[1], height)) return;

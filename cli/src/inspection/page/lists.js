@@ -103,7 +103,7 @@ function differencesList(model, differences) {
 
 /** What every other shipped device changes. */
 function devicesView(model) {
-  return element("div", {}, element("p", {}, `Here A is the Plan of this page, for ${models[0].plan?.device.name ?? ""}, and B the same frame on another device.`), DATA.devices.map(({ profile, differences }) => {
+  return element("div", {}, element("p", {}, `Here A is the Plan of this page, for ${models[0].plan?.device.name ?? ""}, and B the same frame on another device. What memory takes there is estimated from the device's profile.`), DATA.devices.map(({ profile, differences }) => {
     const told = "Ok" in differences ? differences.Ok : null;
     const number = told ? told.totals.filter((figure) => figure.a !== figure.b).length + told.entries.length : 0;
     const line = told ? (number === 0 ? "no difference" : count(number, "difference", "differences")) : "no Plan: " + differences.Err;

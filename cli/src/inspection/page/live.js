@@ -20,8 +20,12 @@ function liveView() {
 
 /** Sends a choice. The state that follows shows it. */
 async function choose(choice) {
-  const answer = await fetch("choose", { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(choice) });
-  if (!answer.ok) live.bar.status.textContent = await answer.text();
+  try {
+    const answer = await fetch("choose", { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(choice) });
+    if (!answer.ok) live.bar.status.textContent = await answer.text();
+  } catch {
+    live.bar.status.textContent = "The server doesn't answer: the choice is lost.";
+  }
 }
 
 /** The control of a setting. */
@@ -36,26 +40,33 @@ function control(setting, shown) {
     const slides = Number.isFinite(max - min) && max - min <= 1e6;
     input = element("input", { ...about, type: slides ? "range" : "number", min, max, step: step ?? (slides ? (max - min) / 200 : "any"), value: shown });
     const text = element("output", {}, shown);
-    input.addEventListener("input", () => { text.textContent = input.value; });
-    input.addEventListener("change", () => send(input.value));
+    input.addEventListener("input", () => {
+      text.textContent = input.value;
+      live.turned = input;
+    });
+    input.addEventListener("change", () => {
+      live.turned = null;
+      send(input.value);
+    });
     return [input, " ", slides ? text : null];
   }
   return input;
 }
 
-/** Controls of all settings, unless one is being used. */
+/** Controls of all settings. They stay as they are while a number is typed or a slider is pulled. */
 function showControls(state) {
   const { controls } = live.view;
   const values = JSON.stringify([state.settings, state.presets, state.chosen, state.preset]);
-  if (values === live.controls) return;
+  if (values === live.controls || (live.turned && live.turned === document.activeElement)) return;
   live.controls = values;
   const focused = document.activeElement?.dataset?.setting;
-  const presets = ["", ...state.presets];
+  // Names of settings may be those of members that every object has.
+  const chosen = new Map(Object.entries(state.chosen));
   controls.replaceChildren(
-    state.presets.length > 0 ? element("label", {}, "preset ", element("select", { onchange: (event) => choose({ preset: event.target.value || null }) },
-      presets.map((value) => element("option", { value, selected: value === (state.preset ?? "") }, value || "none")))) : "",
-    ...state.settings.map((setting) => element("label", { class: setting.name in state.chosen ? "chosen" : null }, setting.name + " ", control(setting, state.chosen[setting.name] ?? setting.value))),
-    Object.keys(state.chosen).length > 0 ? element("button", { type: "button", id: "as-begun", onclick: () => choose({ preset: state.preset }) }, "as begun") : "");
+    state.presets.length > 0 ? element("label", {}, "preset ", element("select", { "data-setting": "@preset", onchange: (event) => choose({ preset: event.target.value || null }) },
+      ["", ...state.presets].map((value) => element("option", { value, selected: value === (state.preset ?? "") }, value || "as begun")))) : "",
+    ...state.settings.map((setting) => element("label", { class: chosen.has(setting.name) ? "chosen" : null }, setting.name + " ", control(setting, chosen.get(setting.name) ?? setting.value))),
+    chosen.size > 0 || state.preset ? element("button", { type: "button", id: "as-begun", onclick: () => choose({ preset: null }) }, "as begun") : "");
   if (focused) [...controls.querySelectorAll("[data-setting]")].find((one) => one.dataset.setting === focused)?.focus();
 }
 
@@ -108,7 +119,7 @@ function showState(state, page) {
   if (state.frame !== live.frame || texts !== live.texts) {
     live.frame = state.frame;
     live.texts = texts;
-    const data = page ?? { plans: [], differences: null, devices: [], captures: [] };
+    const data = page ?? { plans: [], differences: null, devices: [], captures: [], texts: state.sources };
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     showData({ ...data, live: true });
   }

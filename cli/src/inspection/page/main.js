@@ -15,9 +15,9 @@ function viewsOf(data) {
     { name: "queues", title: "Queues", make: queuesView },
     { name: "images", title: "Images", make: imagesView },
     { name: "notes", title: "Decisions", make: notesView },
-    { name: "source", title: "Source", make: sourceView },
+    data.plans.length > 0 ? { name: "source", title: "Source", make: sourceView } : alone("source", "Source", () => sourceView({ sources: data.texts })),
     data.devices.length > 0 ? { name: "devices", title: "Other devices", make: devicesView } : null,
-  ].filter((view) => view && (data.plans.length > 0 || view.name === "live"));
+  ].filter((view) => view && (data.plans.length > 0 || view.name === "live" || (view.name === "source" && data.texts?.length > 0)));
 }
 
 function makeView(view) {
@@ -31,6 +31,7 @@ function makeView(view) {
 }
 
 function showView(name) {
+  if (!VIEWS.some((view) => view.name === name)) return;
   state.view = name;
   for (const view of VIEWS) {
     const is = view.name === name;

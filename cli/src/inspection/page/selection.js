@@ -1,11 +1,12 @@
 /** The key of what is selected, and the view that is shown. */
-const state = { selected: null, view: null, place: null, filter: "" };
+const state = { selected: null, view: null, place: null, filter: "", unknown: null };
 
 const has = (key) => models.some((model) => model.byKey.has(key));
 
 /** Selects a part of the Plans, or nothing. Every view marks it and what it is related to. */
 function select(key, { reveal = true, record = true } = {}) {
   state.selected = key && has(key) ? key : null;
+  if (record) state.unknown = null;
   if (record) writeHash();
   highlight(document);
   showDetails();
@@ -53,7 +54,9 @@ function readHash() {
     else if (name === "step") key = "step:" + (/^\d/.test(value) ? "a" + value : value);
     else if (["pass", "image", "buffer", "note"].includes(name)) key = name + ":" + value;
   }
-  showView(VIEWS.some((known) => known.name === view) ? view : state.view || VIEWS[0].name);
+  const isView = VIEWS.some((known) => known.name === view);
+  state.unknown = key && !has(key) ? key.replace(":", " ") : view && !isView ? "view " + view : null;
+  showView(isView ? view : state.view || VIEWS[0].name);
   select(key, { record: false });
 }
 

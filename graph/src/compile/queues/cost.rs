@@ -53,7 +53,7 @@ impl Balance {
         self.saved.bytes > self.cost
     }
 
-    /// Whether it can't gain, whatever becomes of the other steps of its queue.
+    /// Whether it wouldn't gain even if nothing but its own window held it back: as far as its run goes now.
     pub(super) fn is_hopeless(&self) -> bool {
         self.alone.bytes <= self.cost
     }

@@ -2,8 +2,8 @@
 //!
 //! A dispatch, copy or fill leaves the graphics queue if that gains ([`cost`](super::cost)). What can run beside it stands in
 //! its window: graphics steps that it doesn't depend on and that don't depend on it. Each step that stays makes other windows
-//! smaller and changes what other steps wait for, so all of them are weighed again until nothing changes. Steps that can't gain
-//! whatever becomes of the others stay first.
+//! smaller and changes what other steps wait for, so all of them are weighed again until nothing changes. Steps that
+//! wouldn't gain even if none of the others held them back stay first. That is a rule of thumb: a run could still become one with the next.
 
 use super::cost::{Balance, Work};
 use super::eligible::{Eligible, GraphicsOnly};
