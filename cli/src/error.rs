@@ -98,6 +98,12 @@ pub(crate) enum Error {
         text::escape(&values[1])
     )]
     OtherSweep { folder: PathBuf, field: &'static str, values: Box<[String; 2]> },
+    /// Another process measures into the same folder.
+    #[error(
+        "another process measures into `{}`\nhelp: wait until it ends, or name another folder; `framewright merge` joins folders",
+        text::path(folder)
+    )]
+    Held { folder: PathBuf },
     /// A file of results that is none.
     #[error("`{}` {}", text::path(path), text::escape_lines(&problem.to_string()))]
     Results { path: PathBuf, problem: Box<dyn std::error::Error> },
@@ -110,6 +116,13 @@ pub(crate) enum Error {
         text::path(folder)
     )]
     NoFlicker { folder: PathBuf },
+    /// Ratios are asked for where there is nothing that they are relative to.
+    #[error(
+        "`--max-ratio` holds times against those of the settings of the baseline ({}), which were not measured with {}\nhelp: measure them too, as a value of the sweep",
+        text::escape(baseline),
+        text::escape(group)
+    )]
+    NoBaseline { baseline: String, group: String },
     /// A file is no Plan, or not a right one.
     #[error("{}: {}", text::path(path), text::escape_lines(problem))]
     NoPlan { path: PathBuf, problem: String },
@@ -319,6 +332,7 @@ impl Error {
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::NoFlicker { .. }
+            | Error::NoBaseline { .. }
             | Error::NoPlan { .. }
             | Error::NothingToExplain { .. }
             | Error::TooManyNodes { .. }
@@ -359,6 +373,7 @@ impl Error {
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }
+            | Error::Held { .. }
             | Error::ReadAndWritten { .. }
             | Error::OtherResults { .. }
             | Error::AlreadyExists { .. }

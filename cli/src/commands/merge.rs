@@ -32,8 +32,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Error> {
         return Err(Error::OtherResults { folder: to.to_owned() });
     }
     copies.copy(to, &read)?;
-    store::write_views(to, &results)?;
-    store::write(to, &results)?;
+    store::write_all(to, &results)?;
     let rows = text::count(results.rows.len(), "row", "rows");
     text::print(&format!("{rows} in {}\n", text::path(to))).map_err(Error::Print)?;
     Ok(Exit::Fine)

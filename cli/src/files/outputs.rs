@@ -31,13 +31,15 @@ pub(crate) fn prepare<'a>(written: impl Iterator<Item = &'a Path>, read: &ReadFi
     Ok(())
 }
 
-/// Writes each of `files`, once all of them are sure to be no file that was read. Each is written whole or not at all.
+/// Writes each of `files`, once all of them are sure to be no file that was read. Each is written whole or not at all, and none
+/// takes its place before there was room for all.
 ///
 /// # Errors
 /// Those of [`prepare`], before anything is written; then [`Error::Write`] and [`Error::InterruptedWriting`].
 pub(crate) fn write(files: &[(&Path, &[u8])], read: &ReadFiles) -> Result<(), Error> {
     prepare(files.iter().map(|(path, _)| *path), read)?;
-    files.iter().try_for_each(|(path, contents)| write_one(path, contents))
+    let filled = files.iter().map(|(path, contents)| Filled::of(path, contents)).collect::<Result<Vec<_>, Error>>()?;
+    filled.into_iter().try_for_each(Filled::finish)
 }
 
 /// Whether a file is a shader, or a part of one, by its name. Those of passes that are off aren't read, and would be lost all
@@ -64,17 +66,34 @@ fn probe(path: &Path) -> Result<Option<PathBuf>, Error> {
     }
 }
 
-/// Writes `contents` to `path`: a file beside it is filled and takes its place in one step, so that every reader sees the
-/// old contents or the new ones.
-fn write_one(path: &Path, contents: &[u8]) -> Result<(), Error> {
-    let problem = |source| Error::Write { path: path.to_owned(), source };
-    match Target::of(path).map_err(problem)? {
-        Target::File(file) => {
-            let beside = filled(&file, contents).map_err(problem)?;
-            beside.persist(&file).map_err(|error| problem(error.error))?;
-            Ok(())
+/// Contents that are about to be written: of a file they lie beside it already, and take its place in one step, so that every
+/// reader sees the old contents or the new ones.
+enum Filled<'a> {
+    Beside { path: &'a Path, file: PathBuf, beside: NamedTempFile },
+    Stream { stream: PathBuf, contents: &'a [u8] },
+}
+
+impl<'a> Filled<'a> {
+    fn of(path: &'a Path, contents: &'a [u8]) -> Result<Filled<'a>, Error> {
+        let problem = |source| Error::Write { path: path.to_owned(), source };
+        match Target::of(path).map_err(problem)? {
+            Target::File(file) => {
+                let beside = filled(&file, contents).map_err(problem)?;
+                Ok(Filled::Beside { path, file, beside })
+            }
+            Target::Stream(stream) | Target::Pipe(stream) => Ok(Filled::Stream { stream, contents }),
         }
-        Target::Stream(stream) | Target::Pipe(stream) => stream::write(&stream, contents),
+    }
+
+    fn finish(self) -> Result<(), Error> {
+        match self {
+            Filled::Beside { path, file, beside } => {
+                let problem = |source| Error::Write { path: path.to_owned(), source };
+                beside.persist(&file).map_err(|error| problem(error.error))?;
+                Ok(())
+            }
+            Filled::Stream { stream, contents } => stream::write(&stream, contents),
+        }
     }
 }
 
@@ -174,13 +193,17 @@ fn temporary(beside: &Path) -> io::Result<NamedTempFile> {
 mod tests {
     use super::*;
 
+    fn write_alone(path: &Path, contents: &[u8]) -> Result<(), Error> {
+        Filled::of(path, contents)?.finish()
+    }
+
     #[test]
     fn a_written_file_replaces_the_old_one_and_leaves_nothing_beside_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("plan.json");
-        write_one(&file, b"old").expect("written");
+        write_alone(&file, b"old").expect("written");
         probe(&file).expect("writable");
-        write_one(&file, b"new").expect("written");
+        write_alone(&file, b"new").expect("written");
         assert_eq!(fs::read(&file).expect("read"), b"new");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
     }
@@ -198,7 +221,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let link = folder.path().join("link.json");
         std::os::unix::fs::symlink("new.json", &link).expect("linked");
-        write_one(&link, b"new").expect("written");
+        write_alone(&link, b"new").expect("written");
         assert!(link.is_symlink());
         assert_eq!(fs::read(folder.path().join("new.json")).expect("read"), b"new");
     }
@@ -210,13 +233,13 @@ mod tests {
         let (file, link) = (folder.path().join("real.json"), folder.path().join("link.json"));
         fs::write(&file, b"old").expect("written");
         std::os::unix::fs::symlink(&file, &link).expect("linked");
-        write_one(&link, b"new").expect("written");
+        write_alone(&link, b"new").expect("written");
         assert!(link.is_symlink());
         assert_eq!(fs::read(&file).expect("read"), b"new");
 
-        write_one(Path::new("/dev/null"), b"nothing").expect("written");
+        write_alone(Path::new("/dev/null"), b"nothing").expect("written");
         assert!(!fs::metadata("/dev/null").expect("there").is_file());
-        let full = write_one(Path::new("/dev/full"), b"nothing").expect_err("always full");
+        let full = write_alone(Path::new("/dev/full"), b"nothing").expect_err("always full");
         assert!(matches!(full, Error::Write { source, .. } if source.kind() == io::ErrorKind::StorageFull));
     }
 }

@@ -57,10 +57,16 @@ pub(super) fn table(results: &Results) -> Result<String, Error> {
         let [width, height] = row.size.map(|side| side.to_string());
         let surroundings = [row.scene.clone(), width, height, row.stereo.clone()].map(Some);
         let all = surroundings.into_iter().chain(settings).chain(figures(row));
-        writer.write_record(all.map(Option::unwrap_or_default))?;
+        writer.write_record(all.map(|cell| inert(cell.unwrap_or_default())))?;
     }
     let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// A cell that no spreadsheet takes for a formula: a `'` stands before what would begin one. Numbers stay as they are.
+fn inert(cell: String) -> String {
+    let begins_formula = cell.starts_with(['=', '+', '-', '@', '\t', '\r']) && cell.parse::<f64>().is_err();
+    if begins_formula { format!("'{cell}") } else { cell }
 }
 
 /// In the order of [`FIGURES`].

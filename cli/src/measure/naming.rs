@@ -1,6 +1,6 @@
 //! Names of what results hold, for people and as keys.
 
-use super::results::{Measured, Results, Row};
+use super::results::{Measured, Outcome, Results, Row};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The surroundings of a row: rows of one group differ in settings alone, and can be compared.
@@ -59,6 +59,16 @@ impl Measured {
 }
 
 impl Results {
+    /// Leaves out the paths of all pictures.
+    pub(crate) fn forget_pictures(&mut self) {
+        for row in &mut self.rows {
+            if let Outcome::Measured(measured) = &mut row.outcome {
+                (measured.picture, measured.reference) = (None, None);
+                (measured.heat_map, measured.flicker_map) = (None, None);
+            }
+        }
+    }
+
     /// The settings that the sweep varied.
     pub(crate) fn swept(&self) -> BTreeSet<&str> {
         let names = self.rows.iter().flat_map(|row| row.choice.keys());

@@ -50,6 +50,7 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
         return Err(Error::Sweep { what });
     }
     outputs::make_folder(&arguments.output)?;
+    let _held = store::hold(&arguments.output)?;
     interrupt::watch();
     let helper = Some(pipeline.assets.helper.clone());
     let device = Device::open(&DeviceOptions { choice: chosen, validation: false, helper })?;
@@ -104,15 +105,17 @@ impl Bench<'_> {
         let folder = &self.arguments.output;
         let mut shown = Instant::now();
         for batch in missing.chunks(AT_ONCE) {
-            let rows = self.batch((baseline, &results.subject.baseline), batch, &progress);
-            let rows = rows.map_err(|error| match interrupt::asked() {
+            let mut rows = Vec::with_capacity(batch.len());
+            let ended = self.batch((baseline, &results.subject.baseline), batch, &progress, &mut rows);
+            // Rows that were finished before an error stay.
+            let anew: HashSet<Key<'_>> = rows.iter().map(of_row).collect();
+            results.rows.retain(|row| !anew.contains(&of_row(row)));
+            results.rows.extend(rows.iter().cloned());
+            results.rows.sort_by_cached_key(|row| places.get(&of_row(row)).copied());
+            ended.map_err(|error| match interrupt::asked() {
                 true => Error::InterruptedMeasuring { measured: results.rows.len(), wanted: choices.len() },
                 false => error,
             })?;
-            let anew: HashSet<Key<'_>> = batch.iter().map(of_choice).collect();
-            results.rows.retain(|row| !anew.contains(&of_row(row)));
-            results.rows.extend(rows);
-            results.rows.sort_by_cached_key(|row| places.get(&of_row(row)).copied());
             store::write(folder, results)?;
             if shown.elapsed() >= VIEWS_EVERY {
                 store::write_views(folder, results)?;
@@ -126,7 +129,7 @@ impl Bench<'_> {
     /// The results that the folder holds already, or none yet.
     fn begun(&mut self, baseline: &Choice) -> Result<Results, Error> {
         let planned = self.planned(baseline, &baseline.scene.scene, &[])?;
-        let mut of_baseline = settings(&planned);
+        let mut of_baseline = settings(&planned.plan);
         of_baseline.extend([
             (subjects::SCENE.to_owned(), baseline.scene.digest.clone()),
             (subjects::SIZE.to_owned(), baseline.size.to_string()),

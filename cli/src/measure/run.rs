@@ -56,13 +56,14 @@ impl Bench<'_> {
         Ok(planned)
     }
 
-    /// Measures a few choices, in turns with the baseline.
+    /// Measures a few choices, in turns with the baseline. Rows are added as soon as they are finished.
     pub(super) fn batch(
         &mut self,
         (baseline, all_settings): (&Choice, &BTreeMap<String, String>),
         batch: &[Choice],
         progress: &Progress,
-    ) -> Result<Vec<Row>, Error> {
+        rows: &mut Vec<Row>,
+    ) -> Result<(), Error> {
         let options = ExecutorOptions { timestamps: true, fragment_counts: true, ..ExecutorOptions::default() };
         let all: Vec<&Choice> = [baseline].into_iter().chain(batch).collect();
         let mut plans = Vec::with_capacity(all.len());
@@ -101,12 +102,11 @@ impl Bench<'_> {
             });
         }
         let (of_baseline, frames) = frames.split_first().map_or((&[][..], &[][..]), |(first, rest)| (first, rest));
-        let mut rows = Vec::with_capacity(batch.len());
         for ((choice, ready), frames) in batch.iter().zip(prepared.into_iter().skip(1)).zip(frames) {
             let (settings, stereo, outcome) = match ready {
                 Ok(mut drawn) => {
-                    let measured = self.measured(choice, &mut drawn, frames, of_baseline)?;
-                    let outcome = Outcome::Measured(Box::new(measured));
+                    let measured = kept(self.measured(choice, &mut drawn, frames, of_baseline))?;
+                    let outcome = measured.map_or_else(Outcome::Failed, |it| Outcome::Measured(Box::new(it)));
                     (settings(drawn.plan), drawn.plan.stereo, outcome)
                 }
                 Err(why) => {
@@ -126,7 +126,7 @@ impl Bench<'_> {
             });
             progress.done_one();
         }
-        Ok(rows)
+        Ok(())
     }
 
     /// The way in which a choice would be drawn for two eyes.
@@ -139,12 +139,35 @@ impl Bench<'_> {
 fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
-        Err(error) if interrupt::asked() || matches!(error.exit(), Exit::Usage | Exit::Interrupted) => Err(error),
+        Err(error) if interrupt::asked() || is_of_all(&error) => Err(error),
         Err(error) => Ok(Err(error.to_string().trim_end().to_owned())),
     }
+}
+
+/// Whether every further choice would meet the same problem: a device that is lost, a full disk, a wrong command line.
+fn is_of_all(error: &Error) -> bool {
+    !error.can_be_mended_in_files()
+        || matches!(error.exit(), Exit::Usage | Exit::Interrupted)
+        || matches!(error, Error::Write { .. } | Error::NoFolder { .. } | Error::Sizes { .. })
 }
 
 /// All settings of a Plan.
 pub(super) fn settings(plan: &Plan) -> BTreeMap<String, String> {
     plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_vulkan::Error as Problem;
+
+    #[test]
+    fn a_lost_device_ends_a_sweep_and_a_choice_that_can_not_be_drawn_does_not() {
+        let ended = kept::<()>(Err(Error::Vulkan(Problem::DeviceLost { doing: "drawing" })));
+        assert_eq!(ended.expect_err("it ends").exit(), Exit::Environment);
+        let full = Error::Write { path: "pictures/a.png".into(), source: std::io::ErrorKind::StorageFull.into() };
+        assert_eq!(kept::<()>(Err(full)).expect_err("it ends").exit(), Exit::Environment);
+        let own = kept::<()>(Err(Error::NoPicture { output: "list".to_owned() }));
+        assert!(own.expect("a row").expect_err("its error").contains("`list` is a buffer"));
+    }
 }

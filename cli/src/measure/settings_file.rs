@@ -23,7 +23,8 @@ pub(crate) fn text(settings: &BTreeMap<String, String>, document: Option<&Docume
     )
 }
 
-/// A text between quotes.
+/// A text between quotes. Characters that a terminal acts on, or that hide others, are written as RON's escapes.
 fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+    let plain = text.replace('\\', "\\\\").replace('"', "\\\"");
+    format!("\"{}\"", text::escape(&plain))
 }

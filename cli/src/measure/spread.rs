@@ -12,6 +12,12 @@ pub(crate) fn spread(mut figures: Vec<f64>) -> Option<Spread> {
 }
 
 impl Spread {
+    /// The figures as parts of another one.
+    #[must_use]
+    pub(crate) fn relative_to(self, other: f64) -> Spread {
+        Spread { median: self.median / other, low: self.low / other, high: self.high / other }
+    }
+
     /// Whether two figures can't be told apart: each one's median lies among the middle half of the other's figures.
     #[must_use]
     pub(crate) fn ties(&self, other: &Spread) -> bool {

@@ -7,10 +7,15 @@ use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use framewright_graph::base::ReadFiles;
 use serde::Deserialize;
+use std::fs::{File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The file of the results, in their folder.
 pub(crate) const FILE: &str = "results.json";
+
+/// The file by which a process holds the folder. It is empty, and stays.
+const LOCK: &str = "results.lock";
 
 /// The file has at most this many bytes: more than a hundred thousand rows.
 const LARGEST: usize = 512 << 20;
@@ -78,10 +83,13 @@ fn possible(results: &Results) -> Result<(), StoreProblem> {
 /// # Errors
 /// If a figure is none that a measurement gives, or the file can't be written.
 pub(crate) fn write(folder: &Path, results: &Results) -> Result<(), Error> {
+    write_files(&[file(folder, results)?])
+}
+
+fn file(folder: &Path, results: &Results) -> Result<(PathBuf, String), Error> {
     let path = folder.join(FILE);
     possible(results).map_err(|problem| Error::Results { path: path.clone(), problem: problem.into() })?;
-    let text = serde_json::to_string_pretty(results)? + "\n";
-    outputs::write(&[(&path, text.as_bytes())], &ReadFiles::default())
+    Ok((path, serde_json::to_string_pretty(results)? + "\n"))
 }
 
 /// The files in a folder that are made of `results.json`: a table, a page and a plot.
@@ -98,7 +106,37 @@ pub(crate) fn made_of(folder: &Path, results: &Results) -> Result<Vec<(PathBuf, 
 /// # Errors
 /// If a file can't be written.
 pub(crate) fn write_views(folder: &Path, results: &Results) -> Result<(), Error> {
-    let files = made_of(folder, results)?;
+    write_files(&made_of(folder, results)?)
+}
+
+/// Writes a table, a page, a plot and `results.json`, the last one last: all of them, or none if there is no room for all.
+///
+/// # Errors
+/// As [`write`] and [`write_views`].
+pub(crate) fn write_all(folder: &Path, results: &Results) -> Result<(), Error> {
+    let mut files = made_of(folder, results)?;
+    files.push(file(folder, results)?);
+    write_files(&files)
+}
+
+fn write_files(files: &[(PathBuf, String)]) -> Result<(), Error> {
     let files: Vec<(&Path, &[u8])> = files.iter().map(|(path, text)| (&**path, text.as_bytes())).collect();
     outputs::write(&files, &ReadFiles::default())
+}
+
+/// Holds a folder of results for as long as the answer lives: no other process measures into it.
+///
+/// # Errors
+/// If another process holds it, or its lock can't be written.
+pub(crate) fn hold(folder: &Path) -> Result<Option<File>, Error> {
+    let path = folder.join(LOCK);
+    let problem = |source| Error::Write { path: path.clone(), source };
+    let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(problem)?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(Error::Held { folder: folder.to_owned() }),
+        // Some file systems have no locks: there a folder can't be held.
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(None),
+        Err(TryLockError::Error(error)) => Err(problem(error)),
+    }
 }

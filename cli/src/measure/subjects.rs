@@ -100,9 +100,11 @@ pub(crate) fn choices(
     }
     let count = sweep::count(&sweeps, combined);
     if count > sweep::MOST_CHOICES as u128 {
+        let fits = combined == Combined::All && sweep::count(&sweeps, Combined::Pairwise) <= sweep::MOST_CHOICES as u128;
+        let or_pairs = if fits { ", or add --pairwise" } else { "" };
+        let most = sweep::MOST_CHOICES;
         return Err(wrong(format!(
-            "the sweep has {count} choices, and at most {} are measured: sweep fewer values, or add --pairwise",
-            sweep::MOST_CHOICES
+            "the sweep has {count} choices, and at most {most} are measured: sweep fewer values{or_pairs}"
         )));
     }
     let mut scenes: BTreeMap<PathBuf, Rc<Subject>> = BTreeMap::new();

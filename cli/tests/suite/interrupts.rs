@@ -169,28 +169,23 @@ fn ctrl_c_ends_the_wait_for_the_reader_of_a_pipe() {
 fn ctrl_c_ends_a_sweep_and_keeps_what_is_measured() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let place = Place::new();
-    let words = [
-        "measure",
-        "image_quality",
-        "--scene",
-        "spheres_and_cubes",
-        "--size",
-        "96x54",
-        "--sweep",
-        "white_point=1..100:24",
-        "--frames",
-        "30",
-        "--reference",
-        "none",
-        "-o",
-        "swept",
-    ];
-    let child = start(&place, &variables, &words);
-    let file = place.path("swept/results.json");
-    until(|| file.exists(), "some are measured");
+    let words = ["measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "96x54"];
+    let rows = |folder: &str| {
+        let text = std::fs::read_to_string(place.path(folder).join("results.json")).expect("read");
+        let results: serde_json::Value = serde_json::from_str(&text).expect("whole");
+        results["rows"].as_array().map_or(0, Vec::len)
+    };
+    let sweep = ["--sweep", "white_point=1..100:24", "--frames", "30", "--reference", "none", "-o", "swept"];
+    let child = start(&place, &variables, &[&words[..], &sweep].concat());
+    until(|| place.path("swept/results.json").exists(), "some are measured");
     interrupted(child).exits(130).mentions("those are kept, and the same command goes on with the others");
-    let results: serde_json::Value =
-        serde_json::from_str(&std::fs::read_to_string(&file).expect("read")).expect("whole");
-    let rows = results["rows"].as_array().map_or(0, Vec::len);
-    assert!((8..24).contains(&rows), "{rows} rows");
+    assert!((8..24).contains(&rows("swept")), "{} rows", rows("swept"));
+    // Within the first batch, whose choices were all drawn: those that were held against their references already are kept.
+    let sweep = ["--sweep", "white_point=1..100:8", "--frames", "1", "-o", "held"];
+    let child = start(&place, &variables, &[&words[..], &sweep].concat());
+    let maps = || std::fs::read_dir(place.path("held/heat_maps")).is_ok_and(|files| files.count() > 1);
+    until(maps, "the second is held against its reference");
+    let said = interrupted(child).exits(130).err;
+    let kept = rows("held");
+    assert!((1..8).contains(&kept) && said.contains(&format!("interrupted after {kept} of 8 choices")), "{said}");
 }

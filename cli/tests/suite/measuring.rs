@@ -107,6 +107,21 @@ fn a_sweep_goes_on_where_it_stopped_and_mixes_no_two() {
     assert_eq!(results(&place, "swept"), all);
 }
 
+/// Two that write one file would lose each other's rows.
+#[test]
+fn two_processes_do_not_measure_into_one_folder() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("swept")).expect("a folder");
+    let lock = std::fs::File::create(place.path("swept/results.lock")).expect("a file");
+    lock.lock().expect("held");
+    let sweep = ["--sweep", "msaa=1", "--reference", "none", "-o", "swept"];
+    let Some(out) = measure(&place, &sweep) else { return };
+    out.exits(2).mentions("another process measures into `swept`\nhelp: wait until it ends");
+    assert!(!place.path("swept/results.json").exists());
+    drop(lock);
+    measure(&place, &sweep).expect("lavapipe").exits(0);
+}
+
 #[test]
 fn shards_together_are_the_sweep() {
     let place = Place::new();
@@ -417,7 +432,12 @@ fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
     wrong(&["--shard", "3/2"]).mentions("expected K/N");
     let many = ["render_scale=0.5..4:1000", "white_point=1..100:1000", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
-    wrong(&many).mentions("the sweep has 6000000 choices, and at most 10000 are measured");
+    let said = wrong(&many).err;
+    assert!(said.contains("has 6000000 choices, and at most 10000 are measured: sweep fewer values\n"), "{said}");
+    // Where pairs are few enough they are named.
+    let many = ["render_scale=0.5..4:50", "white_point=1..100:50", "blur=0,1,2,3,4,5"];
+    let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
+    wrong(&many).mentions("has 15000 choices, and at most 10000 are measured: sweep fewer values, or add --pairwise");
     let arguments = ["measure", "auto_exposure", "--scene", "spheres_and_cubes", "-o", "swept"];
     place.run(&arguments).exits(2).mentions("the pipeline has no preset `reference`");
     assert!(!place.path("swept").exists());

@@ -276,6 +276,44 @@ fn the_table_and_the_page_hold_whatever_texts_results_hold() {
     assert!(plot.contains("&lt;/script&gt;") && !plot.contains("<script"), "{plot}");
 }
 
+/// A spreadsheet would run what such a cell says.
+#[test]
+fn no_cell_of_the_table_begins_a_formula() {
+    let place = Place::new();
+    let texts = ["=1+1", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "-0.5", "+2", "1=1"];
+    let rows = texts.map(|text| Row::new(&[("look", text)]).scene("=scene").failed(text).value());
+    write(&place, "a", &results(rows.into()));
+    place.run(&["merge", "a", "-o", "b"]).exits(0);
+    let mut table = csv::Reader::from_path(place.path("b/results.csv")).expect("a table");
+    let lines: Vec<csv::StringRecord> = table.records().map(|line| line.expect("a line")).collect();
+    let mut shown: Vec<&str> = lines.iter().map(|line| &line[4]).collect();
+    shown.sort_unstable();
+    let mut expected = ["'=1+1", "'+1+1", "'-1+1", "'@SUM(A1)", "'\t=1", "-0.5", "+2", "1=1"];
+    expected.sort_unstable();
+    assert_eq!(shown, expected);
+    for line in &lines {
+        assert_eq!((&line[0], &line[4]), ("'=scene", line.iter().next_back().expect("an error")));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn results_for_which_there_is_no_room_leave_nothing() {
+    let place = Place::new();
+    let own = row(&place, "a", 1, "own");
+    write(&place, "a", &results(vec![own]));
+    merged(&place, &["a"], "b");
+    let sizes = files(&place, "b").into_iter().map(|(name, bytes)| (name, bytes.len())).collect::<BTreeMap<_, _>>();
+    // In blocks of 512 bytes or of 1024: the page doesn't fit, and all other files do.
+    assert!(sizes["b/index.html"] > 8192 && sizes.iter().all(|(name, size)| *size < 4096 || name == "b/index.html"));
+    let mut shell = std::process::Command::new("sh");
+    let limited = "ulimit -f 8; exec \"$0\" merge a -o c";
+    shell.args(["-c", limited, env!("CARGO_BIN_EXE_framewright")]).current_dir(place.path(""));
+    let outcome = crate::testing::outcome(&mut shell).exits(3);
+    outcome.mentions("`c/index.html` can't be written: File too large");
+    assert!(files(&place, "c").keys().all(|name| name.starts_with("c/pictures/")), "{:?}", files(&place, "c").keys());
+}
+
 /// Each column of the table holds the figure that it is named for.
 #[test]
 fn every_column_of_the_table_is_its_own_figure() {

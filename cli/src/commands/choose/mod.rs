@@ -8,7 +8,6 @@ use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::files::outputs;
 use crate::measure::choosing::{Candidates, Chosen, Limit, Quantity};
-use crate::measure::pictures::Pictures;
 use crate::measure::results::Results;
 use crate::measure::{Part, joined, store};
 use crate::metric::Metric;
@@ -30,6 +29,11 @@ pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
         return Err(Error::NoFlicker { folder: arguments.folders.first().cloned().unwrap_or_default() });
     }
     let (candidates, limits) = (Candidates::of(&results), limits(arguments));
+    if arguments.max_ratio.is_some()
+        && let Some(group) = candidates.without_baseline()
+    {
+        return Err(Error::NoBaseline { baseline: results.shown(&results.subject.baseline), group: group.name() });
+    }
     let chosen = candidates.choose(&limits);
     if let (Chosen::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
         let contents = settings::file(&results, &best.settings, &read)?;
@@ -49,10 +53,8 @@ fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> 
     let mut parts = Vec::with_capacity(folders.len());
     for folder in folders {
         let mut results = store::read(folder, read)?;
-        // Rows of several folders are one if their pictures are.
-        if folders.len() > 1 {
-            Pictures::default().rename(folder, &mut results, read)?;
-        }
+        // Pictures decide nothing here, and needn't be there.
+        results.forget_pictures();
         parts.push(Part { folder: folder.clone(), results });
     }
     joined(parts).map_err(|problem| Error::Joining(problem.into()))

@@ -1,8 +1,10 @@
 //! The settings that can be chosen from, with their worst figures.
 
 use super::limits::Quantity;
+use crate::command_line::values::Size;
 use crate::measure::naming::Group;
 use crate::measure::results::{Measured, Outcome, Results, Row, Spread};
+use crate::measure::subjects;
 use crate::metric::Metric;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,10 +16,14 @@ pub(crate) struct Candidate {
     pub(crate) settings: BTreeMap<String, String>,
     /// `None`: the device doesn't tell times.
     pub(crate) milliseconds: Option<f64>,
-    /// The time relative to the baseline's, in the group where its median is largest; `None` as above.
+    /// The time relative to that of the baseline's settings in the same group, where its median is largest; `None` as above.
     pub(crate) ratio: Option<Spread>,
     /// The rank of its time: equal for settings whose times can't be told apart.
     speed: usize,
+    /// The rank of its FLIP: equal for settings whose difference is no more than their references' own error.
+    error: usize,
+    /// The own FLIP of the reference beside which its FLIP is worst.
+    doubt: f64,
     pub(crate) transient_bytes: u64,
     pub(crate) moved_bytes: u64,
     /// `None`: it wasn't measured.
@@ -53,6 +59,8 @@ pub(crate) struct Candidates {
     pub(crate) groups: BTreeSet<Group>,
     /// The groups in which no settings can be chosen. They don't count.
     pub(crate) left_out_groups: BTreeSet<Group>,
+    /// The time of the baseline's settings in each group, relative to that of the baseline itself.
+    baselines: BTreeMap<Group, f64>,
     /// How many settings are left out for which reason.
     pub(crate) left_out: BTreeMap<Reason, usize>,
 }
@@ -73,7 +81,8 @@ impl Candidates {
     pub(crate) fn of(results: &Results) -> Candidates {
         let groups: BTreeSet<Group> = results.rows.iter().filter(|row| usable(row).is_ok()).map(Row::group).collect();
         let left_out_groups = results.rows.iter().map(Row::group).filter(|group| !groups.contains(group)).collect();
-        let mut candidates = Candidates { groups, left_out_groups, ..Candidates::default() };
+        let baselines = baselines(results);
+        let mut candidates = Candidates { groups, left_out_groups, baselines, ..Candidates::default() };
         let mut rows: BTreeMap<&BTreeMap<String, String>, Vec<&Row>> = BTreeMap::new();
         for row in &results.rows {
             rows.entry(&row.settings).or_default().push(row);
@@ -84,8 +93,22 @@ impl Candidates {
                 Err(reason) => *candidates.left_out.entry(reason).or_default() += 1,
             }
         }
-        rank(&mut candidates.all);
+        let ties = |first: &Candidate, other: &Candidate| match (first.ratio, other.ratio) {
+            (Some(first), Some(other)) => other.ties(&first),
+            (first, other) => first.is_none() && other.is_none(),
+        };
+        rank(&mut candidates.all, Quantity::Ratio, ties, |candidate, rank| candidate.speed = rank);
+        let flip = Quantity::Error(Metric::Flip);
+        let ties =
+            |first: &Candidate, other: &Candidate| other.of(flip) - first.of(flip) <= first.doubt.max(other.doubt);
+        rank(&mut candidates.all, flip, ties, |candidate, rank| candidate.error = rank);
         candidates
+    }
+
+    /// A group that counts, and in which the baseline's settings weren't measured: its ratios are those to another group's time.
+    #[must_use]
+    pub(crate) fn without_baseline(&self) -> Option<&Group> {
+        self.groups.iter().find(|group| !self.baselines.contains_key(group))
     }
 
     /// The worst figures of some settings' rows.
@@ -102,30 +125,66 @@ impl Candidates {
         if covered != self.groups {
             return Err(Reason::NotEverywhere);
         }
-        Ok(Candidate::of_rows(counting.first().map(|row| row.settings.clone()).unwrap_or_default(), &measured))
+        let baseline = |row: &&Row| self.baselines.get(&row.group()).copied().unwrap_or(1.0);
+        let rows: Vec<(&Measured, f64)> = measured.into_iter().zip(counting.iter().map(baseline)).collect();
+        Ok(Candidate::of_rows(counting.first().map(|row| row.settings.clone()).unwrap_or_default(), &rows))
     }
 }
 
+/// The ratio of the baseline's settings in each group in which they were measured. Where the baseline itself was drawn it is 1:
+/// ratios are those of frames in the same turn there.
+fn baselines(results: &Results) -> BTreeMap<Group, f64> {
+    let (surroundings, settings): (BTreeMap<&str, &str>, BTreeMap<&str, &str>) = {
+        let all = results.subject.baseline.iter().map(|(name, value)| (&**name, &**value));
+        all.partition(|(name, _)| name.starts_with('@'))
+    };
+    let is_baseline = |row: &Row| {
+        let settings_of = row.settings.iter().map(|(name, value)| (&**name, &**value));
+        settings_of.eq(settings.iter().map(|(name, value)| (*name, *value)))
+    };
+    let is_own = |row: &Row| {
+        let [width, height] = row.size;
+        let size = Size { width, height }.to_string();
+        let of_row = [(subjects::SCENE, &row.scene_digest), (subjects::SIZE, &size), (subjects::STEREO, &row.stereo)];
+        of_row.into_iter().all(|(name, value)| surroundings.get(name).is_some_and(|it| *it == value.as_str()))
+    };
+    let ratio = |row: &Row| match &row.outcome {
+        _ if is_own(row) => Some((row.group(), 1.0)),
+        Outcome::Measured(measured) if is_baseline(row) => {
+            Some((row.group(), measured.cost.gpu_ratio.map_or(1.0, |ratio| ratio.median)))
+        }
+        _ => None,
+    };
+    results.rows.iter().filter_map(ratio).filter(|(_, ratio)| *ratio > 0.0).collect()
+}
+
 impl Candidate {
-    fn of_rows(settings: BTreeMap<String, String>, rows: &[&Measured]) -> Candidate {
-        let most = |figure: fn(&Measured) -> u64| rows.iter().map(|row| figure(row)).max().unwrap_or(0);
+    /// Rows with the time of the baseline's settings in their groups.
+    fn of_rows(settings: BTreeMap<String, String>, rows: &[(&Measured, f64)]) -> Candidate {
+        let most = |figure: fn(&Measured) -> u64| rows.iter().map(|(row, _)| figure(row)).max().unwrap_or(0);
         // Times that are missing in one row are missing.
-        let times: Option<Vec<Spread>> = rows.iter().map(|row| row.cost.gpu_milliseconds).collect();
-        let ratios: Option<Vec<Spread>> = rows.iter().map(|row| row.cost.gpu_ratio).collect();
+        let times: Option<Vec<Spread>> = rows.iter().map(|(row, _)| row.cost.gpu_milliseconds).collect();
+        let ratios: Option<Vec<Spread>> =
+            rows.iter().map(|(row, baseline)| Some(row.cost.gpu_ratio?.relative_to(*baseline))).collect();
         let slowest = |spreads: Vec<Spread>| spreads.into_iter().max_by(|a, b| a.median.total_cmp(&b.median));
         let worst = |metric: Metric| {
-            let figures = rows.iter().filter_map(|row| Some(row.errors.as_ref()?.of(metric)));
+            let figures = rows.iter().filter_map(|(row, _)| Some(row.errors.as_ref()?.of(metric)));
             let worst = if metric.is_likeness() { f64::min } else { f64::max };
             figures.reduce(worst).unwrap_or(f64::NAN)
         };
+        let flip = |row: &Measured| row.errors.as_ref().map_or(f64::NAN, |errors| errors.flip.mean);
+        let worst_row = rows.iter().map(|(row, _)| row).max_by(|a, b| flip(a).total_cmp(&flip(b)));
+        let own = worst_row.and_then(|row| row.reference_errors.as_ref());
         Candidate {
             settings,
             milliseconds: times.and_then(slowest).map(|time| time.median),
             ratio: ratios.and_then(slowest),
             speed: 0,
+            error: 0,
+            doubt: own.map_or(0.0, |own| own.flip.mean),
             transient_bytes: most(|row| row.cost.transient_bytes),
             moved_bytes: most(|row| row.cost.moved_bytes),
-            flicker: rows.iter().filter_map(|row| Some(row.flicker.as_ref()?.mean)).reduce(f64::max),
+            flicker: rows.iter().filter_map(|(row, _)| Some(row.flicker.as_ref()?.mean)).reduce(f64::max),
             errors: Metric::ALL.map(worst),
         }
     }
@@ -147,30 +206,31 @@ impl Candidate {
     }
 
     /// The order of preference, the best first: with `by_error` by error, speed and memory, else by speed, error and memory. Of
-    /// settings that are equal in all of them the faster ones are better.
+    /// settings that are equal in all of them those with the smaller ratio are better, then those with the smaller FLIP.
     pub(super) fn compare(&self, other: &Candidate, by_error: bool) -> Ordering {
-        let [error, memory, ratio] = [Quantity::Error(Metric::Flip), Quantity::Mebibytes, Quantity::Ratio]
+        let [memory, ratio, flip] = [Quantity::Mebibytes, Quantity::Ratio, Quantity::Error(Metric::Flip)]
             .map(|quantity| self.of(quantity).partial_cmp(&other.of(quantity)).unwrap_or(Ordering::Equal));
-        let speed = self.speed.cmp(&other.speed);
+        let (speed, error) = (self.speed.cmp(&other.speed), self.error.cmp(&other.error));
         let first = if by_error { error.then(speed) } else { speed.then(error) };
-        first.then(memory).then(ratio)
+        first.then(memory).then(ratio).then(flip)
     }
 }
 
-/// Gives equal ranks to settings whose times can't be told apart from those of the fastest of the rank.
-fn rank(candidates: &mut [Candidate]) {
+/// Ranks by a figure: equal for settings that tie with those of the least figure of the rank.
+fn rank(
+    candidates: &mut [Candidate],
+    quantity: Quantity,
+    ties: impl Fn(&Candidate, &Candidate) -> bool,
+    set: impl Fn(&mut Candidate, usize),
+) {
     let mut order: Vec<&mut Candidate> = candidates.iter_mut().collect();
-    order.sort_by(|a, b| a.of(Quantity::Ratio).total_cmp(&b.of(Quantity::Ratio)));
-    let (mut speed, mut fastest) = (0, order.first().and_then(|first| first.ratio));
+    order.sort_by(|a, b| a.of(quantity).total_cmp(&b.of(quantity)));
+    let (mut rank, mut first) = (0, order.first().map(|first| (*first).clone()));
     for candidate in order {
-        let ties = match (candidate.ratio, fastest) {
-            (Some(ratio), Some(fastest)) => ratio.ties(&fastest),
-            (ratio, fastest) => ratio.is_none() && fastest.is_none(),
-        };
-        if !ties {
-            (speed, fastest) = (speed + 1, candidate.ratio);
+        if first.as_ref().is_some_and(|first| !ties(first, candidate)) {
+            (rank, first) = (rank + 1, Some(candidate.clone()));
         }
-        candidate.speed = speed;
+        set(candidate, rank);
     }
 }
 

@@ -110,6 +110,14 @@ impl Row {
         })
     }
 
+    /// The reference's own FLIP.
+    pub(crate) fn reference_error(self, flip: f64) -> Row {
+        self.measured(|measured| {
+            measured["reference_errors"] = measured["errors"].clone();
+            measured["reference_errors"]["flip"]["mean"] = json!(flip);
+        })
+    }
+
     pub(crate) fn flicker(self, mean: f64, non_finite: u32) -> Row {
         let flicker =
             json!({ "frames": 16, "mean": mean, "percentile_95": 1.0, "worst": 1.5, "non_finite": non_finite });
@@ -160,7 +168,9 @@ pub(crate) fn results(rows: Vec<Value>) -> Value {
             "frames": 16,
             "flicker_frames": null,
             "reference": "auto",
-            "baseline": { "msaa": "4", "scale": "1" },
+            "baseline": {
+                "msaa": "4", "scale": "1", "@scene": "scene.ron: a digest", "@size": "64x64", "@stereo": "off",
+            },
         },
         "rows": rows,
     })
