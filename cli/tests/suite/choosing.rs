@@ -241,7 +241,7 @@ fn random(numbers: &mut Numbers) -> Value {
             if flickers {
                 row = row.flicker(step() / 16.0, u32::from(numbers.below(16) == 0));
             }
-            row = match numbers.below(64) {
+            row = match numbers.below(48) {
                 _ if scene == lost => row.failed("it has no such eyes"),
                 0 => row.failed("no device has that"),
                 1 => row.not_finite(3),
@@ -340,7 +340,7 @@ fn some_limits(
     let mut limits = Vec::new();
     while limits.is_empty() {
         for option in options {
-            if numbers.below(3) == 0 {
+            if numbers.below(4) == 0 {
                 limits.push(Limit { option, value: value(numbers, option) });
             }
         }
@@ -352,7 +352,7 @@ fn some_limits(
 fn the_choice_is_what_an_exhaustive_search_finds() {
     let mut numbers = Numbers(7);
     let mut found = Found::default();
-    for _ in 0..400 {
+    for _ in 0..500 {
         let place = Place::new();
         let results = random(&mut numbers);
         write(&place, ".", &results);

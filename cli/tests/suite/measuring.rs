@@ -294,7 +294,7 @@ fn settings_that_failed_once_are_not_chosen() {
     let pipeline = r#"Pipeline(
         version: 1,
         settings: [(name: "scale", value: Number(default: 1.0, min: 1.0, max: 4.0))],
-        presets: {"reference": {"scale": 4.0}},
+        presets: [(name: "reference", set: {"scale": 4.0})],
         images: [(name: "screen", format: Output, size: Output)],
         passes: [
             (name: "clear", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
@@ -320,8 +320,9 @@ fn settings_that_failed_once_are_not_chosen() {
         (row["settings"]["scale"].as_str().expect("a text"), row["outcome"]["failed"].is_string())
     });
     assert_eq!(outcomes.collect::<Vec<_>>(), [("1", false), ("1", false), ("2", true), ("2", false)]);
-    // The sky covers each of 16×8 pixels once.
-    assert_eq!(all["rows"][0]["outcome"]["measured"]["cost"]["fragment_invocations"], 128);
+    // The sky covers each of 16×8 pixels once. Lavapipe counts whole blocks, some of which are beside the picture.
+    let fragments = number(&all["rows"][0]["outcome"]["measured"]["cost"]["fragment_invocations"]);
+    assert!((128.0..=256.0).contains(&fragments), "{fragments}");
     let chosen = place.run(&["choose", "swept", "--max-ms", "10000"]).exits(0).out;
     assert!(chosen.starts_with("best: scale=1\n") && chosen.contains("left out: 1 that can't be drawn\n"), "{chosen}");
     // What is measured under another form of the same value stays.
