@@ -15,8 +15,8 @@ use std::process::Command;
 pub(super) struct Held {
     /// The names on its vertices, sorted.
     pub(super) names: Vec<String>,
-    /// The names on its edges, sorted.
-    pub(super) along: Vec<String>,
+    /// Its edges, sorted: the name that each comes from, those on it, and the one that it leads to.
+    pub(super) along: Vec<[String; 3]>,
     /// Boxes around passes of a scope, where the form has them.
     pub(super) boxes: usize,
 }
@@ -43,12 +43,16 @@ impl Held {
             (edge.from, outside(edge.from), edge.to, outside(edge.to))
         };
         let pairs: BTreeSet<_> = flow.edges.iter().map(ends).collect();
+        let end = |node: Option<u32>, outside: Option<Resource>| {
+            node.map(|node| flow.nodes[node as usize].name.clone()).or(outside.map(name)).expect("an end")
+        };
         let along = pairs.iter().map(|pair| {
             let edges = flow.edges.iter().filter(|edge| ends(edge) == *pair);
-            edges.map(|edge| name(edge.resource)).collect::<Vec<_>>().join(", ")
+            let between = edges.map(|edge| name(edge.resource)).collect::<Vec<_>>().join(", ");
+            [end(pair.0, pair.1), between, end(pair.2, pair.3)].map(|name| escape(&name))
         });
         let scopes = plan.steps.iter().filter(|step| matches!(step.work, Work::Render(_))).count();
-        Held::sorted(names.map(|name| escape(&name)), along.map(|names| escape(&names)), scopes)
+        Held::sorted(names.map(|name| escape(&name)), along, scopes)
     }
 
     /// What the kept graphs with hostile names must hold.
@@ -57,16 +61,19 @@ impl Held {
         let escaped: Vec<String> = names.iter().map(|name| escape(name)).collect();
         // The first image comes from before the frame, and the last one goes beyond it.
         let [first, last] = [&escaped[0], &escaped[escaped.len() - 1]].map(|name| [name.clone()]);
-        let vertices = escaped.iter().cloned().chain(first).chain(last.clone());
-        Held::sorted(vertices, escaped.iter().cloned().chain(last), 2)
+        let vertices = escaped.iter().cloned().chain(first).chain(last);
+        // Each piece of work reads what the one before it wrote, which bears its own name.
+        let at = |number: usize| escaped[number.min(escaped.len() - 1)].clone();
+        let along = (0..=escaped.len()).map(|number| [at(number.saturating_sub(1)), at(number), at(number)]);
+        Held::sorted(vertices, along, 2)
     }
 
     pub(super) fn sorted(
         names: impl Iterator<Item = String>,
-        along: impl Iterator<Item = String>,
+        along: impl Iterator<Item = [String; 3]>,
         boxes: usize,
     ) -> Held {
-        let [mut names, mut along]: [Vec<String>; 2] = [names.collect(), along.collect()];
+        let (mut names, mut along): (Vec<String>, Vec<[String; 3]>) = (names.collect(), along.collect());
         names.sort_unstable();
         along.sort_unstable();
         Held { names, along, boxes }
@@ -167,7 +174,11 @@ fn graphviz(place: &Place, dot: &str) -> Option<Held> {
         assert!(lines.len() <= 2, "{lines:?}");
         lines[0].clone()
     };
-    let along = list("edges").map(|edge| drawn(edge).join("\n"));
+    let end = |edge: &Value, side: &str| {
+        let found = nodes.iter().find(|node| node["_gvid"] == edge[side]);
+        found.map_or_else(|| panic!("{edge} has no {side}"), name)
+    };
+    let along = list("edges").map(|edge| [end(edge, "tail"), drawn(edge).join("\n"), end(edge, "head")]);
     Some(Held::sorted(nodes.iter().map(name), along, boxes.len()))
 }
 

@@ -15,13 +15,16 @@ use std::path::PathBuf;
 const JUDGE: &str = "async (text) => {
     const diagram = await mermaid.mermaidAPI.getDiagramFromText(text);
     const vertices = diagram.db.getVertices();
-    const parsed = [vertices.size ?? Object.keys(vertices).length, diagram.db.getEdges().length];
+    const edges = diagram.db.getEdges();
+    const parsed = [vertices.size ?? Object.keys(vertices).length, edges.length];
     document.body.innerHTML = (await mermaid.render('graph', text)).svg;
     const texts = (selector) => [...document.querySelectorAll(selector)].map((label) => label.innerText);
+    const nodes = new Map([...document.querySelectorAll('.nodes .node')].map((node) => [/^(?:.*-)?flowchart-(.*)-[0-9]+$/.exec(node.id)?.[1], node.querySelector('.nodeLabel').innerText]));
+    const labels = texts('.edgeLabels .edgeLabel .edgeLabel').length ? texts('.edgeLabels .edgeLabel .edgeLabel') : texts('.edgeLabels .edgeLabel');
     return {
         parsed,
-        names: texts('.nodes .node .nodeLabel'),
-        along: texts('.edgeLabels .edgeLabel .edgeLabel').length ? texts('.edgeLabels .edgeLabel .edgeLabel') : texts('.edgeLabels .edgeLabel'),
+        names: [...nodes.values()],
+        along: edges.map((edge, at) => [nodes.get(edge.start), labels[at], nodes.get(edge.end)]),
         active: document.querySelectorAll('script, img, a, [onerror], [onclick]').length,
         hacked: typeof hacked,
     };
@@ -62,14 +65,13 @@ impl Mermaid {
         let verdict = self.judge(text);
         assert!(verdict["error"].is_null(), "{about}: {verdict}\n{text}");
         assert_eq!(verdict["parsed"], json!([held.names.len(), held.along.len()]), "{about}");
-        let texts = |list: &str| {
-            let list = verdict[list].as_array().expect("a list").iter();
-            // Word joiners keep Mermaid from acting on a name, and can't be seen.
-            list.map(|text| text.as_str().expect("a text").replace('\u{2060}', "")).collect::<Vec<String>>()
-        };
+        let list = |name: &str| verdict[name].as_array().expect("a list");
+        // Word joiners keep Mermaid from acting on a name, and can't be seen.
+        let text = |value: &Value| value.as_str().unwrap_or("none").replace('\u{2060}', "");
         // The word below a name is no part of it.
-        let name = |label: &String| label.split_once('\n').map_or(label.clone(), |(name, _)| name.to_owned());
-        let found = Held::sorted(texts("names").iter().map(name), texts("along").into_iter(), held.boxes);
+        let name = |label: &Value| text(label).split('\n').next().unwrap_or_default().to_owned();
+        let along = list("along").iter().map(|edge| [name(&edge[0]), text(&edge[1]), name(&edge[2])]);
+        let found = Held::sorted(list("names").iter().map(name), along, held.boxes);
         assert_eq!(found, *held, "{about}");
         assert_eq!((&verdict["active"], &verdict["hacked"]), (&json!(0), &json!("undefined")), "{about}");
     }
