@@ -100,7 +100,8 @@ pub(crate) fn choices(
     }
     let count = sweep::count(&sweeps, combined);
     if count > sweep::MOST_CHOICES as u128 {
-        let fits = combined == Combined::All && sweep::count(&sweeps, Combined::Pairwise) <= sweep::MOST_CHOICES as u128;
+        let fits =
+            combined == Combined::All && sweep::count(&sweeps, Combined::Pairwise) <= sweep::MOST_CHOICES as u128;
         let or_pairs = if fits { ", or add --pairwise" } else { "" };
         let most = sweep::MOST_CHOICES;
         return Err(wrong(format!(

@@ -50,7 +50,7 @@ impl Progress {
         }
         let (done, steps_done) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let work = Arc::new(Work { words, things, steps, begun: Instant::now(), done, steps_done });
-        let lines = bar.is_hidden().then(|| written(&work, every, |line| text::say(line)));
+        let lines = bar.is_hidden().then(|| written(&work, every, text::say));
         Progress { bar, work, lines }
     }
 

@@ -374,7 +374,10 @@ fn the_choice_is_what_an_exhaustive_search_finds() {
         });
         found.search(&place, &results, &limits);
     }
-    assert!(found.chosen > 60 && found.missed > 60 && found.bound > 20 && found.bound_together > 5 && found.refused > 2, "{found:?}");
+    assert!(
+        found.chosen > 60 && found.missed > 60 && found.bound > 20 && found.bound_together > 5 && found.refused > 2,
+        "{found:?}"
+    );
 }
 
 /// NU-3: the same over the figures of the study. Each limit is the figure of some settings.
@@ -557,7 +560,9 @@ fn ratios_are_to_the_time_of_the_baseline_in_the_same_scene() {
     let without = [all[0].clone(), all[1].clone(), heavier];
     write(&place, ".", &results(without.map(Row::value).into()));
     let said = choose(&place, &limit, &[]).exits(1);
-    said.mentions("the settings of the baseline (msaa=4 scale=1), which were not measured with easy.ron at 64x64\nhelp: ");
+    said.mentions(
+        "the settings of the baseline (msaa=4 scale=1), which were not measured with easy.ron at 64x64\nhelp: ",
+    );
     choose(&place, &[Limit { option: "--max-ms", value: 2.0 }], &[]).exits(0);
 }
 

@@ -28,14 +28,19 @@ fn coverage() -> Vec<f64> {
 /// `image_quality` is drawn at a larger scale: shifts are parts of the texels that are drawn, and not of the output's pixels.
 #[test]
 fn edges_of_a_reference_are_as_wide_as_rays_find_them() {
-    for (pipeline, without_tone_mapping) in [("forward", "tone_mapping=false"), ("image_quality", "tone_mapping=clip")] {
-        edges(pipeline, without_tone_mapping);
+    // A reference with larger texels is further from rays.
+    for (pipeline, without_tone_mapping, limit) in
+        [("forward", "tone_mapping=false", 0.04), ("image_quality", "tone_mapping=clip", 0.008)]
+    {
+        let Some(rms) = edges(pipeline, without_tone_mapping) else { return };
+        assert!(rms < limit, "{pipeline}: {rms}");
     }
 }
 
-fn edges(pipeline: &str, without_tone_mapping: &str) {
+/// The error of the share of each pixel on an edge that the cube covers.
+fn edges(pipeline: &str, without_tone_mapping: &str) -> Option<f64> {
     let place = Place::new();
-    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let variables = Vulkan::LAVAPIPE.variables()?;
     let scene = repository("examples/sweeps/one_unlit_cube.ron");
     let arguments = [
         "measure",
@@ -71,5 +76,6 @@ fn edges(pipeline: &str, without_tone_mapping: &str) {
     let errors: Vec<f64> = edges.map(|(red, covered)| (red - sky) / (cube - sky) - covered).collect();
     let rms = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
     println!("{pipeline}: {} pixels on edges, {rms}", errors.len());
-    assert!(errors.len() > 50 && rms < 0.04, "{pipeline}: {} pixels on edges, {rms}", errors.len());
+    assert!(errors.len() > 50, "{} pixels on edges", errors.len());
+    Some(rms)
 }
