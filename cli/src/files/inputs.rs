@@ -217,10 +217,12 @@ fn bytes(what: FileRole, path: &Path, limit: usize, read: &ReadFiles) -> Result<
 /// If one is missing.
 pub(crate) fn are_there(pipeline: &Path, scene: &Path) -> Result<(), Error> {
     let named = [(FileRole::PIPELINE.name, pipeline, shipped::PIPELINES), ("scene", scene, shipped::SCENES)];
-    let gone = |(_, path, files): &(_, &Path, _)| {
-        matches!(path.try_exists(), Ok(false)) && shipped::find(files, path).is_none()
-    };
-    named.into_iter().find(gone).map_or(Ok(()), |(what, path, files)| Err(missing(what, path, files)))
+    for (what, path, files) in named {
+        if matches!(path.try_exists(), Ok(false)) && shipped::find(files, path).is_none() {
+            return Err(missing(what, path, files));
+        }
+    }
+    Ok(())
 }
 
 fn missing(what: &'static str, path: &Path, files: Shipped) -> Error {
