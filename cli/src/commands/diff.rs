@@ -29,6 +29,9 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     spare()?;
     let first = &arguments.pipeline.file;
     let second = arguments.other.as_ref().unwrap_or(first);
+    if let (true, true, Some(option)) = (is_plan(first), is_plan(second), choice_for_pipelines(&arguments.pipeline)) {
+        return Err(Error::ChoiceForPlan { option, path: first.clone() });
+    }
     let [name_a, name_b] = [first, second].map(|file| file.to_string_lossy().into_owned());
     let (a, sources_a) = plan(arguments, first, "--a", &arguments.a, &read)?;
     let (b, sources_b) = plan(arguments, second, "--b", &arguments.b, &read)?;
@@ -54,6 +57,23 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
+fn is_plan(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end == "json")
+}
+
+/// An option that chooses something for pipelines, if there is one.
+fn choice_for_pipelines(pipeline: &PipelineArguments) -> Option<&'static str> {
+    let PipelineArguments { set, preset, settings, extend, interface, .. } = pipeline;
+    let chosen = [
+        ("--set", !set.is_empty()),
+        ("--preset", preset.is_some()),
+        ("--settings", !settings.is_empty()),
+        ("--extend", !extend.is_empty()),
+        ("--interface", interface.is_some()),
+    ];
+    chosen.into_iter().find(|(_, is)| *is).map(|(option, _)| option)
+}
+
 /// The Plan in a file, or that of a pipeline with the texts that it was read from.
 fn plan(
     arguments: &DiffArguments,
@@ -62,7 +82,7 @@ fn plan(
     own: &[Assignment],
     read: &ReadFiles,
 ) -> Result<(Plan, Option<Arc<Sources>>), Error> {
-    if file.extension().is_some_and(|end| end == "json") {
+    if is_plan(file) {
         return match own.is_empty() {
             true => Ok((plan_file::read(file, read)?, None)),
             false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),

@@ -8,7 +8,7 @@ use crate::planning::{device, helper};
 use crate::serving::{self, Session};
 use crate::system::{Exit, interrupt, text};
 use framewright_vulkan::{Device, DeviceOptions};
-use std::sync::mpsc;
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 use tokio::sync::watch;
 
@@ -45,11 +45,18 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
             if interrupt::asked() {
                 return Ok(Exit::Fine);
             }
-            if let Ok(choice) = choices.recv_timeout(EVERY) {
-                session.choose(choice);
-                // Of a slider that is pulled only the last value is drawn.
-                choices.try_iter().for_each(|choice| session.choose(choice));
-                break;
+            match choices.recv_timeout(EVERY) {
+                Ok(choice) => {
+                    session.choose(choice);
+                    // Of a slider that is pulled only the last value is drawn.
+                    choices.try_iter().for_each(|choice| session.choose(choice));
+                    break;
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    let source = std::io::Error::other("the server has stopped");
+                    return Err(Error::Port { port: address.port(), source });
+                }
             }
             if session.files_changed() {
                 session.let_files_rest(AT_REST);

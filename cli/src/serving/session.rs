@@ -11,10 +11,10 @@ use crate::inspection::{self, Page, Shown, Thumbnail};
 use crate::picture::FileFormat;
 use crate::planning::{self, Loaded, Planned, View, totals};
 use crate::system::{Exit, interrupt, text};
-use framewright_graph::base::{self, ReadFiles, SourceFile, Sources};
+use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::Detail;
-use framewright_passes::scene::Scene;
+use framewright_passes::scene::{Scene, SceneError};
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -37,6 +37,8 @@ pub(crate) struct Session<'a> {
     preset: Option<String>,
     /// The number of the last state.
     version: u64,
+    /// Whether a frame was drawn, or tried.
+    begun: bool,
     good: Good,
     wrong: Wrong,
 }
@@ -87,6 +89,7 @@ impl<'a> Session<'a> {
             chosen: BTreeMap::new(),
             preset: None,
             version,
+            begun: false,
             good: Good::default(),
             wrong: Wrong { mistakes: json!([]), ..Wrong::default() },
         }
@@ -129,6 +132,7 @@ impl<'a> Session<'a> {
     pub(crate) fn draw(&mut self) -> Result<(), Error> {
         let begun = Instant::now();
         self.version += 1;
+        let first = !std::mem::replace(&mut self.begun, true);
         match self.drawn() {
             Ok(good) => {
                 let seconds = begun.elapsed().as_secs_f64();
@@ -137,19 +141,13 @@ impl<'a> Session<'a> {
                 text::say(&self.good.took);
                 Ok(())
             }
-            Err(error) if error.can_be_mended_in_files() && !self.begins_wrong(&error) => {
+            Err(error) if error.can_be_mended_in_files() && !(first && is_about_the_command_line(&error)) => {
                 self.wrong = Wrong::of(&error);
                 text::say(&self.wrong.message);
                 Ok(())
             }
             Err(error) => Err(error),
         }
-    }
-
-    /// Whether the command line itself is wrong: nothing was drawn yet by it alone.
-    fn begins_wrong(&self, error: &Error) -> bool {
-        let by_itself = self.good.version == 0 && self.chosen.is_empty() && self.preset.is_none();
-        by_itself && (error.exit() == Exit::Usage || matches!(error, Error::Stereo { .. }))
     }
 
     /// The state of the page.
@@ -187,7 +185,9 @@ impl<'a> Session<'a> {
         };
         // A setting that the file doesn't have, or no longer, can't be chosen.
         self.chosen.retain(|name, _| pipeline.pipeline.settings.iter().any(|setting| *setting.name.text == **name));
-        let of_command_line = self.arguments.pipeline.set.iter().map(|one| (one.name.clone(), one.value.clone()));
+        // A preset that was chosen in the page counts more than a setting of the command line.
+        let of_command_line = if self.preset.is_some() { &[][..] } else { &self.arguments.pipeline.set };
+        let of_command_line = of_command_line.iter().map(|one| (one.name.clone(), one.value.clone()));
         pipeline.set = of_command_line.chain(self.chosen.clone()).collect();
         drawn(self.arguments, self.device, scene, pipeline, self.version)
     }
@@ -205,10 +205,22 @@ impl<'a> Session<'a> {
             self.pipeline = Held::nothing();
             let mut of_page = self.arguments.pipeline.clone();
             of_page.preset = self.preset.clone().or(of_page.preset);
-            self.pipeline.value = Some(planning::load_with(&of_page, &self.pipeline.read, self.helper.clone())?);
+            let mut loaded = planning::load_with(&of_page, &self.pipeline.read, self.helper.clone());
+            // A preset that the file doesn't have any more can't be chosen in the page any more.
+            if self.preset.is_some() && loaded.as_ref().is_err_and(|error| error.exit() == Exit::Usage) {
+                self.preset = None;
+                let of_command_line = &self.arguments.pipeline;
+                loaded = planning::load_with(of_command_line, &self.pipeline.read, self.helper.clone());
+            }
+            self.pipeline.value = Some(loaded?);
         }
         Ok(())
     }
+}
+
+/// Whether the command line is wrong, or asks for what the device lacks: no edit mends that.
+fn is_about_the_command_line(error: &Error) -> bool {
+    error.exit() == Exit::Usage || matches!(error, Error::Stereo { .. })
 }
 
 /// Draws a frame, and gathers what the page shows of it.
@@ -287,13 +299,18 @@ fn output_pictures(
 impl Wrong {
     fn of(error: &Error) -> Wrong {
         let message = error.shown();
-        match error {
-            Error::Mistakes { mistakes } => Wrong {
-                mistakes: base::to_json(&mistakes.sources, &mistakes.diagnostics),
-                message,
-                sources: texts(&mistakes.sources),
+        let placed = |sources: &Sources, mistakes: &[Diagnostic]| (base::to_json(sources, mistakes), texts(sources));
+        let found = match error {
+            Error::Mistakes { mistakes } => Some(placed(&mistakes.sources, &mistakes.diagnostics)),
+            Error::Scene(problem) => match &**problem {
+                SceneError::Text { sources, mistakes } => Some(placed(sources, mistakes)),
+                _ => None,
             },
-            _ => Wrong {
+            _ => None,
+        };
+        match found {
+            Some((mistakes, sources)) => Wrong { mistakes, message, sources },
+            None => Wrong {
                 mistakes: json!([{ "message": message.trim_start_matches("error: "), "help": null, "labels": [] }]),
                 message,
                 sources: Vec::new(),

@@ -27,10 +27,17 @@ impl DrawInterfaces {
         self
     }
 
-    /// With the names of all custom passes that the program records: others are mistakes of a pipeline then.
+    /// With the names of all custom passes that the program records: others are mistakes of a pipeline then. Names are those that a
+    /// pipeline can ask for: letters, digits, `_` and `-`, which begin with a letter or `_`. Of equal ones the first counts.
     #[must_use]
     pub fn with_custom_passes(mut self, names: impl IntoIterator<Item = impl Into<Arc<str>>>) -> DrawInterfaces {
-        self.custom = Some(names.into_iter().map(Into::into).collect());
+        let mut custom: Vec<Arc<str>> = Vec::new();
+        for name in names.into_iter().map(Into::into) {
+            if !custom.contains(&name) {
+                custom.push(name);
+            }
+        }
+        self.custom = Some(custom);
         self
     }
 

@@ -72,6 +72,24 @@ fn what_stays_on_the_chip_is_what_a_sum_over_the_plans_json_says() {
     assert!(tiled > 12, "hardly anything stays on the chip: {tiled}");
 }
 
+/// Plans may come from files: one that stores or loads what lies in lazily allocated memory moves it.
+#[test]
+fn what_is_loaded_or_stored_does_not_stay() {
+    let plan = plan("forward.ron", "mali-g78", Stereo::Off);
+    let json: Value = serde_json::from_str(&plan.to_json().expect("a JSON form")).expect("JSON");
+    for (field, operation) in [("load", "LOAD"), ("store", "STORE")] {
+        let mut changed = json.clone();
+        for step in changed["steps"].as_array_mut().expect("steps") {
+            if let Some(depth) = step["work"]["render"]["depth"].as_object_mut() {
+                depth.insert(field.to_owned(), operation.into());
+            }
+        }
+        let changed_plan = Plan::from_json(&changed.to_string()).expect("a Plan");
+        assert_eq!(changed_plan.on_chip(), counted(&changed), "{field}");
+        assert!(0 < changed_plan.on_chip() && changed_plan.on_chip() < plan.on_chip(), "{field}");
+    }
+}
+
 #[test]
 fn the_outline_says_it_for_each_step_and_for_the_frame() {
     let plan = plan("forward.ron", "mali-g78", Stereo::Off);

@@ -13,8 +13,8 @@ function fill(made, attributes, children) {
   elementsMade += 1;
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
-    // Keys are compared, and never seen.
-    else if (name === "data-key" && value) made.setAttribute(name, value);
+    // Those are compared or sent, and never seen.
+    else if (["data-key", "data-file", "data-setting", "value"].includes(name) && value) made.setAttribute(name, value);
     else if (value !== null && value !== undefined && value !== false) made.setAttribute(name, visible(value === true ? "" : value));
   }
   for (const child of children.flat(9)) {

@@ -48,6 +48,10 @@ function control(setting, shown) {
       live.turned = null;
       send(input.value);
     });
+    input.addEventListener("blur", () => {
+      live.turned = null;
+      showControls(live.state);
+    });
     return [input, " ", slides ? text : null];
   }
   return input;
@@ -70,9 +74,12 @@ function showControls(state) {
   if (focused) [...controls.querySelectorAll("[data-setting]")].find((one) => one.dataset.setting === focused)?.focus();
 }
 
-/** The mistakes, each with its place, and below its line in the source. */
+/** The mistakes, each with its place, and below its line in the source. They stay while they are the same: a screen reader reads them once. */
 function showWrong(state) {
   const { wrong } = live.bar;
+  const shown = JSON.stringify([state.mistakes, state.message, live.frame > 0]);
+  if (shown === live.wrong) return;
+  live.wrong = shown;
   wrong.replaceChildren();
   if (state.mistakes.length === 0) return;
   wrong.append(element("p", {}, element("strong", {}, live.frame > 0 ? "The last good frame is shown: " : "There is no frame yet: "), count(state.mistakes.length, "mistake", "mistakes")),
@@ -85,8 +92,7 @@ function showWrong(state) {
 
 /** The state's text of each file: with mistakes, the text that they are in. */
 function sourcesOf(state, page) {
-  if (state.mistakes.length === 0) return page?.plans[0]?.sources ?? [];
-  return state.sources;
+  return state.sources.length > 0 ? state.sources : page?.plans[0]?.sources ?? [];
 }
 
 /** Puts every mistake of the state below its line in the source. */
@@ -112,6 +118,11 @@ function showMistake(mistake) {
   line?.scrollIntoView({ block: "center" });
 }
 
+function showStatus() {
+  const { state } = live;
+  live.bar.status.textContent = !state ? "" : state.busy ? "drawing …" : state.mistakes.length > 0 ? "" : state.took;
+}
+
 /** Shows a state. Views are made anew only for another frame, or other texts. */
 function showState(state, page) {
   live.state = state;
@@ -123,11 +134,13 @@ function showState(state, page) {
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     showData({ ...data, live: true });
   }
-  live.bar.status.textContent = state.busy ? "drawing …" : state.mistakes.length > 0 ? "" : state.took;
+  showStatus();
   liveView();
   showWrong(state);
   showControls(state);
-  live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
+  const outputs = JSON.stringify(state.outputs);
+  if (outputs !== live.outputs) live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
+  live.outputs = outputs;
   markMistakes(document);
 }
 
@@ -135,16 +148,19 @@ function showState(state, page) {
 async function follow() {
   addLiveBar();
   for (;;) {
+    let told = null;
     try {
       const answer = await fetch("state/" + live.version);
-      if (answer.status === 200) {
-        const { live: state, page } = await answer.json();
-        live.version = state.version;
-        showState(state, page);
-      } else if (answer.status !== 204) throw new Error(answer.statusText);
+      if (answer.status === 200) told = await answer.json();
+      else if (answer.status !== 204) throw new Error(answer.statusText);
     } catch {
       live.bar.status.textContent = "The server doesn't answer: it is asked again every second.";
       await new Promise((done) => setTimeout(done, 1000));
+      continue;
     }
+    if (told) {
+      live.version = told.live.version;
+      showState(told.live, told.page);
+    } else showStatus();
   }
 }

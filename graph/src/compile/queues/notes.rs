@@ -55,13 +55,13 @@ fn words<'f>(queue: Queue, why: Why, name: impl Fn(u32) -> Option<&'f str>) -> O
         Why::Balance(balance) => balance,
     };
     let Balance { steps, waits, cost, saved, alone } = balance;
-    let saved_bytes = if balance.is_hopeless() { alone.bytes } else { saved.bytes };
-    let Some((first, more)) = saved.beside.or(alone.beside) else {
+    let most = if balance.is_hopeless() { alone } else { saved };
+    let Some((first, more)) = most.beside else {
         return stays("nothing that neither waits for it nor is waited for runs beside it");
     };
     let name = name(first).map_or_else(String::new, |name| format!("`{name}`"));
     let beside = if more == 0 { name } else { format!("{name} and {more} more") };
-    let (saved, cost) = (bytes(saved_bytes), bytes(cost));
+    let (saved, cost) = (bytes(most.bytes), bytes(cost));
     let others = match steps - 1 {
         0 => "",
         1 => " and the other step that needs the same waits",

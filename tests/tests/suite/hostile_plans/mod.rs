@@ -151,6 +151,10 @@ fn a_changed_plan_is_refused_or_drawn_in_silence() {
     }
     println!("{outcomes:?}");
     assert_eq!(found, [""; 0]);
+    // Something of each was tried.
+    for (outcome, least) in [("drawn", 100), ("not right", 100), ("not read", 100), ("refused by the device", 10)] {
+        assert!(outcomes.get(outcome) >= Some(&least), "{outcome}: {outcomes:?}");
+    }
 }
 
 /// The error that `change` to the Plan of a pipeline leads to; it breaks no rule.

@@ -10,7 +10,7 @@ pub(super) struct Mutant {
 }
 
 /// Fields for readers alone: no change of them changes what is drawn.
-const EXPLANATIONS: [&str; 16] = [
+const EXPLANATIONS: [&str; 15] = [
     "after",
     "needed_by",
     "hazard",
@@ -23,7 +23,6 @@ const EXPLANATIONS: [&str; 16] = [
     "settings",
     "chosen",
     "encoded",
-    "encoding",
     "hand_overs",
     "allows",
     "totals",
