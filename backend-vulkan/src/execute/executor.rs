@@ -64,7 +64,7 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: PreparedPlan,
-    /// Behind all that uses pipelines.
+    /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
     staged: Vec<StagedTexture>,
@@ -130,7 +130,7 @@ impl Executor {
         check(gpu, plan, refuse, options.poison)?;
         let uses = ResourceUses::new(plan);
         let imports = Import::all(plan, &uses);
-        // Before any is made.
+        // From here on no pipeline that `prepared` takes is destroyed.
         let pipelines = PipelineHold::new(gpu);
         Ok(Executor {
             gpu: gpu.clone(),

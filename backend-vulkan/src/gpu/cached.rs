@@ -14,7 +14,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// A pipeline that was not asked for in so many rounds is destroyed. A round ends whenever no executor is left.
+/// Pipelines that no executor asked for during this many rounds are destroyed. A round ends when the device's last executor goes.
 const KEPT_ROUNDS: u64 = 16;
 
 /// The caches of a device.

@@ -29,7 +29,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     spare()?;
     let first = &arguments.pipeline.file;
     let second = arguments.other.as_ref().unwrap_or(first);
-    if let (true, true, Some(option)) = (is_plan(first), is_plan(second), choice_for_pipelines(&arguments.pipeline)) {
+    if let (true, true, Some(option)) = (is_plan(first), is_plan(second), choice_for_pipelines(arguments)) {
         return Err(Error::ChoiceForPlan { option, path: first.clone() });
     }
     let [name_a, name_b] = [first, second].map(|file| file.to_string_lossy().into_owned());
@@ -62,14 +62,17 @@ fn is_plan(file: &Path) -> bool {
 }
 
 /// An option that chooses something for pipelines, if there is one.
-fn choice_for_pipelines(pipeline: &PipelineArguments) -> Option<&'static str> {
-    let PipelineArguments { set, preset, settings, extend, interface, .. } = pipeline;
+fn choice_for_pipelines(arguments: &DiffArguments) -> Option<&'static str> {
+    let DiffArguments { scene, device, .. } = arguments;
+    let PipelineArguments { set, preset, settings, extend, interface, .. } = &arguments.pipeline;
     let chosen = [
         ("--set", !set.is_empty()),
         ("--preset", preset.is_some()),
         ("--settings", !settings.is_empty()),
         ("--extend", !extend.is_empty()),
         ("--interface", interface.is_some()),
+        ("--scene", scene.is_some()),
+        ("--device", device.is_some()),
     ];
     chosen.into_iter().find(|(_, is)| *is).map(|(option, _)| option)
 }

@@ -48,8 +48,10 @@ fn wrong_choices_and_damaged_plans_are_told() {
     place.file("wrong.json", plan.replacen("\"SHADER_READ_ONLY_OPTIMAL\"", "\"GENERAL\"", 1));
     place.run(&["diff", "wrong.json", "forward.ron"]).exits(1).mentions("wrong.json: the Plan is not right: ");
     place.run(&["diff", "plan.json", "--a", "msaa=1"]).exits(2).mentions("--a chooses something for `plan.json`");
-    let both = ["diff", "plan.json", "plan.json", "--set", "msaa=1"];
-    place.run(&both).exits(2).mentions("--set chooses something for `plan.json`");
+    for (option, value) in [("--set", "msaa=1"), ("--device", "lavapipe"), ("--scene", "courtyard")] {
+        let both = ["diff", "plan.json", "plan.json", option, value];
+        place.run(&both).exits(2).mentions(&format!("{option} chooses something for `plan.json`"));
+    }
     place.run(&["diff", "forward.ron", "--b", "@speed=1"]).exits(2).mentions("--b @speed: expected a setting, @device");
     place.run(&["diff", "forward.ron", "--b", "@size=0x1"]).exits(2).mentions("--b @size: ");
     place.run(&["diff", "forward.ron", "--b", "msaa=3"]).exits(2).mentions("doesn't allow `3`");

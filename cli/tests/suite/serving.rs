@@ -100,6 +100,18 @@ fn the_page_follows_edits_shows_mistakes_at_their_lines_and_recovers() {
     browser.until("live.state.chosen.msaa === undefined && live.state.busy === false");
     assert_eq!(browser.text(nodes), "opaque,horizon,resolve color,tone_map");
 
+    // A mistake of the scene stands in the scene, and the pipeline's text stays beside it.
+    edit(&place, "scene.ron", "Scene(", "Scenery(");
+    browser.until("document.querySelector('#live-wrong pre')?.textContent.includes('scene.ron:3')");
+    browser.click("#live-wrong button.place");
+    let files = "[...document.querySelectorAll('#view-source [data-file]')].map((one) => one.dataset.file).join()";
+    assert_eq!(browser.text(files), "scene.ron,first.ron");
+    let line = browser.text("document.querySelector('li:has(> .mistake)').textContent");
+    assert!(line.starts_with("Scenery("), "{line}");
+    edit(&place, "scene.ron", "Scenery(", "Scene(");
+    browser.until("live.state.mistakes.length === 0 && live.state.busy === false");
+    assert_eq!(browser.text(files), "first.ron");
+
     // A pipeline that is deleted, and comes back.
     let text = std::fs::read(place.path("first.ron")).expect("it is there");
     std::fs::remove_file(place.path("first.ron")).expect("removed");

@@ -219,9 +219,13 @@ impl Answer<'_> {
         let missed = self.limits.iter().filter_map(|limit| {
             let overshoot = limit.overshoot(candidate);
             let (option, value) = (limit.quantity.option(), limit.value);
-            let by = if value == 0.0 { format!("{overshoot:.4}") } else { format!("{:.1} %", 100.0 * overshoot) };
+            let by = match value {
+                _ if overshoot.is_infinite() => String::new(),
+                0.0 => format!(" by {overshoot:.4}"),
+                _ => format!(" by {:.1} %", 100.0 * overshoot),
+            };
             let shown = figure(limit.quantity, candidate.of(limit.quantity));
-            (overshoot > 0.0).then(|| format!("misses {option} {value} by {by} ({shown})"))
+            (overshoot > 0.0).then(|| format!("misses {option} {value}{by} ({shown})"))
         });
         missed.collect::<Vec<_>>().join(", ")
     }

@@ -90,9 +90,10 @@ function showWrong(state) {
   }
 }
 
-/** The state's text of each file: with mistakes, the text that they are in. */
+/** The text of each file: those that mistakes are in, and the others as the last good frame had them. */
 function sourcesOf(state, page) {
-  return state.sources.length > 0 ? state.sources : page?.plans[0]?.sources ?? [];
+  const wrong = new Set(state.sources.map((one) => one.name));
+  return [...state.sources, ...(page?.plans[0]?.sources ?? []).filter((one) => !wrong.has(one.name))];
 }
 
 /** Puts every mistake of the state below its line in the source. */
