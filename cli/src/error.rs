@@ -276,7 +276,10 @@ impl Error {
     #[must_use]
     pub(crate) fn can_be_mended_in_files(&self) -> bool {
         use framewright_vulkan::Error::{DeviceLost, Timeout};
-        !matches!(self, Error::Interrupted { .. } | Error::Vulkan(DeviceLost { .. } | Timeout { .. }) | Error::Helper(_))
+        !matches!(
+            self,
+            Error::Interrupted { .. } | Error::Vulkan(DeviceLost { .. } | Timeout { .. }) | Error::Helper(_)
+        )
     }
 
     /// Whether the device may still be working for this process.

@@ -144,7 +144,13 @@ pub(crate) fn of_all_outputs(planned: &Planned) -> Vec<PictureRequest<'_>> {
         let Resource::Image(declared) = planned.frame.outputs[first].resource else { continue };
         let name = &planned.frame.images[declared.0 as usize].name;
         let in_layers = planned.plan.image(image).eyes == Some(EyeForm::Layers);
-        requests.push(PictureRequest { outputs: both, in_layers, name, path: Path::new(""), file_format: FileFormat::Png });
+        requests.push(PictureRequest {
+            outputs: both,
+            in_layers,
+            name,
+            path: Path::new(""),
+            file_format: FileFormat::Png,
+        });
     }
     requests
 }

@@ -7,6 +7,7 @@
 
 mod checks;
 pub(crate) mod choosing;
+mod converging;
 mod csv;
 mod digest;
 mod front;

@@ -1,7 +1,7 @@
 //! The differences that other devices make.
 
-use super::loaded::{Loaded, View};
 use super::device;
+use super::loaded::{Loaded, View};
 use crate::error::Error;
 use crate::inspection::{MOST_NODES, OnDevice};
 use framewright_graph::compile::Options;

@@ -205,7 +205,8 @@ fn drawn(
     pipeline: &mut Loaded,
     version: u64,
 ) -> Result<Good, Error> {
-    let view = View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
+    let view =
+        View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let (options, profile) = (arguments.planning.options(), device.profile());
     let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
     diagnostics::cameras(&planned.frame, scene)?;

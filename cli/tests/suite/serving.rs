@@ -152,7 +152,11 @@ fn other_sites_other_hosts_and_other_machines_get_nothing() {
         assert!(!String::from_utf8_lossy(&body).contains("live"), "{request} {headers}");
     }
     let (head, _) = server.ask("GET /", &own, "");
-    for header in ["content-security-policy: frame-ancestors 'none'", "x-content-type-options: nosniff", "cache-control: no-store"] {
+    for header in [
+        "content-security-policy: frame-ancestors 'none'",
+        "x-content-type-options: nosniff",
+        "cache-control: no-store",
+    ] {
         assert!(head.contains(header), "{head}");
     }
     for body in ["", "[]", "{\"set\": 1}", "{\"other\": {}}", &"x".repeat(100_000)] {
@@ -192,10 +196,14 @@ fn choices_that_are_wrong_or_no_longer_known_do_no_harm() {
     assert!(wrong["live"]["message"].as_str().expect("text").contains("msaa"), "{}", wrong["live"]);
     assert_eq!(frame(&wrong), frame(&first));
     let good = choose("{\"set\": {\"msaa\": \"1\"}}");
-    assert_eq!((good["live"]["message"].as_str(), good["live"]["settings"][0]["value"].as_str()), (Some(""), Some("1")));
+    assert_eq!(
+        (good["live"]["message"].as_str(), good["live"]["settings"][0]["value"].as_str()),
+        (Some(""), Some("1"))
+    );
     // The file loses the setting: so does the choice.
     let text = std::fs::read_to_string(place.path("first.ron")).expect("it is there");
-    let without = text.replace("(name: \"msaa\", value: OneOf(default: 4, of: [1, 2, 4])),", "").replace("\"msaa\"", "1");
+    let without =
+        text.replace("(name: \"msaa\", value: OneOf(default: 4, of: [1, 2, 4])),", "").replace("\"msaa\"", "1");
     place.file("first.ron", without);
     let later = server.state_after(version(&good));
     assert_eq!(later["live"]["mistakes"], serde_json::json!([]), "{}", later["live"]["message"]);
@@ -211,7 +219,8 @@ fn captures_are_drawn_and_served() {
     let captures = state["page"]["captures"].as_array().expect("a list");
     assert_eq!(captures.len(), 4, "{}", state["live"]);
     for capture in captures {
-        let (head, png) = server.ask(&format!("GET /{}", capture["file"].as_str().expect("an address")), &server.own(), "");
+        let (head, png) =
+            server.ask(&format!("GET /{}", capture["file"].as_str().expect("an address")), &server.own(), "");
         assert!(head.starts_with("HTTP/1.1 200") && png.starts_with(b"\x89PNG"), "{head}");
     }
 }
@@ -261,7 +270,8 @@ fn a_hundred_edits_take_no_more_memory_than_ten() {
     println!("{edits} edits: {held} KiB held after ten, {grown} KiB more at the end");
     assert!(grown < 4096, "{grown} KiB more after {edits} edits");
     // Ctrl-C is how it ends.
-    nix::sys::signal::kill(nix::unistd::Pid::from_raw(server.process.id() as i32), nix::sys::signal::Signal::SIGINT).expect("sent");
+    nix::sys::signal::kill(nix::unistd::Pid::from_raw(server.process.id() as i32), nix::sys::signal::Signal::SIGINT)
+        .expect("sent");
     assert_eq!(server.process.wait().expect("ended").code(), Some(0));
 }
 
