@@ -114,6 +114,13 @@ pub(crate) enum Error {
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
+    /// A pass that no scene draws.
+    #[error(
+        "nobody records `{}`, which the custom pass `{}` asks for\nhelp: the program that draws the pipeline records it; `framewright check --interface` checks a pipeline for such a program",
+        text::escape(name),
+        text::escape(pass)
+    )]
+    CustomPass { pass: String, name: String },
     /// Captured pictures have no place but a page.
     #[error("`--capture` puts pictures on a page: add `--format html`")]
     CaptureWithoutPage,
@@ -318,6 +325,7 @@ impl Error {
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }
+            | Error::CustomPass { .. }
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
@@ -386,6 +394,10 @@ fn remedy(problem: &framewright_vulkan::Error) -> String {
         }
         framewright_vulkan::Error::Vulkan { .. } => {
             "\nhelp: the driver refused: choose another device with --device (`framewright devices` lists them), or install a newer driver".to_owned()
+        }
+        framewright_vulkan::Error::BadPlan { .. } | framewright_vulkan::Error::OtherMemoryNeeds { .. } => {
+            "\nhelp: framewright run PIPELINE --scene SCENE --save-plan PLAN.json makes a Plan for this device, with --poison one that can be poisoned; without a scene do so framewright devices --save PROFILE.ron and framewright inspect PIPELINE --device PROFILE.ron --format json"
+                .to_owned()
         }
         framewright_vulkan::Error::Lacking { .. } => {
             "\nhelp: --device chooses another (`framewright devices` lists them)".to_owned()

@@ -70,10 +70,10 @@ pub(crate) fn interface(draw: Draw) -> DrawInterface {
     if draw != Draw::Objects(DrawList::Opaque) {
         return DrawInterface::default();
     }
-    let supplied = |set, name, kind| Supplied { set, binding: 0, name, kind };
+    let supplied = |set, name, kind| Supplied::new(set, 0, name, kind);
     DrawInterface {
         vertex_stride: VERTEX_BYTES,
-        attributes: vec![Attribute { name: "position", components: 2, offset: 0 }],
+        attributes: vec![Attribute::new("position", 2, 0)],
         supplied: vec![
             supplied(FRAME_SET, "objects", SuppliedKind::StorageBlock),
             supplied(MATERIAL_SET, "material", SuppliedKind::UniformBlock),

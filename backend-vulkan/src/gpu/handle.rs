@@ -158,6 +158,12 @@ impl Gpu {
         accepted.map(|(_, ty)| memory.memory_heaps[ty.heap_index as usize].size).max().unwrap_or(0)
     }
 
+    /// The bytes of all heaps together.
+    pub(crate) fn all_heaps(&self) -> u64 {
+        let memory = self.memory_properties();
+        memory.memory_heaps_as_slice().iter().map(|heap| heap.size).fold(0, u64::saturating_add)
+    }
+
     /// The memory types that are allocated lazily, one bit each.
     pub(crate) fn lazy_types(&self) -> u32 {
         let memory = self.memory_properties();

@@ -77,6 +77,8 @@ impl Gpu {
             && (attachment.intersects(descriptor.usage) || !descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT))
             && descriptor.samples.is_power_of_two()
             && (descriptor.samples == 1 || descriptor.mips == 1)
+            // `shaderStorageImageMultisample` is off.
+            && (descriptor.samples == 1 || !descriptor.usage.contains(Usage::STORAGE))
             && descriptor.mips <= levels;
         if !may_be_asked {
             return false;

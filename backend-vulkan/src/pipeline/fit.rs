@@ -3,10 +3,8 @@
 use crate::gpu::{Gpu, VertexAttribute};
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::shader::{
-    Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, VertexInput,
-};
-use framewright_graph::vulkan::{Component, Dimension, ImageShape};
+use framewright_graph::shader::{BindingKind, DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, VertexInput};
+use framewright_graph::vulkan::Component;
 
 /// Checks the device's limits for one stage: the number of resources of each kind, and the size of a block. Resources that
 /// the draw source brings along count whether the shader reads them or not.
@@ -61,17 +59,9 @@ pub(crate) fn check_limits(gpu: &Gpu, shader: &ShaderInterface, brought: &DrawIn
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.
 pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
-    let same_kind = |binding: &Binding, kind| {
-        matches!(
-            (&binding.kind, kind),
-            (BindingKind::UniformBlock(_), SuppliedKind::UniformBlock)
-                | (BindingKind::StorageBlock { writable: false, .. }, SuppliedKind::StorageBlock)
-                | (BindingKind::SampledImage(PLAIN), SuppliedKind::SampledImage)
-        )
-    };
     for read in shader.bindings.iter().filter(|it| it.set != PASS_SET) {
         let found = brought.supplied.iter().find(|it| (it.set, it.binding) == (read.set, read.binding));
-        if found.is_none_or(|it| it.name != read.name || !same_kind(read, it.kind)) {
+        if found.is_none_or(|it| !it.is(read)) {
             return Err(format!(
                 "the shader reads `{}` at set {}, binding {}, where this kind of draw brings along {}",
                 read.name,
@@ -103,35 +93,9 @@ pub(crate) fn check_outputs(
     Ok(())
 }
 
-/// The shape of an image that the draw source provides.
-const PLAIN: ImageShape =
-    ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
-
 /// Checks that Vulkan can bind the vertices and bindings that the draw source provides.
-pub(crate) fn check_brought(gpu: &Gpu, brought: &DrawInterface) -> Result<(), String> {
-    let limits = &gpu.limits;
-    let stride = brought.vertex_stride;
-    if stride > limits.max_vertex_input_binding_stride {
-        return Err(format!("vertices of {stride} bytes are more than this device allows"));
-    }
-    for attribute in &brought.attributes {
-        let end = attribute.components.checked_mul(4).and_then(|bytes| attribute.offset.checked_add(bytes));
-        let fits = (1..=4).contains(&attribute.components)
-            && attribute.offset <= limits.max_vertex_input_attribute_offset
-            && end.is_some_and(|end| end <= stride);
-        if !fits || !attribute.offset.is_multiple_of(4) || !stride.is_multiple_of(4) {
-            return Err(format!("the vertex attribute `{}` doesn't fit vertices of {stride} bytes", attribute.name));
-        }
-    }
-    for (at, one) in brought.supplied.iter().enumerate() {
-        if one.set == PASS_SET || one.set >= limits.max_bound_descriptor_sets {
-            return Err(format!("`{}` can't be brought along in set {}", one.name, one.set));
-        }
-        if brought.supplied[..at].iter().any(|other| (other.set, other.binding) == (one.set, one.binding)) {
-            return Err(format!("`{}` is brought along where something else is", one.name));
-        }
-    }
-    Ok(())
+pub(crate) fn check_brought(brought: &DrawInterface) -> Result<(), String> {
+    brought.faults().into_iter().next().map_or(Ok(()), |fault| Err(fault.message))
 }
 
 /// The vertex attributes by the shader's locations, from one buffer that the draw source provides.
@@ -140,9 +104,9 @@ pub(crate) fn brought_attributes(
     brought: &DrawInterface,
 ) -> Result<Vec<VertexAttribute>, String> {
     let attribute = |input: &VertexInput| {
-        let found = brought.attributes.iter().find(|it| it.name == input.name);
+        let found = brought.attributes.iter().find(|it| it.name == *input.name);
         let found = found.ok_or_else(|| format!("vertices of this kind of draw have no `{}`", input.name))?;
-        if !matches!(input.ty.as_str(), "float" | "vec2" | "vec3" | "vec4") {
+        if !input.is_float() {
             let (name, ty) = (&input.name, &input.ty);
             return Err(format!("the vertex attribute `{name}` is a {ty}, and floats are brought along"));
         }

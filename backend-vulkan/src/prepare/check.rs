@@ -6,6 +6,7 @@ use super::textures::file_of;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use ash::vk;
+use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
@@ -33,6 +34,13 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
     for buffer in &plan.buffers {
         checked_buffer(gpu, plan, buffer, poison)?;
     }
+    for (index, heap) in plan.heaps.iter().enumerate() {
+        if heap.lazily_allocated && heap.type_bits & gpu.lazy_types() == 0 {
+            return bad(format!("heap {index} is lazily allocated, and {} has no such memory", gpu.summary.name));
+        }
+    }
+    all_memory(gpu, plan)?;
+    layouts(gpu, plan)?;
     queues(gpu, plan)?;
     plan.steps.iter().try_for_each(|step| executable(gpu, plan, step))
 }
@@ -69,13 +77,6 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
         {
             bad(format!("the output `{name}` has {} samples and can't be read", image.samples))
         }
-        Role::External { before, after } if [before, after].iter().any(|it| it.layout == Layout::PresentSrcKhr) => {
-            if gpu.presents {
-                Ok(())
-            } else {
-                bad(format!("`{name}` is to be presented, and {} has no VK_KHR_swapchain", gpu.summary.name))
-            }
-        }
         Role::External { .. } => Ok(()),
     }
 }
@@ -100,6 +101,50 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
         }
         Role::Persistent { .. } | Role::External { .. } => Ok(()),
     }
+}
+
+/// Whether the device has the memory that the Plan takes altogether. Of each piece alone the allocator says so; but software
+/// drivers promise all of the machine's memory for each.
+fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
+    let kept = |role: &Role| !matches!(role, Role::Transient(_));
+    let images = plan.images.iter().filter(|image| kept(&image.role));
+    let images = images.map(|image| (image.name.to_string(), gpu.memory_needs(&descriptor(image)).bytes));
+    let buffers = plan.buffers.iter().filter(|buffer| kept(&buffer.role));
+    let buffers = buffers.map(|buffer| (buffer.name.to_string(), buffer.bytes));
+    let heaps = plan.heaps.iter().enumerate().map(|(index, heap)| (format!("heap {index}"), heap.bytes));
+    let parts: Vec<(String, u64)> = heaps.chain(images).chain(buffers).collect();
+    let bytes = parts.iter().map(|(_, bytes)| *bytes).fold(0, u64::saturating_add);
+    let all = gpu.all_heaps();
+    if bytes <= all {
+        return Ok(());
+    }
+    let reason = format!("the device has {}", amount::bytes(all));
+    Err(Error::OutOfMemory { what: "the Plan".to_owned(), bytes, parts, reason })
+}
+
+/// Whether the device has the layouts that images come to.
+fn layouts(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
+    let states = plan.images.iter().flat_map(|image| match &image.role {
+        Role::Persistent { before, after, .. } | Role::External { before, after } => {
+            vec![(image.id, before.layout), (image.id, after.layout)]
+        }
+        Role::Transient(_) => Vec::new(),
+    });
+    let barriers = plan.steps.iter().flat_map(|step| step.image_barriers.iter().chain(&step.releases));
+    let changes = barriers.flat_map(|it| [(it.image, it.old_layout), (it.image, it.new_layout)]);
+    for (image, layout) in states.chain(changes) {
+        let (name, device) = (&plan.image(image).name, &gpu.summary.name);
+        match layout {
+            Layout::PresentSrcKhr if !gpu.presents => {
+                return bad(format!("`{name}` is to be presented, and {device} has no VK_KHR_swapchain"));
+            }
+            Layout::RenderingLocalReadKhr if gpu.local_read.is_none() => {
+                return bad(format!("`{name}` is read locally, and {device} has no local reads"));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// Images are handed over between queue families only: where the Plan has an image change queues, the device must have

@@ -7,7 +7,7 @@ use framewright_graph::frame::{Blend, EyeForm, Stereo};
 use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
-use framewright_graph::vulkan::{Aspects, Filter, Layout};
+use framewright_graph::vulkan::{Aspects, Filter};
 
 /// A Plan that can't be executed.
 pub(super) fn bad(what: String) -> Result<(), Error> {
@@ -63,12 +63,6 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
     };
     if !draws_so {
         return bad(format!("it draws for both eyes at once ({}) as {} can't", plan.stereo.name(), gpu.summary.name));
-    }
-    for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
-        let image = plan.image(attachment.image);
-        if attachment.layout == Layout::RenderingLocalReadKhr && gpu.local_read.is_none() {
-            return bad(format!("`{}` is read locally, and {} has no local reads", image.name, gpu.summary.name));
-        }
     }
     for pass in &scope.passes {
         for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {

@@ -125,6 +125,7 @@ mod tests {
             settings: Vec::new(),
             changes: Vec::new(),
             decided: [].into(),
+            extent: [2, 2],
             stereo: framewright_graph::frame::Stereo::Off,
             views: Vec::new(),
             images: vec![image],

@@ -221,7 +221,7 @@ pub(super) fn prepare_draw(
     let brought = shaders.brought_along(draw);
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
-    check_brought(gpu, &brought).map_err(mismatch)?;
+    check_brought(&brought).map_err(mismatch)?;
     check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;

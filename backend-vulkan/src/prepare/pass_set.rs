@@ -166,6 +166,7 @@ fn block(
 ) -> Result<(vk::DescriptorType, BoundResource), String> {
     let name = &wanted.name;
     let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    in_stages(wanted, access.stages)?;
     let buffer = &plan.buffers[access.buffer.0 as usize];
     match &wanted.kind {
         shader::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
@@ -183,6 +184,15 @@ fn block(
         }
         _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
     }
+}
+
+/// The Plan's barriers wait for the stages that it names, and for no others.
+fn in_stages(wanted: &shader::Binding, planned: Stages) -> Result<(), String> {
+    if planned.contains(wanted.stages) {
+        return Ok(());
+    }
+    let (name, stages) = (&wanted.name, wanted.stages);
+    Err(format!("the shader uses `{name}` in {stages:?}, and the Plan has it used in {planned:?}"))
 }
 
 /// A shader that may write what the Plan takes to be only read would race with others.
@@ -206,6 +216,7 @@ fn image(
         Some((it, binding.kind))
     });
     let (access, kind) = bound.ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    in_stages(wanted, access.stages)?;
     let image = plan.image(access.image);
     let mut range = part(image, access.range);
     if let (Some(EyeForm::Layers), Some(eye)) = (image.eyes, access.eye) {

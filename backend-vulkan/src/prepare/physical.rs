@@ -106,7 +106,12 @@ impl Gpu {
 }
 
 fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
-    let placed = |heap: usize, role: &Role| matches!(role, Role::Transient(place) if place.heap as usize == heap);
+    let mut of_buffers = vec![false; plan.heaps.len()];
+    for buffer in &plan.buffers {
+        if let Role::Transient(place) = &buffer.role {
+            of_buffers[place.heap as usize] = true;
+        }
+    }
     let mut heaps = Vec::new();
     for (index, heap) in plan.heaps.iter().enumerate() {
         let lazy = if heap.lazily_allocated { gpu.lazy_types() } else { u32::MAX };
@@ -115,8 +120,7 @@ fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
             alignment: heap.alignment.max(1),
             memory_type_bits: heap.type_bits & lazy,
         };
-        let of_buffers = plan.buffers.iter().any(|buffer| placed(index, &buffer.role));
-        let kind = if of_buffers { MemoryUse::Buffers } else { MemoryUse::Images };
+        let kind = if of_buffers[index] { MemoryUse::Buffers } else { MemoryUse::Images };
         let memory = MemoryBlock::new(gpu, &format!("heap {index}"), requirements, kind);
         heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));
     }

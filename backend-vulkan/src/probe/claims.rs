@@ -44,6 +44,7 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
             compute: families.compute.is_some(),
             transfer: families.transfer.is_some(),
             sharing: Sharing::Exclusive,
+            wait_bytes: Queues::USUAL_WAIT_BYTES,
         },
         local_read: gpu.local_read.is_some(),
         max_multiview_views: gpu.max_views,

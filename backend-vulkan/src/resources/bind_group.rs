@@ -43,7 +43,7 @@ impl Device {
         if set == PASS_SET {
             return Err(bad("it belongs to the pass".to_owned()));
         }
-        check_brought(&self.gpu, interface).map_err(bad)?;
+        check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
@@ -60,7 +60,7 @@ impl Device {
         let mut bindings = Vec::new();
         let (mut buffers, mut textures) = (Vec::new(), Vec::new());
         for wanted in supplied {
-            let name = wanted.name;
+            let name = &wanted.name;
             let given = resources.iter().filter(|(binding, _)| *binding == wanted.binding).map(|(_, given)| given);
             let given: Vec<_> = given.collect();
             let target = match (wanted.kind, &given[..]) {

@@ -3,14 +3,11 @@
 use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
 use crate::process::ShaderStage;
-use framewright_graph::shader::{Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
+use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
-
-/// Bindings are numbered below this: drivers make tables as long as the largest number.
-const BINDINGS: u32 = 256;
 
 /// The block of push constants that tells which parts of images are in use; see shaders/include/part.glsl.
 const PARTS: &str = "FramewrightParts";

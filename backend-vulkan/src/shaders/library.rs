@@ -13,7 +13,8 @@ use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable, Variant,
+    BindingKind, DrawInterface, DrawInterfaces, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
+    Variant,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -63,7 +64,7 @@ pub struct CompiledCompute {
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
-    draws: fn(Draw) -> DrawInterface,
+    draws: DrawInterfaces,
     compilers: Compilers,
     sources: HashMap<String, Result<Option<Arc<StageSource>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
@@ -84,13 +85,14 @@ type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
 
 impl ShaderLibrary {
     /// A library over the folders `roots`, then `shipped` (file name, GLSL text). `draws` says what each kind of draw brings
-    /// along; it isn't asked for draws of a pass's own vertices, which bring nothing.
+    /// along: [`DrawInterfaces`], or a function from a draw to its interface.
     #[must_use]
     pub fn new(
         roots: Vec<Root>,
         shipped: &'static [(&'static str, &'static str)],
-        draws: fn(Draw) -> DrawInterface,
+        draws: impl Into<DrawInterfaces>,
     ) -> ShaderLibrary {
+        let draws = draws.into();
         let files = ShaderFiles { roots, shipped };
         let compilers = Compilers::Here;
         ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
@@ -296,11 +298,11 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
-        match draw {
-            // The pass has vertices of its own, and the draw source isn't asked for any.
-            Draw::Vertices { .. } | Draw::Indirect => DrawInterface::default(),
-            Draw::Objects(_) | Draw::Casters(_) | Draw::Sky | Draw::FullScreen | Draw::Custom => (self.draws)(draw),
-        }
+        self.draws.of(draw)
+    }
+
+    fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
+        self.draws.custom_passes().map(<[Arc<str>]>::to_vec)
     }
 }
 

@@ -48,7 +48,7 @@ const SHADERS: &[(&str, &str)] = &[
 ];
 
 fn interface(draw: Draw) -> DrawInterface {
-    let view = Supplied { set: 1, binding: 0, name: "view", kind: SuppliedKind::UniformBlock };
+    let view = Supplied::new(1, 0, "view", SuppliedKind::UniformBlock);
     let supplied = if draw == Draw::Objects(DrawList::Opaque) { vec![view] } else { Vec::new() };
     DrawInterface { supplied, ..DrawInterface::default() }
 }

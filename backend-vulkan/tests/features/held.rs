@@ -33,8 +33,8 @@ fn interface(draw: Draw) -> DrawInterface {
     }
     DrawInterface {
         vertex_stride: 8,
-        attributes: vec![Attribute { name: "place", components: 2, offset: 0 }],
-        supplied: vec![Supplied { set: 1, binding: 0, name: "given", kind: SuppliedKind::UniformBlock }],
+        attributes: vec![Attribute::new("place", 2, 0)],
+        supplied: vec![Supplied::new(1, 0, "given", SuppliedKind::UniformBlock)],
     }
 }
 

@@ -125,7 +125,7 @@ fn beside() -> Frame {
 #[test]
 fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_shares_between_three() {
     on_each_driver(|device| {
-        let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent };
+        let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
         let profile = Profile { queues, ..device.profile() };
         let plan = compile(&beside(), &profile, &mut device.memory(), &Options::default());
         let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));

@@ -24,9 +24,9 @@ fn buffers_textures_and_bind_groups_come_and_go_in_silence() {
     let messages = device.messages();
     let interface = DrawInterface {
         supplied: vec![
-            Supplied { set: 1, binding: 0, name: "view", kind: SuppliedKind::UniformBlock },
-            Supplied { set: 1, binding: 1, name: "objects", kind: SuppliedKind::StorageBlock },
-            Supplied { set: 1, binding: 2, name: "base_color_texture", kind: SuppliedKind::SampledImage },
+            Supplied::new(1, 0, "view", SuppliedKind::UniformBlock),
+            Supplied::new(1, 1, "objects", SuppliedKind::StorageBlock),
+            Supplied::new(1, 2, "base_color_texture", SuppliedKind::SampledImage),
         ],
         ..DrawInterface::default()
     };
@@ -59,7 +59,7 @@ fn the_layer_is_given_only_settings_that_it_knows() {
 #[test]
 fn a_bind_group_refuses_what_its_interface_does_not_name() {
     let Some(device) = testing::device() else { return };
-    let view = Supplied { set: 1, binding: 0, name: "view", kind: SuppliedKind::UniformBlock };
+    let view = Supplied::new(1, 0, "view", SuppliedKind::UniformBlock);
     let interface = DrawInterface { supplied: vec![view], ..DrawInterface::default() };
     let buffer = device.buffer(BufferUsage::Storage, &[0; 16]).expect("a buffer");
     let message = |set, resources: &[(u32, Resource<'_>)]| match device.bind_group(&interface, set, resources) {

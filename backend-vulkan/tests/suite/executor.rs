@@ -46,8 +46,8 @@ fn interface(draw: Draw) -> DrawInterface {
     match draw {
         Draw::Objects(_) => DrawInterface {
             vertex_stride: 12,
-            attributes: vec![Attribute { name: "place", components: 2, offset: 4 }],
-            supplied: vec![Supplied { set: 1, binding: 0, name: "view", kind: SuppliedKind::UniformBlock }],
+            attributes: vec![Attribute::new("place", 2, 4)],
+            supplied: vec![Supplied::new(1, 0, "view", SuppliedKind::UniformBlock)],
         },
         _ => DrawInterface::default(),
     }

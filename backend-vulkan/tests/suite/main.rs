@@ -1,6 +1,7 @@
 //! The backend's tests, but for those whose programs say why they stand alone. `cargo test -p framewright-vulkan --test suite
 //! executor::` runs those of one module.
 
+mod agreement;
 mod both_eyes;
 mod both_eyes_drawn;
 mod device;

@@ -8,7 +8,7 @@ use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
     StepId, Work,
 };
-use framewright_graph::shader::{Attribute, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, BINDINGS, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
 use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
@@ -55,8 +55,8 @@ const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-const PLACE: Attribute = Attribute { name: "place", components: 2, offset: 0 };
-const PICTURE: Supplied = Supplied { set: 1, binding: 0, name: "picture", kind: SuppliedKind::SampledImage };
+const PLACE: Attribute = Attribute::new("place", 2, 0);
+const PICTURE: Supplied = Supplied::new(1, 0, "picture", SuppliedKind::SampledImage);
 
 fn plain(_: Draw) -> DrawInterface {
     DrawInterface { vertex_stride: 8, attributes: vec![PLACE], supplied: vec![PICTURE] }
@@ -88,14 +88,14 @@ fn a_draw_interface_that_vulkan_can_not_bind_is_refused() {
     let askew = refusal(device, "white", "show", |draw| DrawInterface { vertex_stride: 10, ..plain(draw) });
     assert_eq!(askew, "pass `draw`: the vertex attribute `place` doesn't fit vertices of 10 bytes");
     let wide = refusal(device, "white", "show", |draw| DrawInterface { vertex_stride: u32::MAX, ..plain(draw) });
-    assert_eq!(wide, "pass `draw`: vertices of 4294967295 bytes are more than this device allows");
+    assert_eq!(wide, "pass `draw`: vertices of 4294967295 bytes: every device allows 2048, and not all more");
     let far = refusal(device, "white", "show", |draw| DrawInterface {
         supplied: vec![Supplied { set: u32::MAX, ..PICTURE }],
         ..plain(draw)
     });
-    assert_eq!(far, "pass `draw`: `picture` can't be brought along in set 4294967295");
+    assert_eq!(far, "pass `draw`: `picture` can't be brought along in set 4294967295: a draw source has sets 1 to 3");
     let twice = refusal(device, "white", "show", |draw| DrawInterface {
-        supplied: vec![PICTURE, Supplied { name: "other", kind: SuppliedKind::UniformBlock, ..PICTURE }],
+        supplied: vec![PICTURE, Supplied::new(1, 0, "other", SuppliedKind::UniformBlock)],
         ..plain(draw)
     });
     assert_eq!(twice, "pass `draw`: `other` is brought along where something else is");
@@ -128,10 +128,13 @@ fn more_resources_than_a_stage_may_have_are_refused() {
     let Some(device) = testing::open() else { return };
     let messages = device.messages();
     let said = refusal(&device, "white", "show", |draw| {
-        let block = |binding| Supplied { binding, name: "block", kind: SuppliedKind::StorageBlock, ..PICTURE };
-        DrawInterface { supplied: (0..2_000).map(block).collect(), ..plain(draw) }
+        let block = |number| Supplied {
+            name: format!("block_{number}").into(),
+            ..Supplied::new(1 + number / BINDINGS, number % BINDINGS, "", SuppliedKind::StorageBlock)
+        };
+        DrawInterface { supplied: (0..3 * BINDINGS).map(block).collect(), ..plain(draw) }
     });
-    let refused = said.starts_with("pass `draw`: 2000 storage blocks are bound, and this device allows ");
+    let refused = said.starts_with("pass `draw`: 768 storage blocks are bound, and this device allows ");
     assert!(refused || said.is_empty(), "{said}");
     drop(device);
     // A device that allows them has nothing against them.

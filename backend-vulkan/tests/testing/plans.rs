@@ -4,8 +4,8 @@ use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::frame::{Blend, Draw, ParamValue, Stereo};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap,
-    Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Step, StepId,
-    Totals, Work,
+    Image, ImageBarrier, ImageId, Output, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Step,
+    StepId, Totals, Work,
 };
 use framewright_graph::vulkan::{
     Accesses, Filter, Format, Layout, LoadOp, ResolveMode, Rotation, Sampler, Shape, Sharing, Stages, State, StoreOp,
@@ -42,13 +42,14 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         settings: Vec::new(),
         changes: Vec::new(),
         decided: [].into(),
+        extent: EXTENT,
         stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),
         heaps: vec![Heap { bytes: 0, alignment: 1, type_bits: u32::MAX, lazily_allocated: false }],
         steps: Vec::new(),
-        outputs: vec![Resource::Image(SCREEN).into()],
+        outputs: vec![Output::new("screen", Resource::Image(SCREEN))],
         notes: Vec::new(),
         totals: Totals::default(),
     };

@@ -147,11 +147,33 @@ pub(crate) struct InspectArguments {
     pub(crate) output: Option<PathBuf>,
 }
 
+/// The arguments of `run` that a Plan leaves nothing to choose of.
+const SAID_BY_PLAN: [&str; 14] = [
+    "preset",
+    "settings",
+    "set",
+    "extend",
+    "stereo",
+    "size",
+    "dump",
+    "dump_all",
+    "save_plan",
+    "order",
+    "naive",
+    "one_queue",
+    "no_alias",
+    "rotate",
+];
+
 /// `framewright run`.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
+    /// The file is no pipeline, but the JSON form of a Plan. It is verified, and executed as it is: all that it says itself
+    /// can't be chosen any more. Files that it names are looked for where a pipeline's are.
+    #[arg(long, conflicts_with_all = SAID_BY_PLAN)]
+    pub(crate) plan: bool,
     /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
@@ -171,6 +193,9 @@ pub(crate) struct RunArguments {
     /// Folder for every image after every pass that wrote it, in the last frame. These are drawn by Plans of their own.
     #[arg(long, value_name = "DIR")]
     pub(crate) dump_all: Option<PathBuf>,
+    /// File for the Plan that is drawn, as JSON: `--plan` takes it.
+    #[arg(long, value_name = "PLAN.json")]
+    pub(crate) save_plan: Option<PathBuf>,
     /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
     #[arg(long)]
     pub(crate) validate: bool,
@@ -188,7 +213,8 @@ impl RunArguments {
     /// Files that are written.
     pub(crate) fn written(&self) -> impl Iterator<Item = &Path> + Clone {
         let outputs = self.output.iter().map(|output| &*output.file);
-        outputs.chain(self.dump.iter().map(|dump| &*dump.file)).chain(self.report.as_deref())
+        let dumped = self.dump.iter().map(|dump| &*dump.file);
+        outputs.chain(dumped).chain(self.report.as_deref()).chain(self.save_plan.as_deref())
     }
 }
 
@@ -292,6 +318,19 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
         if let Some(file) = twice(run.written()) {
             return conflict(format!("`{}` would be written twice", text::path(file)));
         }
+    }
+    let (drawn, by) = match &line.command {
+        Command::Run(run) => (Some(&run.pipeline), "`run` draws"),
+        Command::Serve(serve) => (Some(&serve.pipeline), "`serve` draws"),
+        Command::Measure(measure) => (Some(&measure.pipeline), "`measure` draws"),
+        Command::Inspect(inspect) if inspect.capture => (Some(&inspect.pipeline), "`--capture` draws"),
+        _ => (None, ""),
+    };
+    if drawn.is_some_and(|pipeline| pipeline.interface.is_some()) {
+        return conflict(format!(
+            "{by} scenes of the command's own, which bring along what its shaders know: `--interface` is for `check`, `inspect`, \
+             `diff` and `explain`, which draw nothing"
+        ));
     }
     let limits = match &line.command {
         Command::Check(check) => Some(check.pipeline.limits),

@@ -41,6 +41,10 @@ pub(crate) struct PipelineArguments {
     /// Read files that the pipeline names wherever they lie. For files that you trust.
     #[arg(long)]
     pub(crate) allow_outside: bool,
+    /// Check shaders against what the draws of another program bring along, and custom passes against those that it records. The
+    /// program writes the file: see docs/embedding.md. What is drawn is drawn by this command, without such a file.
+    #[arg(long, value_name = "INTERFACE.ron")]
+    pub(crate) interface: Option<PathBuf>,
     /// How to draw for two eyes what each has of its own: `off`, `multi-pass`, `double-wide`, `instanced` or `multiview`; of several
     /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
     #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]

@@ -4,23 +4,19 @@ use crate::command_line::args::PipelineArguments;
 use crate::command_line::differing::{DiffArguments, DifferenceFormat};
 use crate::command_line::values::{self, Assignment, Modes, Size};
 use crate::error::Error;
-use crate::files::inputs::{self, FileRole};
+use crate::files::inputs;
 use crate::files::outputs;
 use crate::inspection::{self, Page, Shown};
-use crate::planning::{self, View, device};
+use crate::planning::{self, View, device, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::device::Estimated;
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::{Detail, Plan};
-use framewright_graph::verify;
 use framewright_passes::scene::Scene;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// A file of a Plan has at most this many bytes.
-const LARGEST_PLAN: usize = 1 << 30;
 
 /// Prints or writes the differences.
 ///
@@ -68,7 +64,7 @@ fn plan(
 ) -> Result<(Plan, Option<Arc<Sources>>), Error> {
     if file.extension().is_some_and(|end| end == "json") {
         return match own.is_empty() {
-            true => Ok((plan_of(file, read)?, None)),
+            true => Ok((plan_file::read(file, read)?, None)),
             false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),
         };
     }
@@ -90,17 +86,6 @@ fn plan(
     };
     let planned = loaded.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?;
     Ok((planned.plan, Some(Arc::clone(&loaded.sources))))
-}
-
-/// The Plan that a file holds, verified.
-fn plan_of(path: &Path, read: &ReadFiles) -> Result<Plan, Error> {
-    let text = inputs::text(FileRole::PLAN, path, LARGEST_PLAN, read)?;
-    let wrong = |problem: String| Error::NoPlan { path: path.to_owned(), problem };
-    let plan = Plan::from_json(&text).map_err(|problem| wrong(problem.to_string()))?;
-    match verify::verify(&plan).first() {
-        None => Ok(plan),
-        Some(first) => Err(wrong(format!("the Plan is not right: {first}"))),
-    }
 }
 
 /// The choices for one of the Plans.

@@ -56,15 +56,18 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         PlanFormat::Tree => text::escape_lines(&plan.outline(detail).draw()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),
         PlanFormat::Dot => inspection::dot(plan, &Dataflow::of(plan)),
-        PlanFormat::Mermaid => inspection::mermaid(plan, &Dataflow::of(plan)),
+        PlanFormat::Mermaid => {
+            let (shown, beyond) = inspection::mermaid(plan, &Dataflow::of(plan));
+            beyond.iter().for_each(|limit| text::say(&format!("note: {limit}")));
+            shown
+        }
         PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
         PlanFormat::Html => {
             let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
             let captures = match (&drawn_on, &scene, &arguments.output) {
                 (Some(device), Some(scene), Some(page)) => {
-                    let (planned, size) = (&planned, arguments.size);
-                    let pipeline = &mut pipeline;
-                    captured(Drawing { device, pipeline, planned, scene, size, options, frames: 1 }, page, &read)?
+                    let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
+                    captured(Drawing { device, pipeline, made, scene, options, frames: 1 }, page, &read)?
                 }
                 _ => Vec::new(),
             };
@@ -84,7 +87,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 fn open(pipeline: &Loaded) -> Result<Device, Error> {
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
-    let helper = Some(pipeline.helper.clone());
+    let helper = Some(pipeline.assets.helper.clone());
     let choice = device::to_draw_on(None)?;
     let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
     device.cancel_when(interrupt::asked);

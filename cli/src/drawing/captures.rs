@@ -5,15 +5,15 @@
 
 use super::Prepared;
 use super::pictures::{layers, side_by_side};
-use crate::command_line::values::Size;
 use crate::error::Error;
 use crate::inspection::Thumbnail;
 use crate::picture::{FileFormat, Picture};
-use crate::planning::{Loaded, Planned};
+use crate::planning::Loaded;
 use crate::system::interrupt;
 use framewright_graph::compile::Options;
 use framewright_graph::dataflow::Dataflow;
-use framewright_graph::frame::Capture;
+use framewright_graph::frame::{Capture, Frame};
+use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Format;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, Texels};
@@ -28,9 +28,9 @@ const MOST: usize = 64;
 pub(crate) struct Drawing<'a> {
     pub(crate) device: &'a Device,
     pub(crate) pipeline: &'a mut Loaded,
-    pub(crate) planned: &'a Planned,
+    /// The Plan whose images are captured, and the frame that it was made of.
+    pub(crate) made: (&'a Plan, &'a Frame),
     pub(crate) scene: &'a Scene,
-    pub(crate) size: Size,
     pub(crate) options: Options,
     /// The captures are those of the last of this many frames.
     pub(crate) frames: u32,
@@ -91,18 +91,18 @@ impl Captured {
 /// # Errors
 /// Those of planning and drawing, and of `take`.
 pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Result<(), Error>) -> Result<usize, Error> {
-    let Drawing { device, pipeline, planned, scene, size, options, frames } = drawing;
-    let flow = Dataflow::of(&planned.plan);
+    let Drawing { device, pipeline, made: (plan, frame), scene, options, frames } = drawing;
+    let flow = Dataflow::of(plan);
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
-    let captures = planned.frame.captures(|pass| runs.contains(pass));
+    let captures = frame.captures(|pass| runs.contains(pass));
     let options = Options { alias: false, ..options };
     let mut done = 0;
     for batch in batches(&captures) {
-        let frame = planned.frame.with_captures(batch);
+        let frame = frame.with_captures(batch);
         let plan = pipeline.compile(&frame, &device.profile(), &mut device.memory(), &options)?;
-        let own = Planned { frame, plan };
-        let first = own.frame.outputs.len() - batch.len();
-        let mut prepared = Prepared::new(device, &own, pipeline, scene, size, &ExecutorOptions::default())?;
+        let first = plan.outputs.len() - batch.len();
+        let assets = &mut pipeline.assets;
+        let mut prepared = Prepared::new(device, (&plan, Some(&frame)), assets, scene, &ExecutorOptions::default())?;
         for drawn in 0..frames {
             if interrupt::asked() {
                 return Err(Error::Interrupted { frames: drawn, wanted: frames });
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use framewright_graph::base::Span;
     use framewright_graph::frame::Blend;
-    use framewright_graph::frame::{ColorTarget, Draw, Frame, Image, ImageIndex, Pass, Work};
+    use framewright_graph::frame::{ColorTarget, Draw, Image, ImageIndex, Pass, Work};
     use framewright_graph::vulkan::Subresources;
 
     #[test]

@@ -4,11 +4,9 @@ use crate::command_line::args::RunArguments;
 use crate::command_line::values::OutputFile;
 use crate::error::Error;
 use crate::picture::{self, FileFormat};
-use crate::planning::Planned;
 use crate::system::text;
-use framewright_graph::base::Span;
-use framewright_graph::frame::{Eye, EyeForm, Frame, Resource};
-use framewright_graph::plan::{self, Plan};
+use framewright_graph::frame::{Eye, EyeForm, Frame};
+use framewright_graph::plan::{Output, Plan, Resource};
 use framewright_graph::vulkan::Format;
 use framewright_vulkan::{Executor, Texels};
 use std::path::{Path, PathBuf};
@@ -66,50 +64,43 @@ impl PictureRequest<'_> {
     }
 }
 
-/// The pictures that the command line asks for.
+/// The pictures that the command line asks for. `frame` is the one that the Plan was made of, if there is one: it knows images
+/// that the Plan does without.
 ///
 /// # Errors
 /// If there is no image to write, or the file's format can't hold it.
 pub(crate) fn requests<'a>(
     arguments: &'a RunArguments,
-    planned: &'a Planned,
+    (plan, frame): (&'a Plan, Option<&Frame>),
 ) -> Result<Vec<PictureRequest<'a>>, Error> {
-    let (frame, plan) = (&planned.frame, &planned.plan);
-    let image = |output: usize| match frame.outputs.get(output)?.resource {
-        Resource::Image(image) => frame.images.get(image.0 as usize).map(|image| &*image.name),
-        Resource::Buffer(_) => None,
-    };
-    let request = |outputs: Vec<usize>, name: &'a str, path: &'a Path| {
+    let request = |outputs: Vec<usize>, path: &'a Path| {
+        let Output { name, resource, .. } = &plan.outputs[outputs[0]];
+        let Resource::Image(image) = *resource else { return Err(Error::NoPicture { output: name.to_string() }) };
         let file_format = FileFormat::of(path).unwrap_or(FileFormat::Png);
-        let planned = match plan.outputs.get(outputs[0]).map(|output| output.resource) {
-            Some(plan::Resource::Image(image)) => Some(plan.image(image)),
-            _ => None,
-        };
-        match planned {
-            Some(image) if !file_format.holds(image.format) => {
-                Err(Error::NotFloats { image: name.to_owned(), format: image.format })
-            }
-            image => {
-                let in_layers = image.is_some_and(|image| image.eyes == Some(EyeForm::Layers));
-                Ok(PictureRequest { outputs, in_layers, name, path, file_format })
-            }
+        let image = plan.image(image);
+        if !file_format.holds(image.format) {
+            return Err(Error::NotFloats { image: name.to_string(), format: image.format });
         }
+        let in_layers = image.eyes == Some(EyeForm::Layers);
+        Ok(PictureRequest { outputs, in_layers, name, path, file_format })
     };
-    let all = 0..frame.outputs.len();
+    let no_output = |name: &str| Error::NoOutput {
+        name: name.to_owned(),
+        outputs: plan.outputs.iter().map(|output| output.name.to_string()).collect(),
+        image: frame.is_some_and(|frame| frame.images.iter().any(|image| *image.name == *name)),
+    };
     let mut requests = Vec::new();
     for OutputFile { output, file } in &arguments.output {
-        let at = match output {
-            Some(name) => outputs_named(frame, name, declared(frame)),
-            None => of_both_eyes(frame, 0),
-        };
-        let first = at.first().copied().ok_or_else(|| no_output(frame, output.as_deref().unwrap_or_default()))?;
-        let name = image(first).ok_or_else(|| Error::NoPicture { output: output_name(frame, first) })?;
-        requests.push(request(at, name, file)?);
+        let outputs = output.as_ref().map_or_else(|| of_both_eyes(plan, 0), |name| named(plan, name));
+        if outputs.is_empty() {
+            return Err(no_output(output.as_deref().unwrap_or_default()));
+        }
+        requests.push(request(outputs, file)?);
     }
     for dump in &arguments.dump {
-        let outputs = outputs_named(frame, &dump.image, all.clone());
-        if let Some(name) = outputs.first().and_then(|at| image(*at)) {
-            requests.push(request(outputs, name, &dump.file)?);
+        let outputs = named(plan, &dump.image);
+        if !outputs.is_empty() {
+            requests.push(request(outputs, &dump.file)?);
         }
     }
     Ok(requests)
@@ -117,80 +108,57 @@ pub(crate) fn requests<'a>(
 
 /// The picture of the first output, those of both eyes side by side; `None` if it is no image. Floating-point images become OpenEXR
 /// files, all others PNG files.
-pub(crate) fn of_first_output(planned: &Planned) -> Option<PictureRequest<'_>> {
-    let plan::Resource::Image(image) = planned.plan.outputs.first()?.resource else { return None };
-    let image = planned.plan.image(image);
+pub(crate) fn of_first_output(plan: &Plan) -> Option<PictureRequest<'_>> {
+    let Output { name, resource: Resource::Image(image), .. } = plan.outputs.first()? else { return None };
+    let image = plan.image(*image);
     let (file_format, path) = match FileFormat::OpenExr.holds(image.format) && !image.format.is_depth() {
         true => (FileFormat::OpenExr, "picture.exr"),
         false => (FileFormat::Png, "picture.png"),
     };
     let in_layers = image.eyes == Some(EyeForm::Layers);
-    let (outputs, path) = (of_both_eyes(&planned.frame, 0), Path::new(path));
-    Some(PictureRequest { outputs, in_layers, name: &image.name, path, file_format })
+    Some(PictureRequest { outputs: of_both_eyes(plan, 0), in_layers, name, path: Path::new(path), file_format })
 }
 
-/// PNG files of all images that the pipeline names as outputs, those of both eyes side by side.
-pub(crate) fn of_all_outputs(planned: &Planned) -> Vec<PictureRequest<'_>> {
+/// PNG files of all images that leave the frame, those of both eyes side by side.
+pub(crate) fn of_all_outputs(plan: &Plan) -> Vec<PictureRequest<'_>> {
     let mut requests = Vec::new();
-    let mut outputs = declared(&planned.frame).peekable();
-    while let Some(first) = outputs.next() {
-        let both = of_both_eyes(&planned.frame, first);
-        for _ in &both[1..] {
-            outputs.next();
+    let mut next = 0;
+    while next < plan.outputs.len() {
+        let outputs = of_both_eyes(plan, next);
+        let Output { name, resource, .. } = &plan.outputs[next];
+        next += outputs.len();
+        if let Resource::Image(image) = resource {
+            let in_layers = plan.image(*image).eyes == Some(EyeForm::Layers);
+            requests.push(PictureRequest { outputs, in_layers, name, path: Path::new(""), file_format: FileFormat::Png });
         }
-        let Some(plan::Resource::Image(image)) = planned.plan.outputs.get(first).map(|output| output.resource) else {
-            continue;
-        };
-        let Resource::Image(declared) = planned.frame.outputs[first].resource else { continue };
-        let name = &planned.frame.images[declared.0 as usize].name;
-        let in_layers = planned.plan.image(image).eyes == Some(EyeForm::Layers);
-        requests.push(PictureRequest {
-            outputs: both,
-            in_layers,
-            name,
-            path: Path::new(""),
-            file_format: FileFormat::Png,
-        });
     }
     requests
 }
 
 /// The output with the name, or else those of both eyes.
-fn outputs_named(frame: &Frame, name: &str, among: impl Iterator<Item = usize> + Clone) -> Vec<usize> {
-    let has_name = |at: &usize, name: &str| output_name(frame, *at) == name;
-    let one = among.clone().find(|at| has_name(at, name));
-    let of_eye = |eye: Eye| among.clone().find(|at| has_name(at, &eye.named(name)));
-    one.map_or_else(|| Eye::BOTH.into_iter().filter_map(of_eye).collect(), |one| vec![one])
+fn named(plan: &Plan, name: &str) -> Vec<usize> {
+    let find = |name: &str| plan.outputs.iter().position(|output| *output.name == *name);
+    let both = || Eye::BOTH.into_iter().filter_map(|eye| find(&eye.named(name))).collect();
+    alike(plan, find(name).map_or_else(both, |one| vec![one]))
 }
 
-/// An output, with the right eye's behind it if it is the left one's.
-fn of_both_eyes(frame: &Frame, output: usize) -> Vec<usize> {
-    let eye = |at: usize| frame.outputs.get(at).and_then(|output| output.eye);
+/// An output, with the right eye's behind it if it is the left one's; empty if there is none.
+fn of_both_eyes(plan: &Plan, output: usize) -> Vec<usize> {
+    let eye = |at: usize| plan.outputs.get(at).and_then(|output| output.eye);
     let both = eye(output) == Some(Eye::Left) && eye(output + 1) == Some(Eye::Right);
-    (output..frame.outputs.len()).take(if both { 2 } else { 1 }).collect()
+    alike(plan, (output..plan.outputs.len()).take(if both { 2 } else { 1 }).collect())
 }
 
-/// The name of an output.
-fn output_name(frame: &Frame, output: usize) -> String {
-    let name = match frame.outputs.get(output).map(|output| output.resource) {
-        Some(Resource::Image(image)) => frame.images.get(image.0 as usize).map(|image| &image.name),
-        Some(Resource::Buffer(buffer)) => frame.buffers.get(buffer.0 as usize).map(|buffer| &buffer.name),
-        None => None,
+/// The outputs, or only the first of them, if the others can't stand beside it in one picture.
+fn alike(plan: &Plan, mut outputs: Vec<usize>) -> Vec<usize> {
+    let image = |at: &usize| match plan.outputs[*at].resource {
+        Resource::Image(image) => Some(plan.image(image)),
+        Resource::Buffer(_) => None,
     };
-    name.map_or_else(String::new, ToString::to_string)
-}
-
-/// Numbers of the outputs that the pipeline names; dumped images stand in no file.
-fn declared(frame: &Frame) -> impl Iterator<Item = usize> + Clone {
-    (0..frame.outputs.len()).filter(|at| frame.outputs[*at].span != Span::NONE)
-}
-
-fn no_output(frame: &Frame, name: &str) -> Error {
-    Error::NoOutput {
-        name: name.to_owned(),
-        outputs: declared(frame).map(|at| output_name(frame, at)).collect(),
-        image: frame.images.iter().any(|image| *image.name == *name),
-    }
+    let form = |at: &usize| image(at).map(|it| (it.format, it.extent, it.rotation, it.eyes));
+    let first = outputs.first().map(form);
+    outputs.retain(|at| Some(form(at)) == first);
+    outputs
 }
 
 /// The layers of an image by themselves.

@@ -1,38 +1,42 @@
-//! A planned frame that is ready to be drawn.
+//! A Plan that is ready to be drawn.
 
 use super::diagnostics;
-use crate::command_line::values::Size;
 use crate::error::Error;
-use crate::planning::{Loaded, Planned};
+use crate::planning::Assets;
+use framewright_graph::frame::{Draw, Frame};
+use framewright_graph::plan::{Pass, Plan, Work};
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, FrameReport};
 
-/// A planned frame, and all that drawing it takes.
+/// A Plan, and all that drawing it takes.
 pub(crate) struct Prepared<'p> {
-    pub(crate) planned: &'p Planned,
+    pub(crate) plan: &'p Plan,
     pub(crate) executor: Executor,
     pub(crate) source: SceneDrawSource,
 }
 
 impl<'p> Prepared<'p> {
-    /// Uploads the scene, and makes pipelines and memory.
+    /// Uploads the scene, and makes pipelines and memory. `frame` is the one that the Plan was made of, if there is one: it
+    /// knows the places of mistakes.
     ///
     /// # Errors
-    /// Mistakes of textures and shaders, or of the device.
+    /// Custom passes, which another program records; mistakes of textures and shaders, or of the device.
     pub(crate) fn new(
         device: &Device,
-        planned: &'p Planned,
-        pipeline: &mut Loaded,
+        (plan, frame): (&'p Plan, Option<&Frame>),
+        assets: &mut Assets,
         scene: &Scene,
-        size: Size,
         options: &ExecutorOptions,
     ) -> Result<Prepared<'p>, Error> {
-        let source = SceneDrawSource::for_plan(device, scene, [size.width, size.height], &planned.plan)?;
-        let Loaded { shaders, textures, .. } = pipeline;
-        let executor = Executor::with_textures(device, &planned.plan, shaders, textures, options)
-            .map_err(|problem| diagnostics::texture(&planned.frame, problem))?;
-        Ok(Prepared { planned, executor, source })
+        if let Some(pass) = custom(plan) {
+            return Err(Error::CustomPass { pass: pass.name.to_string(), name: pass.shader.to_string() });
+        }
+        let source = SceneDrawSource::for_plan(device, scene, plan.extent, plan)?;
+        let Assets { shaders, textures, .. } = assets;
+        let executor = Executor::with_textures(device, plan, shaders, textures, options)
+            .map_err(|problem| diagnostics::texture(frame, problem))?;
+        Ok(Prepared { plan, executor, source })
     }
 
     /// Draws a frame and waits for it.
@@ -43,4 +47,13 @@ impl<'p> Prepared<'p> {
         let frame = self.executor.frame(&mut self.source)?;
         Ok(self.executor.report(frame)?)
     }
+}
+
+/// The first pass that only the program of another draw source can record.
+fn custom(plan: &Plan) -> Option<&Pass> {
+    plan.steps.iter().find_map(|step| match &step.work {
+        Work::Custom(pass) => Some(pass),
+        Work::Render(scope) => scope.passes.iter().find(|pass| pass.draw == Some(Draw::Custom)),
+        _ => None,
+    })
 }

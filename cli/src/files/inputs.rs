@@ -37,6 +37,8 @@ impl FileRole {
     pub(crate) const SCENE: FileRole = FileRole { name: "scene", recorded: "the scene itself" };
     /// A Plan.
     pub(crate) const PLAN: FileRole = FileRole { name: "Plan", recorded: "a Plan that is read" };
+    /// The interfaces of another program's draws.
+    pub(crate) const INTERFACE: FileRole = FileRole { name: "interface", recorded: "the interface itself" };
     /// A budget.
     pub(crate) const BUDGET: FileRole = FileRole { name: "budget", recorded: "the budget itself" };
     /// A picture.
@@ -74,7 +76,7 @@ pub(crate) fn pipeline(arguments: &args::PipelineArguments, read: &ReadFiles) ->
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
             path: (&*path.file_name().unwrap_or(path.as_os_str()).to_string_lossy()).into(),
-            root: Some(limited(arguments, Root::new(path.parent().unwrap_or(Path::new("")).to_owned()))?),
+            root: Some(root(arguments)?),
             bytes,
         }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
@@ -95,12 +97,21 @@ pub(crate) fn pipeline(arguments: &args::PipelineArguments, read: &ReadFiles) ->
 pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
     let settings = arguments.settings.iter().map(|file| (FileRole::SETTINGS, file));
     let extensions = arguments.extend.iter().map(|file| (FileRole::EXTENSION, file));
-    for (what, file) in std::iter::once((FileRole::PIPELINE, &arguments.file)).chain(settings).chain(extensions) {
+    let interface = arguments.interface.iter().map(|file| (FileRole::INTERFACE, file));
+    let pipeline = std::iter::once((FileRole::PIPELINE, &arguments.file));
+    for (what, file) in pipeline.chain(settings).chain(extensions).chain(interface) {
         read.expect(what.recorded, file);
     }
 }
 
-/// The folder that a pipeline's files come from: its own, or the one that the user names.
+/// The folder that the files which a pipeline or a Plan names come from: its own, or within the one that the user names.
+///
+/// # Errors
+/// If it lies outside of the folder that `--root` names, or one of the folders can't be read.
+pub(crate) fn root(arguments: &args::PipelineArguments) -> Result<Root, Error> {
+    limited(arguments, Root::new(arguments.file.parent().unwrap_or(Path::new("")).to_owned()))
+}
+
 fn limited(arguments: &args::PipelineArguments, own: Root) -> Result<Root, Error> {
     if arguments.allow_outside {
         return Ok(own.allow_outside());

@@ -103,6 +103,12 @@ impl Finding {
         Finding { kind, message, more, place, related: places }
     }
 
+    /// A finding of one place, without remarks.
+    #[cfg(test)]
+    pub(super) fn at(kind: Kind, message: String, place: FilePlace) -> Finding {
+        Finding { kind, message, more: Vec::new(), place: Some(place), related: Vec::new() }
+    }
+
     /// The message with its remarks.
     pub(super) fn text(&self) -> String {
         std::iter::once(&self.message).chain(&self.more).cloned().collect::<Vec<_>>().join("\n")

@@ -16,7 +16,7 @@ use crate::command_line::args::CheckFormat;
 pub(crate) fn shown(format: CheckFormat, pipeline: &str, cases: &[Case]) -> serde_json::Result<Option<String>> {
     Ok(match format {
         CheckFormat::Human | CheckFormat::Json => None,
-        CheckFormat::Sarif => Some(sarif::sarif(cases)?),
+        CheckFormat::Sarif => Some(sarif::sarif(pipeline, cases)?),
         CheckFormat::Junit => Some(junit::junit(pipeline, cases)),
         CheckFormat::Github => Some(github::github(pipeline, cases)),
     })

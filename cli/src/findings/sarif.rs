@@ -8,9 +8,10 @@ use serde_json::{Value, json};
 /// Characters of a path that an URI doesn't hold as they are.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'.').remove(b'_').remove(b'-').remove(b'~');
 
-pub(super) fn sarif(cases: &[Case]) -> serde_json::Result<String> {
+pub(super) fn sarif(pipeline: &str, cases: &[Case]) -> serde_json::Result<String> {
     let rules = Kind::ALL.map(|kind| json!({"id": kind.id(), "shortDescription": {"text": kind.words()}}));
-    let found = cases.iter().flat_map(|case| case.findings.iter().map(move |finding| result(&case.name, finding)));
+    let found =
+        cases.iter().flat_map(|case| case.findings.iter().map(move |finding| result(pipeline, &case.name, finding)));
     text::json(&json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -20,25 +21,30 @@ pub(super) fn sarif(cases: &[Case]) -> serde_json::Result<String> {
                 "version": env!("CARGO_PKG_VERSION"),
                 "rules": rules,
             }},
+            // Code hosts take one run of each id: files of several pipelines can be uploaded together.
+            "automationDetails": {"id": format!("framewright check {pipeline}/")},
             "columnKind": "unicodeCodePoints",
             "results": found.collect::<Vec<Value>>(),
         }],
     }))
 }
 
-fn result(case: &str, finding: &Finding) -> Value {
+fn result(pipeline: &str, case: &str, finding: &Finding) -> Value {
+    let found_at = match &finding.place {
+        Some(place) => location(place),
+        // Code hosts refuse a file with a result that has no line.
+        None => json!({"artifactLocation": {"uri": uri(pipeline)}, "region": {"startLine": 1}}),
+    };
     let mut result = json!({
         "ruleId": finding.kind.id(),
         "ruleIndex": Kind::ALL.iter().position(|kind| *kind == finding.kind),
         "level": "error",
-        "message": {"text": format!("{}\n{case}", finding.text())},
+        "message": {"text": plain(&format!("{}\n{case}", finding.text()))},
+        "locations": [{"physicalLocation": found_at}],
     });
-    if let Some(place) = &finding.place {
-        result["locations"] = json!([{"physicalLocation": location(place)}]);
-    }
     if !finding.related.is_empty() {
         let related = finding.related.iter().zip(1..).map(
-            |((place, remark), id)| json!({"id": id, "physicalLocation": location(place), "message": {"text": remark}}),
+            |((place, remark), id)| json!({"id": id, "physicalLocation": location(place), "message": {"text": plain(remark)}}),
         );
         result["relatedLocations"] = related.collect();
     }
@@ -47,7 +53,20 @@ fn result(case: &str, finding: &Finding) -> Value {
 
 fn location(FilePlace { file, line, column, end: [end_line, end_column] }: &FilePlace) -> Value {
     json!({
-        "artifactLocation": {"uri": utf8_percent_encode(file, ESCAPED).to_string()},
+        "artifactLocation": {"uri": uri(file)},
         "region": {"startLine": line, "startColumn": column, "endLine": end_line, "endColumn": end_column},
     })
+}
+
+/// A path as a reference to a file.
+fn uri(path: &str) -> String {
+    utf8_percent_encode(path, ESCAPED).to_string()
+}
+
+/// A text without links: SARIF reads `[words](address)` as one, wherever brackets aren't escaped.
+fn plain(text: &str) -> String {
+    if !text.contains("](") {
+        return text.to_owned();
+    }
+    text.replace('\\', "\\\\").replace('[', "\\[").replace(']', "\\]")
 }

@@ -46,7 +46,8 @@ pub(crate) fn dot(plan: &Plan, flow: &Dataflow) -> String {
     dot + "}\n"
 }
 
-/// A quoted string: a backslash would begin one of DOT's own escapes.
+/// A quoted string: a backslash would begin one of DOT's own escapes, and `&` one of HTML's, which Graphviz reads too.
 fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+    let text = text.replace('&', "&amp;").replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
+    format!("\"{text}\"")
 }

@@ -6,6 +6,8 @@
 //! ```
 
 mod dot;
+#[cfg(test)]
+mod hostile;
 mod labels;
 mod layout;
 mod mermaid;

@@ -7,7 +7,7 @@ use crate::system::html::{self, Template};
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
-use framewright_graph::plan::{Detail, Moved, Outline, Plan, Resource, Step};
+use framewright_graph::plan::{Detail, ImageId, Moved, Outline, Plan, Resource, Step};
 use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {
@@ -90,7 +90,14 @@ struct PlanData<'a> {
 #[serde(rename_all = "snake_case")]
 enum Body<'a> {
     /// All of it.
-    Whole { plan: &'a Plan, nodes: Vec<Node>, edges: Vec<Edge>, moved: Vec<Vec<(Resource, Moved)>>, graph: Drawn },
+    Whole {
+        plan: &'a Plan,
+        nodes: Vec<Node>,
+        edges: Vec<Edge>,
+        moved: Vec<Vec<(Resource, Moved)>>,
+        on_chip: Vec<Vec<(ImageId, u64)>>,
+        graph: Drawn,
+    },
     /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
     Summary { steps: usize, most: usize },
 }
@@ -193,7 +200,8 @@ fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
         layout: layout(&graph),
     };
     let moved = plan.steps.iter().map(|step| moved(plan, step)).collect();
-    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, graph: drawn };
+    let on_chip = plan.steps.iter().map(|step| plan.on_chip_of_each(step)).collect();
+    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip, graph: drawn };
     data
 }
 

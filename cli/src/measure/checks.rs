@@ -67,7 +67,7 @@ fn output(pipeline: &mut Loaded, choice: &Choice) -> Option<(String, [usize; 2])
     let set: Vec<(String, String)> = pipeline.set.iter().cloned().chain(choice.settings()).collect();
     let inputs = inputs(&set, Stereo::Off, view, None);
     let sources = Arc::clone(&pipeline.sources);
-    let frame = expand::expand(&pipeline.pipeline, sources, &inputs, &mut pipeline.shaders).ok()?;
+    let frame = expand::expand(&pipeline.pipeline, sources, &inputs, &mut pipeline.assets.shaders).ok()?;
     let Resource::Image(image) = frame.outputs.first()?.resource else { return None };
     let image = frame.images.get(image.0 as usize)?;
     let [width, height, _] = image.extent.map(|side| side as usize);

@@ -95,7 +95,7 @@ impl Bench<'_> {
         let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
         let scene = choice.scene.still_at(frame);
         let planned = self.planned(choice, &scene, &more)?;
-        let texts: Vec<String> = settings(&planned).into_iter().flat_map(|(name, value)| [name, value]).collect();
+        let texts: Vec<String> = settings(&planned.plan).into_iter().flat_map(|(name, value)| [name, value]).collect();
         let summary = self.device.summary();
         let frame = if choice.scene.moving.moves() { frame } else { 0 };
         let rest = [
@@ -115,9 +115,9 @@ impl Bench<'_> {
     pub(super) fn flicker(&mut self, choice: &Choice, frames: u32) -> Result<Option<Flicker>, Error> {
         let moving = &choice.scene.moving;
         let planned = self.planned(choice, moving, &[])?;
-        let Some(request) = pictures::of_first_output(&planned) else { return Ok(None) };
+        let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
         let options = ExecutorOptions::default();
-        let mut drawn = Prepared::new(&self.device, &planned, &mut self.pipeline, moving, choice.size, &options)?;
+        let mut drawn = Prepared::new(&self.device, planned.parts(), &mut self.pipeline.assets, moving, &options)?;
         let mut changes = Changes::default();
         for frame in 0..frames {
             if interrupt::asked() {

@@ -16,10 +16,10 @@ pub(super) fn of(pipeline: &Loaded) -> String {
         .flat_map(|file| {
             // A sky without a word is drawn by the shader of that name.
             let names = Mentions::of_text(&file.text).strings().chain(["sky"]).collect::<Vec<_>>();
-            names.into_iter().flat_map(|name| pipeline.shaders.own_texts(&file.path, name)).collect::<Vec<_>>()
+            names.into_iter().flat_map(|name| pipeline.assets.shaders.own_texts(&file.path, name)).collect::<Vec<_>>()
         })
         .collect();
-    let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.textures.bytes(path).ok());
+    let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.assets.textures.bytes(path).ok());
     let parts: Vec<Vec<u8>> = texts.chain(shaders.into_iter().map(String::into_bytes)).chain(pictures).collect();
     Digest::of_bytes(parts.iter().map(|part| &**part))
 }

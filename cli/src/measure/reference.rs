@@ -47,14 +47,8 @@ pub(super) fn draw(
         let planned = planned(pipeline, frames)?;
         // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
         let shifts = Jitter::halton(frames, extent);
-        mean(
-            device,
-            &planned,
-            pipeline,
-            (scene, size),
-            (&shifts, converging.before(frames), frames),
-            converging.is_light,
-        )
+        let number = (converging.before(frames), frames);
+        mean(device, &planned, pipeline, scene, (&shifts, number), converging.is_light)
     };
     let Some(picture) = mean(all)? else { return Ok(None) };
     Ok(mean(all / 2)?.map(|of_half| Drawn { picture, of_half }))
@@ -66,12 +60,13 @@ fn mean(
     device: &Device,
     planned: &Planned,
     pipeline: &mut Loaded,
-    (scene, size): (&Scene, Size),
-    (shifts, before, frames): (&Jitter, u16, u16),
+    scene: &Scene,
+    (shifts, (before, frames)): (&Jitter, (u16, u16)),
     is_light: bool,
 ) -> Result<Option<Light>, Error> {
-    let Some(request) = pictures::of_first_output(planned) else { return Ok(None) };
-    let mut prepared = Prepared::new(device, planned, pipeline, scene, size, &ExecutorOptions::default())?;
+    let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
+    let mut prepared =
+        Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &ExecutorOptions::default())?;
     prepared.source.set_jitter(shifts)?;
     let mut sum: Option<Sum> = None;
     for frame in 0..before + frames {

@@ -17,6 +17,7 @@ use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
+use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
@@ -73,7 +74,7 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     }
     outputs::make_folder(&arguments.output)?;
     interrupt::watch();
-    let helper = Some(pipeline.helper.clone());
+    let helper = Some(pipeline.assets.helper.clone());
     let device = Device::open(&DeviceOptions { choice: chosen, validation: false, helper })?;
     device.cancel_when(interrupt::asked);
     let set = pipeline.set.clone();
@@ -130,7 +131,7 @@ impl Bench<'_> {
     /// The results that the folder holds already, or none yet.
     fn begun(&mut self, baseline: &Choice) -> Result<Results, Error> {
         let planned = self.planned(baseline, &baseline.scene.scene, &[])?;
-        let mut of_baseline = settings(&planned);
+        let mut of_baseline = settings(&planned.plan);
         of_baseline.extend([
             (subjects::SCENE.to_owned(), baseline.scene.digest.clone()),
             (subjects::SIZE.to_owned(), baseline.size.to_string()),
@@ -173,7 +174,7 @@ impl Bench<'_> {
         let view = View { facts, size: choice.size, rotation: Rotation::Identity, dump: &[] };
         let (profile, mut memory) = (self.device.profile(), self.device.memory());
         let planned = self.pipeline.plan(view, &profile, &mut memory, &Options::default())?;
-        diagnostics::cameras(&planned.frame, scene)?;
+        diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
         Ok(planned)
     }
 
@@ -193,8 +194,8 @@ impl Bench<'_> {
         let mut prepared = Vec::with_capacity(all.len());
         for (choice, planned) in all.iter().zip(&plans) {
             let ready = planned.as_ref().map_err(Clone::clone).map(|planned| {
-                let (scene, size) = (&choice.scene.scene, choice.size);
-                Prepared::new(&self.device, planned, &mut self.pipeline, scene, size, &options)
+                let assets = &mut self.pipeline.assets;
+                Prepared::new(&self.device, planned.parts(), assets, &choice.scene.scene, &options)
             });
             prepared.push(match ready {
                 Ok(ready) => kept(ready)?,
@@ -227,7 +228,7 @@ impl Bench<'_> {
                 Ok(mut drawn) => {
                     let measured = self.measured(choice, &mut drawn, frames, of_baseline)?;
                     let outcome = Outcome::Measured(Box::new(measured));
-                    (settings(drawn.planned), drawn.planned.plan.stereo, outcome)
+                    (settings(drawn.plan), drawn.plan.stereo, outcome)
                 }
                 Err(why) => {
                     let settings = all_settings.iter().filter(|(name, _)| !name.starts_with('@'));
@@ -259,7 +260,7 @@ impl Bench<'_> {
     ) -> Result<Measured, Error> {
         let over = |time: &dyn Fn(&FrameReport) -> f64| spread(frames.iter().map(time).collect());
         let ratios = frames.iter().zip(of_baseline).filter(|(_, baseline)| baseline.milliseconds > 0.0);
-        let plan = &drawn.planned.plan;
+        let plan = drawn.plan;
         let by_frame: Vec<Vec<timings::Row>> =
             frames.iter().map(|frame| timings::rows(plan, std::slice::from_ref(frame))).collect();
         let pass = |(at, row): (usize, &timings::Row)| PassCost {
@@ -286,7 +287,7 @@ impl Bench<'_> {
             flicker: None,
             flicker_map: None,
         };
-        let Some(request) = pictures::of_first_output(drawn.planned) else { return Ok(measured) };
+        let Some(request) = pictures::of_first_output(plan) else { return Ok(measured) };
         let picture = request.encode(&mut drawn.executor, plan)?;
         let name = |folder: &str, ending: &str| format!("{folder}/{}.{ending}", choice.key());
         let ending = picture.path.extension().map_or("png", |ending| if ending == "exr" { "exr" } else { "png" });
@@ -341,7 +342,7 @@ fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
     }
 }
 
-/// All settings of a planned frame.
-pub(super) fn settings(planned: &Planned) -> BTreeMap<String, String> {
-    planned.plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
+/// All settings of a Plan.
+pub(super) fn settings(plan: &Plan) -> BTreeMap<String, String> {
+    plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
 }

@@ -5,9 +5,9 @@ use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole, PipelineFile};
 use crate::files::shipped;
-use crate::planning::helper;
+use crate::planning::Assets;
 use crate::system::Exit;
-use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Root, Sources};
+use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
 use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Inputs};
@@ -16,12 +16,8 @@ use framewright_graph::language::{self, Document, Facts, Files, Found, PipelineF
 use framewright_graph::plan::Plan;
 use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
-use framewright_passes::draw;
-use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
-use framewright_vulkan::{Helper, ShaderLibrary};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
@@ -29,12 +25,8 @@ pub(crate) struct Loaded {
     pub(crate) pipeline: Document,
     /// The texts that it was read from.
     pub(crate) sources: Arc<Sources>,
-    /// Shaders beside the pipeline file, then shipped ones.
-    pub(crate) shaders: ShaderLibrary,
-    /// The process that compiles them.
-    pub(crate) helper: Helper,
-    /// Pictures beside the pipeline file.
-    pub(crate) textures: TextureFiles,
+    /// Shaders and pictures beside the pipeline file, and shipped shaders.
+    pub(crate) assets: Assets,
     /// The paths of those that the pipeline names.
     pub(crate) pictures: BTreeSet<Arc<str>>,
     /// Settings that the user chose, and their values, of which the last counts.
@@ -49,6 +41,13 @@ pub(crate) struct Planned {
     pub(crate) frame: Frame,
     /// Its Plan, verified.
     pub(crate) plan: Plan,
+}
+
+impl Planned {
+    /// The Plan, with the frame that it was made of.
+    pub(crate) fn parts(&self) -> (&Plan, Option<&Frame>) {
+        (&self.plan, Some(&self.frame))
+    }
 }
 
 /// The inputs of a frame besides its pipeline and settings.
@@ -106,17 +105,16 @@ pub(crate) fn load_with(
 ) -> Result<Loaded, Error> {
     let PipelineFile { shown, path, root, bytes } = inputs::pipeline(arguments, read)?;
     let mut sources = Sources::default();
-    let recorded = |what| root.clone().map(|root| root.recorded(read, what));
-    let mut files = match (recorded("a fragment of the pipeline"), &path) {
+    let fragments = root.clone().map(|root| root.recorded(read, "a fragment of the pipeline"));
+    let mut files = match (fragments, &path) {
         (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root, name, shipped::PIPELINES),
         (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root, shipped::PIPELINES),
         (None, _) => PipelineFiles::shipped(shipped::PIPELINES),
     };
     let extensions = arguments.extend.iter().map(|path| inputs::extension(path, &mut files, read));
     let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
-    let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
-    let mut named =
-        NamedFiles { files, textures: TextureFiles::new(textures), pictures: BTreeSet::new(), denied: false };
+    let Assets { shaders, helper, textures } = Assets::of(root.as_ref(), arguments, helper, read)?;
+    let mut named = NamedFiles { files, textures, pictures: BTreeSet::new(), denied: false };
     let own = Found { shown, relative: path, bytes };
     let mut pipeline = language::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
@@ -126,11 +124,8 @@ pub(crate) fn load_with(
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),
-        textures: named.textures,
+        assets: Assets { shaders, helper, textures: named.textures },
         pictures: named.pictures,
-        shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draw::interface)
-            .with_helper(&helper),
-        helper,
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         stereo: arguments.stereo.clone(),
     })
@@ -198,7 +193,7 @@ impl Loaded {
         self.check_command_line(view)?;
         let stereo = Stereo::first_fit(&self.stereo.0, device).map_err(|why| Error::Stereo { why })?;
         let inputs = inputs(&self.set, stereo, view, Some(device));
-        expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
+        expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.assets.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
     }
 

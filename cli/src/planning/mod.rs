@@ -1,10 +1,13 @@
 //! From a pipeline file to its verified Plan: what `check`, `inspect` and `run` share.
 
+mod assets;
 pub(crate) mod device;
 pub(crate) mod helper;
 mod loaded;
 pub(crate) mod notes;
 mod other_devices;
+pub(crate) mod plan_file;
 pub(crate) mod totals;
 
+pub(crate) use assets::Assets;
 pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with};

@@ -63,6 +63,8 @@ pub(crate) fn start(
         .route("/state/{after}", get(state))
         .route("/picture/{*name}", get(picture))
         .route("/choose", post(choose))
+        // Browsers ask for an icon, and complain where there is no answer.
+        .route("/favicon.ico", get(StatusCode::NO_CONTENT))
         .layer(DefaultBodyLimit::max(LARGEST_CHOICE))
         .layer(from_fn_with_state(shared.clone(), own_pages_alone))
         .with_state(shared);

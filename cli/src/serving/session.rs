@@ -209,7 +209,7 @@ fn drawn(
         View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let (options, profile) = (arguments.planning.options(), device.profile());
     let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
-    diagnostics::cameras(&planned.frame, scene)?;
+    diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
     let mut files = BTreeMap::new();
     let mut kept = |name: String, png: Vec<u8>| {
         files.insert(format!("{version}/{name}"), png.into());
@@ -222,8 +222,8 @@ fn drawn(
     }
     let mut thumbnails: Vec<Thumbnail> = Vec::new();
     if arguments.capture {
-        let (planned, size, frames) = (&planned, arguments.size, arguments.frames);
-        captures::draw(Drawing { device, pipeline, planned, scene, size, options, frames }, |captured| {
+        let (made, frames) = (planned.parts(), arguments.frames);
+        captures::draw(Drawing { device, pipeline, made, scene, options, frames }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
             thumbnails.push(captured.thumbnail(address));
             Ok(())
@@ -255,14 +255,14 @@ fn output_pictures(
     planned: &Planned,
 ) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
-    let mut prepared = Prepared::new(device, planned, pipeline, scene, arguments.size, &options)?;
+    let mut prepared = Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
         prepared.draw()?;
     }
-    let requests = pictures::of_all_outputs(planned);
+    let requests = pictures::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
         let (png, _) = request.encoded(&mut prepared.executor, &planned.plan)?;
         Ok((request.name().to_owned(), png))

@@ -38,6 +38,7 @@ fn hash(plan: &Plan, steps: &[Step]) -> u64 {
         settings: _,
         changes: _,
         decided: _,
+        extent,
         stereo,
         views,
         images,
@@ -49,7 +50,7 @@ fn hash(plan: &Plan, steps: &[Step]) -> u64 {
         totals,
     } = plan;
     let DeviceUsed { name: _, exact_memory } = device;
-    let counted = (exact_memory, stereo, views, images, buffers, heaps, steps, outputs, notes, totals);
+    let counted = (exact_memory, extent, stereo, views, images, buffers, heaps, steps, outputs, notes, totals);
     let mut hasher = DefaultHasher::new();
     // Lists of unknown length alone can't be serialised, and a Plan has none.
     postcard::to_stdvec(&counted).unwrap_or_default().hash(&mut hasher);

@@ -75,7 +75,7 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let budget = budget::read(arguments.budget.as_deref(), &mut loaded)?;
     let view = View::at(arguments.size, arguments.planning.rotate);
     loaded.check_command_line(view)?;
-    let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
+    let Loaded { pipeline, sources, assets, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
     let axes = Axes::of(&pipeline, &sources, &set, &names);
     let sizes = axes.sizes();
@@ -94,7 +94,7 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
 
-    let library = Mutex::new(shaders);
+    let library = Mutex::new(assets.shaders);
     let decisions = SharedDecisions::of(subject.devices.len());
     let threads = arguments.threads.map_or_else(processors, usize::from);
     let words = Words { doing: "checking", done: "checked", things: "variants" };

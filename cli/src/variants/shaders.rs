@@ -60,4 +60,8 @@ impl ShaderInterfaces for SharedShaders<'_> {
     fn brought_along(&self, draw: Draw) -> DrawInterface {
         self.library.lock().unwrap_or_else(PoisonError::into_inner).brought_along(draw)
     }
+
+    fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
+        self.library.lock().unwrap_or_else(PoisonError::into_inner).custom_passes()
+    }
 }

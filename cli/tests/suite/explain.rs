@@ -37,6 +37,16 @@ fn a_pass_an_image_a_resolve_a_barrier_an_allocation_and_a_queue_are_explained()
     );
     told(
         &place,
+        &["first.ron", "color", "--device", "mali-g78"],
+        &["it is never loaded nor stored: the device draws in tiles, and keeps its 28.1 MiB on the chip"],
+    );
+    told(
+        &place,
+        &["first.ron", "sky", "--device", "mali-g78"],
+        &["its step keeps 42.2 MiB on the chip, neither loaded nor stored"],
+    );
+    told(
+        &place,
         &["first.ron", "color", "--set", "msaa=1"],
         &["it is no transient attachment: `tone_map` needs it in memory"],
     );

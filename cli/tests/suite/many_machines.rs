@@ -2,44 +2,18 @@
 //! choices of the whole sweep (NU-1).
 #![cfg(unix)]
 
-use crate::testing::{Outcome, Place, Vulkan, outcome, repository};
-use saphyr::{LoadableYamlNode, Yaml};
+use crate::testing::shell::{documents, shell, step, text};
+use crate::testing::{Place, Vulkan, repository};
 use serde_json::Value;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::path::PathBuf;
 
 /// The sweep of the scripts, so small that a test can measure it.
 const SMALL: [&str; 2] = ["--size 640x360", "--size 16x9 --frames 1 --reference none"];
 const SWEEP: &str = "image_quality --scene spheres_and_cubes --size 640x360 --sweep msaa=1,4 --sweep blur=0,1,2";
 
-type Variables<'v> = [(&'v str, &'v str)];
-
-/// A shell of a machine with lavapipe and the command.
-fn shell(place: &Place, program: &str, arguments: &[&str], variables: &Variables<'_>) -> Outcome {
-    let command = Path::new(env!("CARGO_BIN_EXE_framewright")).parent().expect("its folder");
-    let path = format!("{}:{}", command.display(), std::env::var("PATH").expect("PATH"));
-    let mut shell = Command::new(program);
-    shell.args(arguments).current_dir(place.path("")).stdin(Stdio::null()).env("PATH", path);
-    for (name, _) in std::env::vars_os() {
-        if ["VK_", "SLURM_", "JOB_"].iter().any(|begin| name.to_string_lossy().starts_with(begin)) {
-            shell.env_remove(name);
-        }
-    }
-    shell.envs(Vulkan::LAVAPIPE.variables().expect("lavapipe")).envs(variables.iter().copied());
-    outcome(&mut shell)
-}
-
-fn script(name: &str) -> String {
-    std::fs::read_to_string(repository("examples/sweeps").join(name)).expect("a script")
-}
-
-fn documents(name: &str) -> Vec<Yaml<'static>> {
-    // Parsed texts live as long as the test.
-    Yaml::load_from_str(script(name).leak()).expect("YAML")
-}
-
-fn text<'y>(yaml: &'y Yaml<'_>) -> &'y str {
-    yaml.as_str().unwrap_or_else(|| panic!("{yaml:?} is no text"))
+/// A file of the scripts.
+fn script(name: &str) -> PathBuf {
+    repository("examples/sweeps").join(name)
 }
 
 /// Choices and surroundings of all rows, sorted.
@@ -79,8 +53,7 @@ fn the_tasks_of_a_slurm_array_together_measure_the_sweep() {
         return;
     }
     let place = Place::new();
-    let [slurm, join] =
-        ["slurm.sh", "join.sh"].map(|name| repository("examples/sweeps").join(name).display().to_string());
+    let [slurm, join] = ["slurm.sh", "join.sh"].map(|name| script(name).display().to_string());
     let sweep = small(SWEEP);
     let arguments: Vec<&str> = std::iter::once(&*slurm).chain(sweep.split(' ')).collect();
     // An array that doesn't begin at 1: its tasks are 3, 4, 5 and 6.
@@ -103,7 +76,7 @@ fn the_pods_of_an_indexed_job_together_measure_the_sweep() {
         return;
     }
     let place = Place::new();
-    let jobs = documents("kubernetes.yaml");
+    let jobs = documents(&script("kubernetes.yaml"));
     let [measure, join] = &jobs[..] else { panic!("{} documents", jobs.len()) };
     for job in [measure, join] {
         assert_eq!((text(&job["apiVersion"]), text(&job["kind"])), ("batch/v1", "Job"));
@@ -137,16 +110,11 @@ fn the_jobs_of_a_ci_matrix_together_measure_the_sweep() {
         return;
     }
     let place = Place::new();
-    let workflow = documents("github_actions.yml").remove(0);
+    let workflow = documents(&script("github_actions.yml")).remove(0);
     let jobs = &workflow["jobs"];
-    let step = |job: &str, name: &str| {
-        let mut steps = jobs[job]["steps"].as_sequence().expect("steps").iter();
-        let found = steps.find(|step| step.as_mapping_get("name").is_some_and(|own| text(own) == name));
-        found.unwrap_or_else(|| panic!("no step `{name}`")).clone()
-    };
     assert_eq!(text(&jobs["join"]["needs"]), "measure");
     let parts = jobs["measure"]["strategy"]["matrix"]["part"].as_sequence().expect("a list");
-    let (measure, count) = (step("measure", "measure"), parts.len().to_string());
+    let (measure, count) = (step(&workflow, "measure", "measure"), parts.len().to_string());
     let sweep = small(text(&workflow["env"]["MEASURE"]));
     for part in parts {
         let part = part.as_integer().expect("a number").to_string();
@@ -161,6 +129,6 @@ fn the_jobs_of_a_ci_matrix_together_measure_the_sweep() {
         let variables = [("MEASURE", &*sweep), ("PART", &own), ("PARTS", &all)];
         shell(&place, "bash", &["-e", "-c", text(&measure["run"])], &variables).exits(0);
     }
-    shell(&place, "bash", &["-e", "-c", text(&step("join", "join")["run"])], &[]).exits(0);
+    shell(&place, "bash", &["-e", "-c", text(&step(&workflow, "join", "join")["run"])], &[]).exits(0);
     are_those_of_one_machine(&place);
 }

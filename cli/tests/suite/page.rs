@@ -18,7 +18,7 @@ fn list<'v>(value: &'v Value, name: &str) -> &'v Vec<Value> {
 }
 
 /// Work in a Plan: passes, resolves that scopes carry, and transfers.
-fn nodes(plan: &Value) -> usize {
+pub(crate) fn nodes(plan: &Value) -> usize {
     let of = |step: &Value| match &step["work"] {
         Value::String(_) => 0,
         work if work.get("render").is_some() => {
@@ -84,6 +84,23 @@ fn every_view_of_every_shipped_pipeline_shows_what_its_plan_says() {
             assert_eq!(browser.count(lines), expected, "{about}: barriers");
             browser.has_no_errors();
         }
+    }
+}
+
+#[test]
+fn the_cost_view_says_what_stays_on_the_chip_of_a_device_that_draws_in_tiles() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    for (device, stays) in [("mali-g78", true), ("amd-rx-7800-xt", false)] {
+        let (_, page) = plan_and_page(&place, &["first.ron", "--device", device]);
+        browser.open_file(&page, "#view=cost");
+        let shown = browser.text("document.querySelector('#view-cost').innerText");
+        // 1280 × 720 texels of 4 samples: 8 bytes of colour, 4 of depth.
+        assert_eq!(shown.contains("keeps 42.2 MiB on the chip: color, depth are neither"), stays, "{device}: {shown}");
+        let cells = "[...document.querySelectorAll('#view-cost tbody tr')].map((row) => row.cells.length > 8 ? row.cells[8].innerText : '').join()";
+        assert_eq!(browser.text(cells), if stays { "42.2 MiB,0 B" } else { "," }, "{device}");
+        browser.has_no_errors();
     }
 }
 

@@ -124,7 +124,7 @@ fn scenes_shaders_and_files_that_were_missing_are_watched_too() {
         assert_ne!(picture(&server, &later), before, "{what}");
         state = later;
     };
-    changes(&|| edit(&place, "scene.ron", "base_color: (", "base_color: (0.01 + "), "a scene");
+    changes(&|| edit(&place, "scene.ron", "\"coral\", color: \"#dd5a3c\"", "\"coral\", color: \"#3cdd5a\""), "a scene");
     let inverted = "#version 450\nlayout(set = 0, binding = 0) uniform sampler2D source;\nlayout(location = 0) in vec2 uv;\n\
         layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0) - texture(source, uv); }\n";
     changes(&|| drop(place.file("reinhard.frag", inverted)), "a shader that stands before the shipped one");

@@ -21,7 +21,7 @@ fn a_custom_pass_is_planned_and_not_run() {
     for (passes, said) in [
         (
             "(name: \"mine\", custom: \"panel\", color: [(image: \"screen\", clear: (0.0, 0.0, 0.0, 1.0))])",
-            "error: a scene doesn't draw `panel`, which pass `mine` asks for",
+            "error: nobody records `panel`, which the custom pass `mine` asks for",
         ),
         (
             "(name: \"mine\", custom: \"panel\", writes: [\"screen\"])",

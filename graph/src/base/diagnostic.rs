@@ -45,6 +45,8 @@ pub enum OutsideChoice {
     ShaderMemory,
     /// How much stack compiling a stage of a shader may take.
     ShaderStack,
+    /// The interfaces of the draw source.
+    DrawInterfaces,
 }
 
 /// A place with a remark.

@@ -193,6 +193,14 @@ impl Adapted {
         ImageDescriptor { extent, layers, ..*image }
     }
 
+    /// Bytes of a buffer, or of a part of an image as far as it is in use, for both eyes if it holds both.
+    pub(super) fn bytes(&self, resource: PhysicalIndex, part: Subresources) -> u64 {
+        match &self.resources[resource as usize].kind {
+            Kind::Buffer(buffer) => buffer.bytes,
+            Kind::Image(image) => image.bytes(part).saturating_mul(EyeForm::parts(self.eyes(resource))),
+        }
+    }
+
     /// The uses of operation number `op`.
     pub(super) fn uses(&self, op: u32) -> &[Use] {
         let Range { start, end } = self.ops[op as usize].uses;

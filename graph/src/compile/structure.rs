@@ -8,7 +8,7 @@ use super::parts::Grids;
 use super::queues::{self, Assigned};
 use super::retain::{self, LoadStoreOps};
 use super::schedule::{self, Scheduled};
-use super::scope::{self, Scoped};
+use super::scope::{self, Scoped, Step};
 use super::sync::{self, AccessTimeline, Barriers, SubresourceBarrier};
 use super::{adapt, fit, usage};
 use crate::base::Diagnostic;
@@ -20,8 +20,10 @@ use crate::plan::Note;
 #[derive(Debug)]
 pub(super) struct Structure {
     pub(super) live: Live,
-    /// Notes of the stages from `fit` on, in their order.
+    /// Notes of the stages from `fit` on, in their order, without those about queues.
     pub(super) notes: Vec<Note>,
+    /// Why passes run on their queues, the last notes of all.
+    pub(super) queue_notes: Vec<Note>,
     pub(super) adapted: Adapted,
     /// Uses as `adapt` left them, if the order can be found again only from those.
     uses: Vec<Use>,
@@ -90,21 +92,22 @@ impl Structure {
         let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
         let (scoped, adapted, of_scope) = scope::scope(frame, adapted, &scheduled.order, device);
-        let Assigned { scoped, queues, notes: of_queues, sharing } =
+        let Assigned { scoped, queues, notes: queue_notes, sharing } =
             queues::assign(frame, &adapted, scoped, device, options);
         let load_store = retain::retain(frame, &adapted, &scoped);
-        let timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
+        let mut timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes).map(|spans| {
             let order = memory::by_first_step(&adapted, &spans);
             (spans, order)
         });
         let by_first_step = memory::by_first_step(&adapted, &timeline.lifetimes);
-        let adapted = usage::finish(adapted, &sharing, &timeline, &load_store, &scoped, options);
+        let adapted = usage::finish(adapted, &sharing, &mut timeline, &load_store, &scoped, options);
         fit::check_support(frame, &adapted, &scoped, device)?;
-        let notes = [negotiated.notes, of_adapt, of_scope, of_queues].into_iter().flatten().collect();
+        let notes = [negotiated.notes, of_adapt, of_scope].into_iter().flatten().collect();
         Ok(Structure {
             live,
             notes,
+            queue_notes,
             adapted,
             uses,
             scheduled,
@@ -136,7 +139,23 @@ impl Structure {
         if as_adapted {
             std::mem::swap(&mut adapted.uses, uses);
         }
-        same_order
+        same_order && self.same_queues(frame, device, options)
+    }
+
+    /// Whether the same steps gain by leaving the graphics queue. Takes over the figures.
+    fn same_queues(&mut self, frame: &Frame, device: &Profile, options: &Options) -> bool {
+        if self.queue_notes.is_empty() {
+            return true;
+        }
+        let Structure { adapted, scoped, timeline, queue_notes, .. } = self;
+        // Queues are decided before layouts are joined.
+        timeline.swap_layouts(&mut adapted.uses);
+        let decision = queues::decide(frame, adapted, &scoped.steps, device, options);
+        timeline.swap_layouts(&mut adapted.uses);
+        *queue_notes = decision.notes;
+        let does_work = scoped.steps.iter().map(|step| *step != Step::BarriersOnly);
+        let mut decided = (0..).zip(&decision.queues).zip(does_work);
+        decided.all(|((at, queue), works)| !works || timeline.queues.queue(at) == *queue)
     }
 
     /// Runs the stages from `place` on. `barriers`: those of the timeline.

@@ -14,7 +14,7 @@ use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
 pub(super) fn finish(
     mut adapted: Adapted,
     sharing: &[(PhysicalIndex, Sharing)],
-    timeline: &AccessTimeline,
+    timeline: &mut AccessTimeline,
     load_store: &LoadStoreOps,
     scoped: &Scoped,
     options: &Options,
@@ -22,7 +22,7 @@ pub(super) fn finish(
     let usages = usages(&adapted, timeline, load_store, scoped, options);
     adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
     sharing.iter().for_each(|(resource, sharing)| adapted.resources[*resource as usize].set_sharing(*sharing));
-    timeline.layouts.iter().for_each(|(used, layout)| adapted.uses[*used as usize].layout = *layout);
+    timeline.swap_layouts(&mut adapted.uses);
     adapted
 }
 

@@ -1,7 +1,7 @@
 //! Images and buffers by their full descriptors, and the memory that they need.
 
 use super::sound;
-use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Usage, extent_at};
+use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Subresources, Usage, extent_at};
 use serde::{Deserialize, Serialize};
 
 /// The full descriptor of an image: compatibility, aliasing and caches compare all of it.
@@ -29,6 +29,16 @@ impl ImageDescriptor {
     /// Width, height and depth of a mip level in texels.
     pub(crate) fn extent_at(&self, mip: u32) -> [u32; 3] {
         extent_at(self.extent, mip)
+    }
+
+    /// Bytes of the texels of a part of it, all samples among them: what reading or writing that part moves.
+    pub(crate) fn bytes(&self, part: Subresources) -> u64 {
+        let texel = self.format.plane_bytes(part.aspects).unwrap_or_else(|| self.format.texel_bytes());
+        let mips = part.mips.min(self.mips.saturating_sub(part.base_mip));
+        let layers = part.layers.min(self.layers.saturating_sub(part.base_layer));
+        let texels = |mip| self.extent_at(mip).into_iter().map(u64::from).fold(1, u64::saturating_mul);
+        let texels = (part.base_mip..part.base_mip.saturating_add(mips)).map(texels).fold(0, u64::saturating_add);
+        [texel, layers.into(), self.samples.into()].into_iter().fold(texels, u64::saturating_mul)
     }
 }
 

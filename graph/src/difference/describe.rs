@@ -79,6 +79,8 @@ pub(super) fn describe(plan: &Plan) -> Vec<Description> {
         Description::new(Kind::Setting, code(name), vec![("value", Shown(value).to_string())])
     };
     let mut all: Vec<Description> = plan.settings.iter().map(|used| setting(&used.name, &used.value)).collect();
+    let [width, height] = plan.extent;
+    all.push(setting("size of the output", &format!("{width}×{height}")));
     if plan.stereo != Stereo::Off {
         all.push(setting("two eyes", plan.stereo.name()));
     }
@@ -189,9 +191,9 @@ fn view(view: &View) -> Description {
 }
 
 fn output(plan: &Plan, output: &Output) -> Description {
-    let mut fields = Vec::new();
+    let mut fields = vec![("is", code(plan.resource_name(output.resource)))];
     fields.extend(output.encoding.iter().map(|encoding| ("encoding", name_of(encoding))));
     fields.extend(output.encoded.iter().map(|place| ("encoded", Shown(place).to_string())));
     fields.extend(output.eye.iter().map(|eye| ("eye", eye.name().to_owned())));
-    Description::new(Kind::Output, code(plan.resource_name(output.resource)), fields)
+    Description::new(Kind::Output, code(&output.name), fields)
 }

@@ -138,6 +138,7 @@ fn expand_so(
                 sources,
                 settings,
                 changes,
+                extent: inputs.output_extent,
                 stereo,
                 views,
                 images,

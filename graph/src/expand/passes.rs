@@ -29,6 +29,7 @@ pub(super) fn lower(
         *shader = found.clone();
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
+    supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
         supplied::check(shaders, pass, (path, interface), errors);
@@ -59,7 +60,7 @@ pub(super) fn draft(
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
-    let raster = !pass.color.is_empty() || pass.depth.is_some();
+    let raster = work::is_drawn(pass);
     let mut lowered = Pass {
         name: pass.name.text.clone(),
         span: pass.name.span,

@@ -39,6 +39,10 @@ impl<'s> Checked<'s> {
     /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.
     pub(super) fn find(&mut self, pass: &language::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
         let (shader, draw) = named(pass)?;
+        // The program knows its draws by the name as it is written.
+        if draw == Some(Draw::Custom) {
+            return Some(shader.text.clone());
+        }
         let from = shader.span.file().and_then(|file| self.sources.file(file)).map(|file| &file.path);
         let found = self.shaders.find(from.unwrap_or(&self.nowhere), &shader.text, draw);
         self.known(shader, &shader.text, found, errors)
@@ -69,6 +73,10 @@ impl<'s> Checked<'s> {
             Some(draw) => self.shaders.draw_shader(path, draw, variant),
             None => self.shaders.compute_shader(path, variant),
         };
+        // The program draws with a pipeline of its own then.
+        if draw == Some(Draw::Custom) && matches!(found, Err(ShaderProblem::Missing { .. })) {
+            return None;
+        }
         self.known(shader, path, found, errors)
     }
 
@@ -110,6 +118,11 @@ impl<'s> Checked<'s> {
         let first = self.seen.insert((path.clone(), draw));
         first.then(|| draw.map_or_else(DrawInterface::default, |draw| self.shaders.brought_along(draw)))
     }
+
+    /// As [`ShaderInterfaces::custom_passes`].
+    pub(super) fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
+        self.shaders.custom_passes()
+    }
 }
 
 /// The shader that a pass names, and the draw; a draw of `None`: it is a compute shader.
@@ -117,6 +130,7 @@ fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
     match &pass.work {
         Work::Draw { shader, draw } => Some((shader, Some(work::draw(draw)))),
         Work::Dispatch { shader, .. } => Some((shader, None)),
+        Work::Custom { callback, .. } if work::is_drawn(pass) => Some((callback, Some(Draw::Custom))),
         Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
     }
 }

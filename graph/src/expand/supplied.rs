@@ -1,11 +1,10 @@
 //! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
 
 use super::shader::Checked;
-use crate::base::{Diagnostic, suggestion};
+use crate::base::{Diagnostic, OutsideChoice, suggestion};
 use crate::language::{self, Draw, Work};
 use crate::ron::Name;
-use crate::shader::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
-use crate::vulkan::{Component, Dimension, ImageShape};
+use crate::shader::{Binding, DrawInterface, PASS_SET, ShaderInterface, Supplied};
 use std::sync::Arc;
 
 /// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
@@ -51,12 +50,13 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
     let Name { text: shader, span } = shader;
     for input in &interface.vertex_inputs {
         let (name, ty) = (&input.name, &input.ty);
-        if !brought.attributes.iter().any(|attribute| attribute.name == name) {
+        if !brought.attributes.iter().any(|attribute| attribute.name == **name) {
             let message = format!("shader `{shader}` reads the vertex attribute `{name}`, which doesn't exist");
-            let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| attribute.name)))
+            let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)))
                 .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
-            errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
-        } else if !matches!(&**ty, "float" | "vec2" | "vec3" | "vec4") {
+            let unknown = Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+            errors.push(Diagnostic { help, ..unknown });
+        } else if !input.is_float() {
             let message = format!("shader `{shader}` reads the vertex attribute `{name}` as `{ty}`");
             let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`";
             errors.push(Diagnostic::new(*span, message).help(help));
@@ -72,9 +72,9 @@ fn in_the_shader(help: Option<String>) -> Option<String> {
 fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mut Vec<Diagnostic>) {
     let (Name { text: shader, span }, name) = (shader, &binding.name);
     let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
-    let here = |message: String| Diagnostic::new(*span, message);
-    let Some(there) = supplied.iter().find(|there| there.name == name) else {
-        let help = in_the_shader(suggestion(name, supplied.iter().map(|there| there.name)))
+    let here = |message: String| Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+    let Some(there) = supplied.iter().find(|there| there.name == **name) else {
+        let help = in_the_shader(suggestion(name, supplied.iter().map(|there| &*there.name)))
             .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
         let unknown = here(format!("{wanted}, which the draw source doesn't bring along"));
         errors.push(Diagnostic { help, ..unknown });
@@ -86,22 +86,19 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mu
             here(message)
                 .help(format!("in the shader: write `layout(set = {}, binding = {})`", there.set, there.binding)),
         );
-        return;
+    } else if !there.is(binding) {
+        errors.push(here(format!("{wanted} as something else than it is: {}", there.kind.words())));
     }
-    let plain =
-        ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
-    let (fits, what) = match there.kind {
-        SuppliedKind::UniformBlock => (matches!(binding.kind, BindingKind::UniformBlock(_)), "a uniform block"),
-        SuppliedKind::StorageBlock => (
-            matches!(binding.kind, BindingKind::StorageBlock { writable: false, .. }),
-            "a storage block that is only read (`readonly buffer`)",
-        ),
-        SuppliedKind::SampledImage => (
-            matches!(binding.kind, BindingKind::SampledImage(shape) if shape == plain),
-            "a two-dimensional floating-point image (`sampler2D`)",
-        ),
-    };
-    if !fits {
-        errors.push(here(format!("{wanted} as something else than it is: {what}")));
+}
+
+/// Reports a custom pass that the program doesn't record.
+pub(super) fn custom(shaders: &Checked<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    let Work::Custom { callback: Name { text, span }, .. } = &pass.work else { return };
+    let Some(known) = shaders.custom_passes() else { return };
+    if !known.contains(text) {
+        let message = format!("nobody records `{text}`, which the custom pass `{}` asks for", pass.name.text);
+        let help = suggestion(text, known.iter().map(|known| &**known))
+            .or_else(|| Some("the program that draws the pipeline records no custom passes".to_owned()));
+        errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
     }
 }

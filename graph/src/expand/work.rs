@@ -21,6 +21,11 @@ pub(super) fn draw(draw: &language::Draw) -> Draw {
     }
 }
 
+/// Whether the pass draws into images: a custom pass is recorded within a rendering scope then.
+pub(super) fn is_drawn(pass: &language::Pass) -> bool {
+    !pass.color.is_empty() || pass.depth.is_some()
+}
+
 /// The work of the pass. After a mistake it is something like it.
 pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface: Option<&ShaderInterface>) -> Work {
     let drawn = |draw, shader: &Name| Work::Draw {
@@ -52,9 +57,7 @@ pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface:
             };
             Work::Fill { value: fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4])) }
         }
-        language::Work::Custom { callback, .. } if !pass.color.is_empty() || pass.depth.is_some() => {
-            drawn(Draw::Custom, callback)
-        }
+        language::Work::Custom { callback, .. } if is_drawn(pass) => drawn(Draw::Custom, callback),
         language::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },
     }
 }

@@ -50,6 +50,8 @@ pub struct Frame {
     pub settings: Vec<(Arc<str>, String)>,
     /// Changes that files made to the pipeline that they extend, in their order.
     pub changes: Vec<Change>,
+    /// Width and height of the output that was asked for.
+    pub extent: [u32; 2],
     /// How the frame is drawn for two eyes, by passes whose targets hold both eyes' parts.
     pub stereo: Stereo,
     /// The views, the main one first. None: one that is the scene's default camera's.

@@ -253,6 +253,14 @@ pub enum DrawList {
     Transparent,
 }
 
+impl DrawList {
+    /// All lists, by name.
+    pub const NAMED: [(&'static str, DrawList); 3] =
+        [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
+    /// Those of objects that light doesn't go through, by name.
+    pub const CASTERS: [(&'static str, DrawList); 2] = [DrawList::NAMED[0], DrawList::NAMED[1]];
+}
+
 /// A value for a shader parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]

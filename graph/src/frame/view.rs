@@ -150,6 +150,14 @@ pub enum EyeForm {
 }
 
 impl EyeForm {
+    /// How many eyes' parts an image holds.
+    pub(crate) const fn parts(form: Option<EyeForm>) -> u64 {
+        match form {
+            Some(EyeForm::Layers | EyeForm::Halves) => 2,
+            None => 1,
+        }
+    }
+
     /// Array layers that an image is made with.
     #[must_use]
     pub const fn layers(form: Option<EyeForm>, layers: u32) -> u32 {

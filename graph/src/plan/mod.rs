@@ -39,6 +39,7 @@ mod json;
 mod moved;
 pub(crate) mod names;
 mod note;
+mod on_chip;
 mod output;
 mod part;
 mod reason;
@@ -68,7 +69,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 10;
+pub const FORMAT_VERSION: u32 = 11;
 
 /// The work of a frame on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,6 +86,8 @@ pub struct Plan {
     /// The properties of images and passes that settings and facts decided, with their values. A subject may be one that the
     /// frame names and the Plan doesn't have: an image that became part of another one, or a pass that was culled.
     pub decided: Arc<[Decided]>,
+    /// Width and height of the output that was asked for. A Plan without views shows the scene with this ratio.
+    pub extent: [u32; 2],
     /// How the frame is drawn for two eyes, by scopes whose attachments hold both eyes' parts ([`Image::eyes`]).
     pub stereo: Stereo,
     /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this

@@ -1,8 +1,11 @@
 //! Bytes that a frame moves: what scopes load and store, and what resolves, copies, blits and fills read and write.
 //!
-//! Samples, clears and draws aren't part of it, nor is what a device compresses or keeps in its caches.
+//! Of an image whose size may change, the part in use counts. Samples, clears and draws aren't part of it, nor is what a device compresses
+//! or keeps in its caches.
 
-use super::{Attachment, ImageId, Plan, Resource, Side, Step, Transfer, Work};
+use super::{Attachment, Image, ImageId, Plan, Resource, Side, Step, Transfer, Work};
+use crate::device::ImageDescriptor;
+use crate::frame::EyeForm;
 use crate::vulkan::{LoadOp, StoreOp, Subresources};
 use serde::Serialize;
 use std::ops::Add;
@@ -98,17 +101,10 @@ impl Plan {
         }
     }
 
-    /// Bytes of a part of an image, all samples among them.
-    fn of_range(&self, image: ImageId, range: Subresources) -> u64 {
-        let image = self.image(image);
-        let [width, height, depth] = image.made();
-        let texel = image.format.plane_bytes(range.aspects).unwrap_or_else(|| image.format.texel_bytes());
-        let mips = range.mips.min(image.mips.saturating_sub(range.base_mip));
-        let layers = range.layers.min(image.made_layers().saturating_sub(range.base_layer));
-        let mip = |mip: u32| {
-            [width, height, depth].iter().map(|side| u64::from((side >> mip.min(31)).max(1))).product::<u64>()
-        };
-        let texels: u64 = (range.base_mip..range.base_mip.saturating_add(mips)).map(mip).sum();
-        texels.saturating_mul(texel).saturating_mul(u64::from(layers)).saturating_mul(image.samples.into())
+    /// Bytes of a part of an image, as far as it is in use, for both eyes if it holds both.
+    pub(super) fn of_range(&self, image: ImageId, range: Subresources) -> u64 {
+        let Image { format, shape, extent, mips, layers, samples, usage, sharing, eyes, .. } = *self.image(image);
+        let in_use = ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing };
+        in_use.bytes(range).saturating_mul(EyeForm::parts(eyes))
     }
 }

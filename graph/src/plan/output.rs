@@ -4,11 +4,15 @@ use super::Resource;
 use crate::frame::Eye;
 use crate::vulkan::Encoding;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// An image or a buffer that leaves the frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
+    /// The name of the pipeline's image or buffer, which only one output has. It may stand for another one: a resolved copy, or
+    /// what a pass that is off passes on.
+    pub name: Arc<str>,
     /// The image or buffer. It isn't transient.
     pub resource: Resource,
     /// The meaning of its numbers: declared, or implied by its format; `None`: unspecified.
@@ -19,9 +23,10 @@ pub struct Output {
     pub eye: Option<Eye>,
 }
 
-impl From<Resource> for Output {
+impl Output {
     /// An output without a stated encoding.
-    fn from(resource: Resource) -> Output {
-        Output { resource, encoding: None, encoded: None, eye: None }
+    #[must_use]
+    pub fn new(name: &str, resource: Resource) -> Output {
+        Output { name: name.into(), resource, encoding: None, encoded: None, eye: None }
     }
 }

@@ -17,6 +17,7 @@ impl Plan {
         let counts = [one.steps.len(), another.steps.len()];
         match () {
             () if one.device != another.device => Some("it is for another device".to_owned()),
+            () if one.extent != another.extent => Some("its output has another size".to_owned()),
             () if one.stereo != another.stereo => Some("it is drawn for two eyes in another way".to_owned()),
             () if one.views != another.views => Some("its views are others".to_owned()),
             () if one.images != another.images => Some("its images are others".to_owned()),

@@ -137,6 +137,23 @@ impl Reader {
         None
     }
 
+    /// One of a few words that stand alone, as the value that it means.
+    pub(crate) fn choice<T: Copy>(&mut self, leaf: Leaf<'_>, what: &str, choices: &[(&'static str, T)]) -> Option<T> {
+        if let Shape::Word(word, rest) = leaf.shape()
+            && let Some((known, value)) = choices.iter().find(|(choice, _)| *choice == word)
+        {
+            return self.bare(known, rest).map(|()| *value);
+        }
+        let words: Vec<&'static str> = choices.iter().map(|(word, _)| *word).collect();
+        let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        let forms = match &quoted[..] {
+            [one, other] => format!("write {one} or {other}"),
+            several => format!("write one of {}", several.join(", ")),
+        };
+        self.word(leaf, what, &words, &forms);
+        None
+    }
+
     /// One of the words of a table, and its parentheses.
     pub(crate) fn one_of<'t>(
         &mut self,

@@ -1,10 +1,20 @@
 //! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
+mod draw_interface;
+mod draw_interfaces;
+mod draw_kind;
+mod interface_file;
+
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
 use std::fmt;
 use std::sync::Arc;
+
+pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied, SuppliedKind};
+pub use draw_interfaces::DrawInterfaces;
+pub use draw_kind::DrawKind;
+pub use interface_file::LARGEST_INTERFACE;
 
 /// Everything that a shader (all its stages together) uses.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -51,6 +61,9 @@ pub enum Unturned {
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
 /// Sets from 1 on belong to the draw source.
 pub const PASS_SET: u32 = 0;
+
+/// Bindings are numbered below this: drivers make tables as long as the largest number.
+pub const BINDINGS: u32 = 256;
 
 /// One resource.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,6 +159,14 @@ pub struct VertexInput {
     pub name: String,
     /// Type, as GLSL writes it.
     pub ty: String,
+}
+
+impl VertexInput {
+    /// Whether it is of floating point, as all attributes that a draw source brings.
+    #[must_use]
+    pub fn is_float(&self) -> bool {
+        matches!(&*self.ty, "float" | "vec2" | "vec3" | "vec4")
+    }
 }
 
 /// A colour output.
@@ -270,50 +291,9 @@ pub trait ShaderInterfaces {
 
     /// The interface of the draw source for `draw`; an empty one where the pass has vertices of its own.
     fn brought_along(&self, draw: Draw) -> DrawInterface;
-}
 
-/// The interface of the draw source for one kind of draw: vertex attributes, and resources in sets from 1 on.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct DrawInterface {
-    /// Bytes from vertex to vertex; 0 if there is no vertex buffer.
-    pub vertex_stride: u32,
-    /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
-    pub attributes: Vec<Attribute>,
-    /// Resources that are bound.
-    pub supplied: Vec<Supplied>,
-}
-
-/// A vertex attribute that is brought along.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Attribute {
-    /// Name in shaders.
-    pub name: &'static str,
-    /// Number of 32-bit float components, 1 to 4.
-    pub components: u32,
-    /// Offset in a vertex, in bytes.
-    pub offset: u32,
-}
-
-/// A resource that is brought along.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Supplied {
-    /// Descriptor set, from 1.
-    pub set: u32,
-    /// Binding number.
-    pub binding: u32,
-    /// Name in shaders.
-    pub name: &'static str,
-    /// Kind.
-    pub kind: SuppliedKind,
-}
-
-/// Kind of a resource that is brought along.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SuppliedKind {
-    /// A uniform block.
-    UniformBlock,
-    /// A storage block, read only.
-    StorageBlock,
-    /// A combined image sampler, two-dimensional, float.
-    SampledImage,
+    /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.
+    fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
+        None
+    }
 }

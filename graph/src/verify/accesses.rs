@@ -12,7 +12,7 @@ use super::lookup::Scope;
 use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
-use super::work::mip_extent;
+use super::work::{is_attached, mip_extent};
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
@@ -166,9 +166,11 @@ fn render(scope: &RenderScope, to: &mut Builder) {
         if local {
             let writes =
                 pass.accesses.iter().filter(|access| access.accesses.intersects(ATTACHMENT & Accesses::WRITES));
-            let writes = writes.map(|access| (access.image, access.range));
-            let new: Vec<_> = writes.filter(|write| !to.drawn.contains(write)).collect();
-            to.drawn.extend(new);
+            for write in writes.filter(|access| is_attached(scope, access)).map(|access| (access.image, access.range)) {
+                if !to.drawn.contains(&write) {
+                    to.drawn.push(write);
+                }
+            }
         }
     }
     for (attachment, is_color) in attachments(scope) {

@@ -1,6 +1,20 @@
 //! The planes that can be in each layout, and the usages of which an image in it must have one.
 
-use crate::vulkan::{Aspects, Layout, Usage};
+use crate::plan::Image;
+use crate::vulkan::{Aspects, Layout, Usage, name_of};
+
+/// Why these planes of an image can't be in a layout; `None`: they can.
+pub(super) fn problem(image: &Image, of: Aspects, layout: Layout) -> Option<String> {
+    let all = image.format.aspects();
+    let of_both = matches!(layout, Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal);
+    // Work outside of the frame may name both planes at once.
+    let both = of_both && all.contains(Aspects::DEPTH);
+    if !both && !planes(layout, all).contains(of) {
+        return Some(format!("{}, which not all of its planes can be in", name_of(&layout)));
+    }
+    let usable = image.usage.intersects(usage_for(layout));
+    (!usable).then(|| format!("{}, for which it has no usage", name_of(&layout)))
+}
 
 /// The planes, of an image that has `planes`, that can be in a layout: where there are depth and stencil each has its own.
 pub(super) fn planes(layout: Layout, planes: Aspects) -> Aspects {
@@ -25,7 +39,7 @@ pub(super) fn planes(layout: Layout, planes: Aspects) -> Aspects {
 }
 
 /// The usages of which an image must have one to be in a layout.
-pub(super) fn usage_for(layout: Layout) -> Usage {
+fn usage_for(layout: Layout) -> Usage {
     match layout {
         Layout::ColorAttachmentOptimal => Usage::COLOR_ATTACHMENT,
         Layout::DepthStencilAttachmentOptimal | Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal => {

@@ -8,6 +8,9 @@ use crate::plan::{Image, Plan, Role};
 use crate::vulkan::{Aspects, Subresources};
 use std::collections::BTreeMap;
 
+/// Most subresources that all images together may have, and that all ranges together may name.
+const MOST_PARTS: u64 = 1 << 24;
+
 /// A range of an image that steps name; the whole of an image or buffer is the range 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct RangeId(u32);
@@ -112,22 +115,34 @@ impl Grid {
         }
     }
 
-    fn count(&self) -> u32 {
-        ((self.mips.len() - 1) * (self.layers.len() - 1) * self.planes.len()) as u32
+    fn count(&self) -> u64 {
+        (self.mips.len() as u64 - 1) * (self.layers.len() as u64 - 1) * self.planes.len() as u64
+    }
+
+    /// The parts between cuts that lie in a range: those of levels and those of layers.
+    fn within(&self, range: Subresources) -> [std::ops::Range<usize>; 2] {
+        let part = |cuts: &[u32], base: u32, count: u32| {
+            cuts.partition_point(|cut| *cut < base)..cuts.partition_point(|cut| *cut < base + count)
+        };
+        [part(&self.mips, range.base_mip, range.mips), part(&self.layers, range.base_layer, range.layers)]
+    }
+
+    /// How many subresources a range has at most.
+    fn count_within(&self, range: Subresources) -> u64 {
+        let [mips, layers] = self.within(range).map(|part| part.len() as u64);
+        mips * layers * self.planes.len() as u64
     }
 
     /// Adds the subresources of `range`, counted from `first`, to `listed`.
     fn list(&self, first: u32, range: Subresources, listed: &mut Vec<u32>) {
-        let part = |cuts: &[u32], base: u32, count: u32| {
-            cuts.partition_point(|cut| *cut < base)..cuts.partition_point(|cut| *cut < base + count)
-        };
         let [mips, layers] = [self.mips.len() - 1, self.layers.len() - 1];
+        let [of_mips, of_layers] = self.within(range);
         for (plane, aspect) in self.planes.iter().enumerate() {
             if !range.aspects.intersects(*aspect) {
                 continue;
             }
-            for layer in part(&self.layers, range.base_layer, range.layers) {
-                for mip in part(&self.mips, range.base_mip, range.mips) {
+            for layer in of_layers.clone() {
+                for mip in of_mips.clone() {
                     listed.push(first + ((plane * layers + layer) * mips + mip) as u32);
                 }
             }
@@ -137,7 +152,8 @@ impl Grid {
 
 impl SubresourceMap {
     /// Subresources, cut so that each of `ranges` is made of whole subresources. Images that become each other are cut alike.
-    pub(super) fn new(plan: &Plan, ranges: &Ranges) -> SubresourceMap {
+    /// `None`: there are too many, or they stand in too many ranges.
+    pub(super) fn new(plan: &Plan, ranges: &Ranges) -> Option<SubresourceMap> {
         let mut grids = BTreeMap::new();
         for (id, range) in &ranges.ranges {
             let mut image = *id;
@@ -151,12 +167,17 @@ impl SubresourceMap {
             }
         }
         grids.values_mut().for_each(Grid::sort);
+        let listed = ranges.ranges.iter().map(|(image, range)| grids[image].count_within(*range));
+        let counts = grids.values().map(Grid::count).chain(listed);
+        if counts.fold(0, u64::saturating_add) > MOST_PARTS {
+            return None;
+        }
         let resources = plan.images.len() + plan.buffers.len();
         let mut first = Vec::with_capacity(resources + 1);
         let mut subresources = 0;
         for resource in 0..resources as u32 {
             first.push(subresources);
-            subresources += grids.get(&resource).map_or(1, Grid::count);
+            subresources += grids.get(&resource).map_or(1, |grid| grid.count() as u32);
         }
         first.push(subresources);
         let mut parts = SubresourceMap { first, grids, ranges: vec![[0, 0]], listed: Vec::new() };
@@ -165,7 +186,7 @@ impl SubresourceMap {
             parts.grids[image].list(parts.first[*image as usize], *range, &mut parts.listed);
             parts.ranges.push([start, parts.listed.len() as u32]);
         }
-        parts
+        Some(parts)
     }
 
     /// How many subresources there are.

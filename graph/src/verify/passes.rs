@@ -5,7 +5,7 @@ use super::barriers::possible;
 use super::layouts::planes;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
-use crate::frame::{Blend, BufferRole, Draw, Groups};
+use crate::frame::{Blend, BufferRole, Cascade, Draw, Groups};
 use crate::plan::names::Shown;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
@@ -27,6 +27,11 @@ impl<'p> Check<'_, 'p> {
         if pass.draw.is_none() || pass.groups.is_some() {
             self.wrong_pass(pass, "is in a rendering scope and draws nothing");
         }
+        if let Some(Draw::Casters(cascade)) = pass.draw
+            && !(cascade.index < cascade.of && cascade.of <= Cascade::MOST)
+        {
+            self.wrong_pass(pass, "draws a part of the shadows' reach that there isn't");
+        }
         if pass.blend.len() != scope.color.len() {
             self.wrong_pass(pass, "doesn't say how each colour attachment is blended");
         }
@@ -35,6 +40,9 @@ impl<'p> Check<'_, 'p> {
             self.wrong_pass(pass, "covers samples by alpha and can't, or doesn't say that fragments may be lost");
         }
         let local = attachments(scope).any(|(attachment, _)| attachment.layout == Layout::RenderingLocalReadKhr);
+        if pass.local_barrier && !local {
+            self.wrong_pass(pass, "has a local barrier in a scope without local reads");
+        }
         for (attachment, blend) in scope.color.iter().zip(&pass.blend) {
             let reads = *blend != Blend::Replace;
             let integer = self.plan.image(attachment.image).format.is_integer();

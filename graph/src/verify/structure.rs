@@ -2,6 +2,7 @@
 
 use super::findings::{Findings, name, role};
 use super::frames::{self, Frames};
+use super::layouts;
 use super::names::Names;
 use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
@@ -105,8 +106,9 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         | Usage::DEPTH_STENCIL_ATTACHMENT
         | Usage::TRANSIENT_ATTACHMENT
         | Usage::INPUT_ATTACHMENT;
-    if image.usage.contains(Usage::TRANSIENT_ATTACHMENT) && !attachment.contains(image.usage) {
-        wrong("is a TRANSIENT_ATTACHMENT and more than an attachment");
+    let outlives = !matches!(image.role, Role::Transient(_));
+    if image.usage.contains(Usage::TRANSIENT_ATTACHMENT) && (outlives || !attachment.contains(image.usage)) {
+        wrong("is a TRANSIENT_ATTACHMENT and more than an attachment, or outlives the frame");
     }
     if let Some(ChosenFormat { usual, .. }) = &image.chosen
         && (*usual == image.format || usual.aspects() != image.format.aspects())
@@ -118,7 +120,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
             let lazy = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
             check_placement(plan, image.id.0, placement, lazy, found);
         }
-        Role::External { before, after } => check_states(image.id.0, [before, after], true, found),
+        Role::External { before, after } => check_image_states(image, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
             let fits = match initial {
                 Initial::Value(value) => fill_fits(image, value),
@@ -130,7 +132,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
             if is_of_file(image) && !may_be_of_file(image) {
                 wrong("comes from a file and has samples, layers or uses that such an image can't have");
             }
-            check_states(image.id.0, [before, after], true, found);
+            check_image_states(image, [before, after], found);
         }
     }
 }
@@ -173,24 +175,37 @@ fn check_buffer(plan: &Plan, buffer: &Buffer, index: u32, found: &mut Findings) 
             }
             check_placement(plan, index, placement, false, found);
         }
-        Role::External { before, after } => check_states(index, [before, after], false, found),
+        Role::External { before, after } => check_buffer_states(index, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
             if !matches!(initial, Initial::Value(FillValue::Bits(_))) {
                 wrong("has initial contents that are no bits");
             }
-            check_states(index, [before, after], false, found);
+            check_buffer_states(index, [before, after], found);
         }
     }
 }
 
-fn check_states(resource: u32, [before, after]: [&State; 2], image: bool, found: &mut Findings) {
-    if image && after.layout == Layout::Undefined {
-        found.structure(None, Some(resource), "is promised in layout UNDEFINED");
+fn check_image_states(image: &Image, states: [&State; 2], found: &mut Findings) {
+    if states[1].layout == Layout::Undefined {
+        found.structure(None, Some(image.id.0), "is promised in layout UNDEFINED");
     }
-    if !image && [before, after].iter().any(|state| state.layout != Layout::Undefined) {
+    for state in states {
+        if let Some(problem) = layouts::problem(image, image.format.aspects(), state.layout) {
+            found.structure(None, Some(image.id.0), format!("comes or goes in {problem}"));
+        }
+    }
+    check_states(image.id.0, states, found);
+}
+
+fn check_buffer_states(resource: u32, states: [&State; 2], found: &mut Findings) {
+    if states.iter().any(|state| state.layout != Layout::Undefined) {
         found.structure(None, Some(resource), "is a buffer and has a layout");
     }
-    for state in [before, after] {
+    check_states(resource, states, found);
+}
+
+fn check_states(resource: u32, states: [&State; 2], found: &mut Findings) {
+    for state in states {
         let known =
             Stages::from_bits(state.stages.bits()).is_some() && Accesses::from_bits(state.accesses.bits()).is_some();
         if !known || !super::scopes::impossible(state.stages, state.accesses).is_empty() {
@@ -254,6 +269,7 @@ fn check_heaps(plan: &Plan, found: &mut Findings) {
 
 fn check_outputs(plan: &Plan, found: &mut Findings) {
     let mut listed = HashSet::new();
+    let mut names = Names::new(plan.outputs.len());
     for output in &plan.outputs {
         let resource = match output.resource {
             Resource::Image(image) => image.0,
@@ -264,6 +280,9 @@ fn check_outputs(plan: &Plan, found: &mut Findings) {
         }
         if !listed.insert(resource) {
             found.structure(None, Some(resource), "is listed as an output twice");
+        }
+        if !names.insert(&output.name) {
+            found.structure(None, Some(resource), "is an output with the name of another one");
         }
         if let Some(encoding) = output.encoding {
             let format = plan.images.get(resource as usize).map(|image| image.format);

@@ -37,16 +37,18 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
 
 /// Walks the steps of `plan` once for each frame.
 pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found: &mut Findings<'p>) {
+    let Some(parts) = SubresourceMap::new(plan, &program.ranges) else {
+        return found.structure(None, None, "tells more parts of images apart than can be followed");
+    };
     if program.several_queues {
-        Walk::<3>::new(plan, program, found).all(frames);
+        Walk::<3>::new(plan, program, parts, found).all(frames);
     } else {
-        Walk::<1>::new(plan, program, found).all(frames);
+        Walk::<1>::new(plan, program, parts, found).all(frames);
     }
 }
 
 impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
-    fn new(plan: &'p Plan, program: &'w Program, found: &'w mut Findings<'p>) -> Self {
-        let parts = SubresourceMap::new(plan, &program.ranges);
+    fn new(plan: &'p Plan, program: &'w Program, parts: SubresourceMap, found: &'w mut Findings<'p>) -> Self {
         Walk {
             plan,
             found,

@@ -18,6 +18,9 @@ use crate::plan::{
 };
 use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Shape, Stages, StoreOp, Subresources, name_of};
 
+/// No device has more colour attachments.
+const MOST_COLORS: usize = 32;
+
 /// Reports malformed steps; returns the steps in dense form, if they can be followed.
 pub(super) fn check<'p>(plan: &'p Plan, found: &mut Findings<'p>) -> Option<Program> {
     let mut builder = Builder::new(plan, found);
@@ -94,6 +97,10 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn scope(&mut self, scope: &'p RenderScope) {
+        if attachments(scope).next().is_none() || scope.color.len() > MOST_COLORS {
+            let count = scope.color.len();
+            self.wrong_step(format!("has {count} colour attachments, or none at all, as no rendering scope can"));
+        }
         for attachment in &scope.color {
             self.attachment(scope, attachment, Aspects::COLOR);
         }
@@ -107,11 +114,16 @@ impl<'p> Check<'_, 'p> {
             let alike = part(depth) == part(stencil);
             self.demand(alike, stencil.image, "is the stencil attachment beside the depth of another part or image");
         }
-        self.exclusive(scope);
+        let few = scope.color.len() <= MOST_COLORS;
+        if few {
+            self.exclusive(scope);
+        }
         for pass in &scope.passes {
             self.draw(scope, pass);
         }
-        self.local_reads(scope);
+        if few {
+            self.local_reads(scope);
+        }
     }
 
     fn attachment(&mut self, scope: &RenderScope, attachment: &Attachment, plane: Aspects) {
@@ -244,13 +256,13 @@ impl<'p> Check<'_, 'p> {
                 if before.is_some() {
                     self.apart(write.image, write.range, [READ, written(write.range)]);
                 }
-                if !drawn.contains(&(write.image, write.range)) {
+                if is_attached(scope, write) && !drawn.contains(&(write.image, write.range)) {
                     drawn.push((write.image, write.range));
                 }
             }
-            for own in pass.accesses.iter().filter(local).map(|access| (access.image, access.range)) {
-                if !read.contains(&own) {
-                    read.push(own);
+            for own in pass.accesses.iter().filter(local).filter(|access| is_attached(scope, access)) {
+                if !read.contains(&(own.image, own.range)) {
+                    read.push((own.image, own.range));
                 }
             }
         }
@@ -270,6 +282,11 @@ impl<'p> Check<'_, 'p> {
             bytes: None,
         });
     }
+}
+
+/// Whether an access is to all of an attachment.
+pub(super) fn is_attached(scope: &RenderScope, access: &Access) -> bool {
+    attachments(scope).any(|(attachment, _)| (attachment.image, attachment.range) == (access.image, access.range))
 }
 
 /// A read at a fragment's own position.

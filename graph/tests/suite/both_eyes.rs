@@ -77,6 +77,10 @@ fn what_holds_both_eyes_parts_takes_the_memory_of_both() {
         let [one, two] = [&mono, &both].map(|plan| plan.totals.transient_bytes);
         assert_eq!(two, 2 * one - bytes(&mono, "noise"), "{stereo:?} {form:?}");
         assert_eq!(one, 64 * 64 * (4 * 8 + 4 * 4 + 8 + 8));
+        // Bytes that are moved are those of both parts, in every mode (NU-1, IN-7): `color` is resolved, `screen` and `noise` are stored.
+        let moved = |plan: &Plan| [plan.moved().loaded, plan.moved().stored, plan.moved().resolved, plan.moved().copied];
+        assert_eq!(moved(&mono), [0, 64 * 64 * (4 + 8), 64 * 64 * 8, 0]);
+        assert_eq!(moved(&both), [0, 64 * 64 * (2 * 4 + 8), 2 * 64 * 64 * 8, 0], "{stereo:?} {form:?}");
         // It is as many steps as for one eye.
         assert_eq!(scopes(&both).len(), scopes(&mono).len(), "{}", both.tree());
         assert_eq!(both.totals.passes, mono.totals.passes);

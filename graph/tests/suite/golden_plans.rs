@@ -74,7 +74,7 @@ fn document(file: &str) -> (Document, Sources) {
     (pipeline.expect("a shipped pipeline is right"), sources)
 }
 
-fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
+pub(crate) fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
     let (pipeline, sources) = document(file);
     let sources = Arc::new(sources);
     expand(&pipeline, sources.clone(), inputs, &mut Table)
@@ -133,7 +133,7 @@ fn needless(name: &str, plan: &Plan) -> Vec<String> {
 #[test]
 fn no_barrier_of_a_reviewed_plan_can_be_left_out() {
     let one_queue = shipped_device("lavapipe");
-    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
+    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive, wait_bytes: 0 };
     let devices = [Profile { queues, local_read: true, ..one_queue.clone() }, one_queue];
     let mut found = Vec::new();
     for (file, (name, set, facts)) in all() {

@@ -54,7 +54,7 @@ fn plans() -> Vec<(String, Value)> {
     let names = files.map(|file| file.expect("the folder can be listed").file_name().to_string_lossy().into_owned());
     let shipped = names.filter(|name| name.ends_with(".ron")).map(|name| (name.clone(), shipped(&name)));
     let one = Profile { local_read: true, ..shipped_device("lavapipe") };
-    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
+    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive, wait_bytes: 0 };
     let devices = [("one queue", one.clone()), ("three queues", Profile { queues, ..one })];
     let cases = devices.iter().flat_map(|device| [Order::Default, Order::File].map(|order| (device, order)));
     let mut plans = Vec::new();

@@ -1,4 +1,5 @@
-//! Which passes run on the queues for compute and transfer, what waits for what, and how images change hands.
+//! Which passes run on the queues for compute and transfer, what waits for what, and how images change hands. Waits cost
+//! nothing here: `queue_costs` weighs them.
 
 use crate::testing::parts::{self, stored};
 use crate::testing::plans::planned;
@@ -14,20 +15,20 @@ use framewright_graph::vulkan::{
     Accesses, Aspects, FillValue, Filter, Format, Layout, Sharing, Stages, State, Subresources,
 };
 
-const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
-const CONCURRENT: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent };
+const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive, wait_bytes: 0 };
+const CONCURRENT: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
 
 /// Builds a frame: what passes read, then what they write.
 #[derive(Default)]
-struct Builder(Frame);
+pub(crate) struct Builder(pub(crate) Frame);
 
 impl Builder {
-    fn image(&mut self, name: &str) -> ImageIndex {
+    pub(crate) fn image(&mut self, name: &str) -> ImageIndex {
         self.0.images.push(Image::new(name, Format::R8G8B8A8_UNORM, 64, 64));
         ImageIndex(self.0.images.len() as u32 - 1)
     }
 
-    fn buffer(&mut self, name: &str, lifetime: Lifetime) -> BufferIndex {
+    pub(crate) fn buffer(&mut self, name: &str, lifetime: Lifetime) -> BufferIndex {
         self.0.buffers.push(Buffer { name: name.into(), span: Span::NONE, bytes: 1 << 20, lifetime });
         BufferIndex(self.0.buffers.len() as u32 - 1)
     }
@@ -39,7 +40,7 @@ impl Builder {
     }
 
     /// A full-screen draw.
-    fn draw(&mut self, name: &str, reads: &[ImageIndex], buffers: &[BufferIndex], target: ImageIndex) {
+    pub(crate) fn draw(&mut self, name: &str, reads: &[ImageIndex], buffers: &[BufferIndex], target: ImageIndex) {
         let draw = Draw::FullScreen;
         let mut pass = Pass::new(name, Work::Draw { draw, shader: name.into(), discards: false, per_sample: false });
         let (range, span, blend) = (Subresources::WHOLE, Span::NONE, Blend::Replace);
@@ -48,7 +49,7 @@ impl Builder {
         self.pass(pass, Stages::FRAGMENT_SHADER, reads, &buffers);
     }
 
-    fn dispatch(
+    pub(crate) fn dispatch(
         &mut self,
         name: &str,
         reads: &[ImageIndex],
@@ -61,13 +62,13 @@ impl Builder {
         self.pass(pass, stages, reads, buffers);
     }
 
-    fn copy(&mut self, name: &str, from: impl Into<Resource>, to: impl Into<Resource>) {
+    pub(crate) fn copy(&mut self, name: &str, from: impl Into<Resource>, to: impl Into<Resource>) {
         let mut pass = Pass::new(name, Work::Copy);
         pass.transfers = vec![transferred(from.into(), false), transferred(to.into(), true)];
         self.0.passes.push(pass);
     }
 
-    fn output(mut self, image: ImageIndex) -> Frame {
+    pub(crate) fn output(mut self, image: ImageIndex) -> Frame {
         self.0.outputs.push(Resource::Image(image).into());
         self.0
     }
@@ -79,11 +80,11 @@ fn used(buffer: BufferIndex, write: bool, stages: Stages) -> BufferUse {
     BufferUse { binding: Some(binding.as_str().into()), buffer, frames_ago: 0, span: Span::NONE, role, stages }
 }
 
-fn transferred(resource: Resource, write: bool) -> TransferUse {
+pub(crate) fn transferred(resource: Resource, write: bool) -> TransferUse {
     TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write }
 }
 
-fn device(queues: Queues) -> Profile {
+pub(crate) fn device(queues: Queues) -> Profile {
     Profile { queues, ..parts::device() }
 }
 
@@ -103,7 +104,7 @@ fn name(work: &plan::Work) -> String {
 }
 
 /// Each step: where it runs, what it waits for, what it takes over and hands over.
-fn shown(plan: &Plan) -> Vec<String> {
+pub(crate) fn shown(plan: &Plan) -> Vec<String> {
     let names: Vec<String> = plan.steps.iter().map(|step| name(&step.work)).collect();
     let line = |step: &plan::Step, own: &String| {
         let mut line = match step.queue {
@@ -127,7 +128,7 @@ fn shown(plan: &Plan) -> Vec<String> {
     plan.steps.iter().zip(&names).map(|(step, name)| line(step, name)).collect()
 }
 
-fn note<'p>(plan: &'p Plan, pass: &str) -> &'p str {
+pub(crate) fn note<'p>(plan: &'p Plan, pass: &str) -> &'p str {
     let found = plan.notes.iter().find(|note| &*note.subject == pass && note.text.contains("queue"));
     found.map_or("", |note| &note.text)
 }
@@ -147,7 +148,10 @@ fn a_dispatch_leaves_graphics_if_draws_can_run_beside_it() {
     let plan = compiled(&simulated(), CONCURRENT);
     // The frame before sampled `waves` last.
     assert_eq!(shown(&plan), ["compute: simulate, after lit of the frame before", "shadows", "lit, after simulate"]);
-    assert_eq!(note(&plan, "simulate"), "runs on the compute queue, beside `shadows`");
+    assert_eq!(
+        note(&plan, "simulate"),
+        "runs on the compute queue, beside `shadows`: that saves up to 16.0 KiB of work, and 2 waits cost as much as 0 B"
+    );
     assert_eq!(plan.totals.waits, 2);
 }
 

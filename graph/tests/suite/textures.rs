@@ -87,7 +87,7 @@ fn several_queues_sample_a_texture_at_once_without_handing_it_over() {
         stages: Stages::COMPUTE_SHADER,
     }];
     frame.passes.insert(0, raster);
-    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
+    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive, wait_bytes: 0 };
     let plan = on(&frame, &Profile { queues, ..raster::device() }).expect("a Plan");
     assert_eq!(verify(&plan), []);
     assert!(plan.steps.iter().any(|step| step.queue != plan.steps[0].queue), "{}", plan.tree());

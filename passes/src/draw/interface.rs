@@ -30,7 +30,7 @@ pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 /// given only the resources of their pass.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
-    let frame = |binding, name, kind| Supplied { set: FRAME_SET, binding, name, kind };
+    let frame = |binding, name, kind| Supplied::new(FRAME_SET, binding, name, kind);
     let mut supplied = vec![
         frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
         frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
@@ -41,18 +41,14 @@ pub fn interface(draw: Draw) -> DrawInterface {
     ];
     match draw {
         Draw::Objects(_) | Draw::Casters(_) => {
-            supplied.push(Supplied {
-                set: MATERIAL_SET,
-                binding: BASE_COLOR_TEXTURE_BINDING,
-                name: "base_color_texture",
-                kind: SuppliedKind::SampledImage,
-            });
+            let texture = SuppliedKind::SampledImage;
+            supplied.push(Supplied::new(MATERIAL_SET, BASE_COLOR_TEXTURE_BINDING, "base_color_texture", texture));
             DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
-                    Attribute { name: "position", components: 3, offset: 0 },
-                    Attribute { name: "normal", components: 3, offset: 12 },
-                    Attribute { name: "uv", components: 2, offset: 24 },
+                    Attribute::new("position", 3, 0),
+                    Attribute::new("normal", 3, 12),
+                    Attribute::new("uv", 2, 24),
                 ],
                 supplied,
             }

@@ -4,6 +4,7 @@ mod drawn;
 #[path = "../../../graph/tests/suite/testing/hand_written_plans/mod.rs"]
 mod hand_written_plans;
 mod happens_before;
+mod hostile_plans;
 mod mutation;
 mod programs;
 mod queues;

@@ -14,7 +14,10 @@ use framewright_tests::random_pipelines;
 /// A desktop GPU with these queues.
 fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
     let (_, text) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    Profile { queues: Queues { compute, transfer, sharing }, ..Profile::from_ron(text).expect("it is sound") }
+    Profile {
+        queues: Queues { compute, transfer, sharing, wait_bytes: 0 },
+        ..Profile::from_ron(text).expect("it is sound")
+    }
 }
 
 fn plan(frame: &Frame, device: &Profile, options: &Options) -> Plan {

@@ -30,7 +30,7 @@ fn options(seed: u64) -> Options {
 /// The mistakes in the Plan of a frame.
 fn fault(frame: &Frame, options: &Options, seed: u64) -> Option<String> {
     let sharing = if seed % 5 == 1 { Sharing::Concurrent } else { Sharing::Exclusive };
-    let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing };
+    let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing, wait_bytes: 0 };
     let device = Profile { local_read: seed.is_multiple_of(2), queues, ..device() };
     let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut Estimated(&device), options)));
     let plan = match compiled {

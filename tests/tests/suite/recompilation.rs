@@ -137,7 +137,8 @@ fn follow(held: &mut Held, first: Frame, other: Frame, what: &str) {
 #[test]
 fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     let mut reused = BTreeMap::new();
-    let of = |order, several| (order, Queues { compute: several, transfer: several, ..Queues::default() });
+    let of =
+        |order, several| (order, Queues { compute: several, transfer: several, wait_bytes: 0, ..Queues::default() });
     let kinds = [Order::Default, Order::File, Order::LowMemory].map(|order| of(order, false));
     for (number, (order, queues)) in kinds.into_iter().chain([of(Order::Default, true)]).enumerate() {
         let mut held = Held::new(Profile { queues, ..device() }, Options { order, ..Options::default() });
@@ -158,7 +159,7 @@ fn shipped_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     for (at, shipped) in frames.iter().enumerate() {
         // Every other device has more than one queue.
         let several = at % 2 == 1;
-        let queues = Queues { compute: several, transfer: several, ..Queues::default() };
+        let queues = Queues { compute: several, transfer: several, wait_bytes: 0, ..Queues::default() };
         let mut held = Held::new(Profile { queues, ..device() }, Options::default());
         let other = frames[(at + 1) % frames.len()].frame.clone();
         follow(&mut held, shipped.frame.clone(), other, &shipped.how);

@@ -123,13 +123,13 @@ fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Resul
                 other => return Err(format!("{name}: {} is a {other:?}", binding.name).into()),
             };
             let fits = brought.supplied.iter().any(|supplied| {
-                let place = (supplied.set, supplied.binding, supplied.name, supplied.kind);
+                let place = (supplied.set, supplied.binding, &*supplied.name, supplied.kind);
                 place == (binding.set, binding.binding, binding.name.as_str(), kind)
             });
             assert!(fits, "{name}: {binding:?}");
         }
         for input in &shader.vertex_inputs {
-            let attribute = brought.attributes.iter().find(|attribute| attribute.name == input.name);
+            let attribute = brought.attributes.iter().find(|attribute| attribute.name == *input.name);
             let ty = attribute.map(|attribute| format!("vec{}", attribute.components));
             assert_eq!(ty.as_deref(), Some(input.ty.as_str()), "{name}: {}", input.name);
         }

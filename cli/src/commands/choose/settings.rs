@@ -54,6 +54,7 @@ fn document(pipeline: &str, read: &ReadFiles) -> Option<Document> {
         extend: Vec::new(),
         root: None,
         allow_outside: false,
+        interface: None,
         stereo: Modes(vec![Stereo::Off]),
         caching: CachingArguments { no_cache: true },
         limits: ShaderLimits { shader_seconds: 10, shader_memory: 1024, shader_stack: 8 },

@@ -3,7 +3,7 @@
 use crate::system::text;
 use framewright_graph::base;
 use framewright_graph::dataflow::{Dataflow, Edge, Node, NodeKind};
-use framewright_graph::plan::{About, Detail, Outline, Placement, Plan, Queue, Resource, Role, StepId};
+use framewright_graph::plan::{About, Detail, ImageId, Outline, Placement, Plan, Queue, Resource, Role, StepId};
 use framewright_graph::vulkan::Usage;
 use std::collections::BTreeSet;
 
@@ -115,7 +115,7 @@ impl Telling<'_> {
             true => line("nothing needs what it leaves", Vec::new()),
             false => line("is needed by", needed),
         });
-        parts.extend(self.moved(node.step));
+        parts.extend(self.cost(node.step));
         let kind = match node.kind {
             NodeKind::Draw => "draws",
             NodeKind::Dispatch => "dispatches",
@@ -142,10 +142,15 @@ impl Telling<'_> {
             .collect()
     }
 
-    fn moved(self, step: StepId) -> Option<Outline> {
-        let step = self.plan.steps.get(step.0 as usize)?;
-        let moved = self.plan.moved_by(step).sum();
-        (moved > 0).then(|| line(format!("its step moves {}", text::bytes(moved)), Vec::new()))
+    /// What the step of a pass moves, and what stays on the chip.
+    fn cost(self, step: StepId) -> Vec<Outline> {
+        let Some(step) = self.plan.steps.get(step.0 as usize) else { return Vec::new() };
+        let shown = |amount: u64, before: &str, after: &str| {
+            (amount > 0).then(|| line(format!("its step {before} {}{after}", text::bytes(amount)), Vec::new()))
+        };
+        let moved = shown(self.plan.moved_by(step).sum(), "moves", "");
+        let kept = shown(self.plan.on_chip_in(step), "keeps", " on the chip, neither loaded nor stored");
+        moved.into_iter().chain(kept).collect()
     }
 
     fn resource(self, resource: Resource, role: &Role) -> Outline {
@@ -175,7 +180,7 @@ impl Telling<'_> {
             Role::External { .. } => parts.push(line("its memory is the program's: it comes from outside", Vec::new())),
         }
         if let Resource::Image(id) = resource {
-            parts.push(line(self.on_chip(resource, self.plan.image(id).usage), Vec::new()));
+            parts.push(line(self.on_chip(id), Vec::new()));
         }
         line(self.name(resource), parts)
     }
@@ -212,7 +217,16 @@ impl Telling<'_> {
     }
 
     /// Whether a tiled device can keep the image on the chip.
-    fn on_chip(self, resource: Resource, usage: Usage) -> String {
+    fn on_chip(self, id: ImageId) -> String {
+        let (resource, usage) = (Resource::Image(id), self.plan.image(id).usage);
+        let kept = self.plan.steps.iter().flat_map(|step| self.plan.on_chip_of_each(step));
+        let kept = kept.filter(|(image, _)| *image == id).map(|(_, bytes)| bytes).fold(0, u64::saturating_add);
+        if kept > 0 {
+            return format!(
+                "it is never loaded nor stored: the device draws in tiles, and keeps its {} on the chip",
+                text::bytes(kept)
+            );
+        }
         if usage.contains(Usage::TRANSIENT_ATTACHMENT) {
             return "it is a transient attachment: never loaded nor stored, so a tiled device keeps it on the chip"
                 .to_owned();

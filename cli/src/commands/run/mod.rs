@@ -2,6 +2,7 @@
 
 mod layer;
 mod report;
+mod subject;
 
 use crate::command_line::args::RunArguments;
 use crate::drawing::captures::{self, Drawing};
@@ -11,17 +12,18 @@ use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::picture::FileFormat;
-use crate::planning::{self, Loaded, Planned, View, device, notes};
+use crate::planning::{Assets, device, notes};
 use crate::system::{Exit, interrupt, progress, text};
 use framewright_graph::base::ReadFiles;
-use framewright_graph::frame::{Frame, Image, Lifetime, Stereo};
-use framewright_graph::plan::{Stage, Totals};
-use framewright_graph::vulkan::{Format, Layout, Subresources};
+use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::plan::{Buffer, Image, Plan, Resource, Role, Stage};
+use framewright_graph::vulkan::{Format, Layout, State, Subresources};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
 use report::{Report, Validation};
 use serde::Serialize;
 use std::path::Path;
+use subject::Subject;
 
 pub(crate) use report::DeviceUsed;
 
@@ -38,63 +40,62 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Error> {
 
 fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
-    inputs::expect(&arguments.pipeline, &read);
+    Subject::expect(arguments, &read);
     read.expect(FileRole::SCENE.recorded, &arguments.scene);
     let spare = || outputs::prepare(arguments.written(), &read);
     spare()?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;
-    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let mut subject = Subject::read(arguments, &read)?;
     let scene = inputs::scene(&arguments.scene, &read)?;
     spare()?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let helper = Some(pipeline.helper.clone());
+    let helper = Some(subject.assets().helper.clone());
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate, helper })?;
     device.cancel_when(interrupt::asked);
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
-    let planned = planned(arguments, &mut pipeline, &scene, &device)?;
-    diagnostics::cameras(&planned.frame, &scene)?;
+    let (plan, frame) = subject.planned(arguments, &scene, &device)?;
+    diagnostics::cameras(&plan, frame.as_ref(), &scene)?;
     // Now its shaders are known.
     spare()?;
-    let requests = pictures::requests(arguments, &planned)?;
+    let requests = pictures::requests(arguments, (&plan, frame.as_ref()))?;
     let modes = &arguments.pipeline.stereo.0;
     if modes.len() > 1 {
-        let stereo = planned.plan.stereo;
+        let stereo = plan.stereo;
         let eyes = if stereo == Stereo::Off { "one eye" } else { "two eyes" };
         text::say(&format!("note: it is drawn for {eyes} by `--stereo {}`", stereo.name()));
     }
     // A format or sample count that the device lacks changes the picture.
-    for line in notes::lines(planned.plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
+    for line in notes::lines(plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
         text::say(&line);
     }
-    for name in not_handed_in(&planned.frame) {
+    for name in not_handed_in(&plan) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }
-    let (frames, pictures) = draw(arguments, &planned, &requests, &mut pipeline, &scene, &device)?;
+    let (frames, pictures) = draw(arguments, (&plan, frame.as_ref()), &requests, subject.assets(), &scene, &device)?;
     let mut report = Report {
         format_version: 2,
-        pipeline: shown(&arguments.pipeline.file),
+        pipeline: (!arguments.plan).then(|| shown(&arguments.pipeline.file)),
+        plan: arguments.plan.then(|| shown(&arguments.pipeline.file)),
         scene: shown(&arguments.scene),
-        settings: planned.plan.settings.clone(),
-        size: [arguments.size.width, arguments.size.height],
+        settings: plan.settings.clone(),
+        size: plan.extent,
         frames: arguments.frames,
         device: device.summary().into(),
-        memory: (&planned.plan.totals).into(),
-        barriers: (&planned.plan.totals).into(),
+        memory: (&plan.totals).into(),
+        barriers: (&plan.totals).into(),
         gpu_milliseconds: timings::median(frames.iter().map(|frame| frame.milliseconds).collect()),
         recording_milliseconds: timings::median(frames.iter().map(|frame| frame.recording_milliseconds).collect()),
-        passes: timings::rows(&planned.plan, &frames),
-        notes: planned.plan.notes.clone(),
+        passes: timings::rows(&plan, &frames),
+        notes: plan.notes.clone(),
         scene_notes: scene.notes.clone(),
         validation: None,
         files: arguments.written().map(shown).collect(),
     };
-    if let Some(folder) = &arguments.dump_all {
-        let options = arguments.planning.options();
-        let (scene, size, frames) = (&scene, arguments.size, arguments.frames);
-        let drawing =
-            Drawing { device: &device, pipeline: &mut pipeline, planned: &planned, scene, size, options, frames };
+    if let (Some(folder), Subject::Pipeline(pipeline), Some(frame)) = (&arguments.dump_all, &mut subject, frame) {
+        let (options, frames) = (arguments.planning.options(), arguments.frames);
+        let drawing = Drawing { device: &device, pipeline, made: (&plan, &frame), scene: &scene, options, frames };
         dump_all(drawing, folder, &read)?;
     }
     // The layer may have something to say about the device's end too.
@@ -102,10 +103,16 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     drop(device);
     report.validation = canary.map(|canary| Validation::new(canary, &messages.list()));
 
-    let json = if arguments.report.is_some() { text::json(&report)? } else { String::new() };
+    let mut texts = Vec::new();
+    if let Some(file) = arguments.report.as_deref() {
+        texts.push((file, text::json(&report)?));
+    }
+    if let Some(file) = arguments.save_plan.as_deref() {
+        texts.push((file, text::json_text(&plan.to_json()?)));
+    }
     let pictures = pictures.iter().map(|picture| (&*picture.path, &*picture.contents));
-    let files = pictures.chain(arguments.report.as_deref().map(|file| (file, json.as_bytes())));
-    outputs::write(&files.collect::<Vec<_>>(), &read)?;
+    let texts = texts.iter().map(|(file, text)| (*file, text.as_bytes()));
+    outputs::write(&pictures.chain(texts).collect::<Vec<_>>(), &read)?;
     text::print(&report.table()).map_err(Error::Print)?;
     Ok(if report.validation.is_some_and(|validation| validation.findings > 0) { Exit::Found } else { Exit::Fine })
 }
@@ -163,73 +170,34 @@ fn interrupted(frames: u32, wanted: u32) -> impl Fn(Error) -> Error {
     }
 }
 
-/// Plans the frame for the device, and says what dumping changes.
-fn planned(arguments: &RunArguments, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
-    let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
-    let rotation = arguments.planning.rotate;
-    let view = View { facts: Some(scene.facts()), size: arguments.size, rotation, dump: &dump };
-    let options = arguments.planning.options();
-    let (profile, mut memory) = (device.profile(), device.memory());
-    if interrupt::asked() {
-        // The device may not have been tested.
-        return Err(Error::Interrupted { frames: 0, wanted: arguments.frames });
-    }
-    let planned = pipeline.plan(view, &profile, &mut memory, &options)?;
-    if !dump.is_empty() {
-        let without = pipeline.plan(View { dump: &[], ..view }, &profile, &mut memory, &options)?;
-        text::say(&format!("note: dumping {}", difference(&without.plan.totals, &planned.plan.totals)));
-    }
-    Ok(planned)
-}
-
-/// Names of what the frame expects to be handed in with contents.
-fn not_handed_in(frame: &Frame) -> impl Iterator<Item = &str> {
-    let imported = |lifetime: &Lifetime| match lifetime {
-        Lifetime::Imported { before, .. } => Some(*before),
-        Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } | Lifetime::File(_) => None,
+/// Names of what the Plan expects to be handed in with contents.
+fn not_handed_in(plan: &Plan) -> impl Iterator<Item = &str> {
+    let is_output = move |resource| plan.outputs.iter().any(|output| output.resource == resource);
+    let before = |role: &Role| match role {
+        Role::External { before, .. } => Some(*before),
+        Role::Transient(_) | Role::Persistent { .. } => None,
     };
-    let has_contents = move |image: &&Image| imported(&image.lifetime).is_some_and(|it| it.layout != Layout::Undefined);
-    let images = frame.images.iter().filter(has_contents).map(|image| &*image.name);
-    let buffers = frame.buffers.iter().filter(move |buffer| imported(&buffer.lifetime).is_some());
-    images.chain(buffers.map(|buffer| &*buffer.name))
-}
-
-/// How the totals of two Plans differ, in words.
-fn difference(before: &Totals, after: &Totals) -> String {
-    let count = |name: &str, before: u32, after: u32| (before != after).then(|| format!("{name} {before} → {after}"));
-    let bytes = |name: &str, before: u64, after: u64| {
-        (before != after).then(|| format!("{name} {} → {}", text::bytes(before), text::bytes(after)))
+    let has_contents = move |image: &&Image| before(&image.role).is_some_and(|it| it.layout != Layout::Undefined);
+    // Of a buffer that leaves the frame, too, only a state tells that it comes from outside.
+    let comes_in = move |buffer: &&Buffer| {
+        let used = |it: State| !it.stages.is_empty() || !it.accesses.is_empty();
+        before(&buffer.role).is_some_and(|it| used(it) || !is_output(Resource::Buffer(buffer.id)))
     };
-    let changes: Vec<String> = [
-        count("passes", before.passes + before.inserted_passes, after.passes + after.inserted_passes),
-        count("rendering scopes", before.scopes, after.scopes),
-        count("resolves", before.resolves, after.resolves),
-        count("copies", before.copies, after.copies),
-        count("barriers", before.image_barriers + before.memory_barriers, after.image_barriers + after.memory_barriers),
-        bytes("transient memory", before.placed_bytes, after.placed_bytes),
-        bytes("kept memory", before.kept_bytes, after.kept_bytes),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    if changes.is_empty() {
-        "changes no sum of the Plan".to_owned()
-    } else {
-        format!("changes the Plan: {}", changes.join(", "))
-    }
+    let images = plan.images.iter().filter(has_contents).map(|image| &*image.name);
+    images.chain(plan.buffers.iter().filter(comes_in).map(|buffer| &*buffer.name))
 }
 
 /// Draws all frames, and encodes the pictures to write.
 fn draw(
     arguments: &RunArguments,
-    planned: &Planned,
+    (plan, frame): (&Plan, Option<&Frame>),
     requests: &[PictureRequest<'_>],
-    pipeline: &mut Loaded,
+    assets: &mut Assets,
     scene: &Scene,
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
     let options = ExecutorOptions { poison: arguments.planning.poison, timestamps: true, ..ExecutorOptions::default() };
-    let mut prepared = Prepared::new(device, planned, pipeline, scene, arguments.size, &options)?;
+    let mut prepared = Prepared::new(device, (plan, frame), assets, scene, &options)?;
     let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {
@@ -240,7 +208,7 @@ fn draw(
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, &planned.plan));
+    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, plan));
     let pictures = pictures.collect::<Result<Vec<_>, _>>().map_err(interrupted(arguments.frames, arguments.frames))?;
     if interrupt::asked() {
         return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });

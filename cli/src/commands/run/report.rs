@@ -13,8 +13,10 @@ use serde::Serialize;
 pub(crate) struct Report {
     /// 2; rises when a field changes its meaning.
     pub(crate) format_version: u32,
-    /// The pipeline, as it was named.
-    pub(crate) pipeline: String,
+    /// The pipeline, as it was named; `null` if it was a Plan.
+    pub(crate) pipeline: Option<String>,
+    /// The Plan, as it was named; `null` if it was made of a pipeline.
+    pub(crate) plan: Option<String>,
     /// The scene, as it was named.
     pub(crate) scene: String,
     /// Settings in force, by name.

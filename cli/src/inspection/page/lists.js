@@ -25,6 +25,8 @@ function costView(model) {
   const kinds = ["loaded", "stored", "resolved", "copied"];
   const most = Math.max(1, ...model.moved.map(movedSum));
   const all = kinds.map((kind) => model.moved.reduce((sum, moved) => sum + moved[kind], 0));
+  const stays = model.onChip.reduce((sum, one) => sum + one, 0);
+  const images = new Set(model.on_chip.flat().map(([image]) => image));
   const rows = model.moved.map((moved, at) => {
     const bar = kinds.map((kind) => {
       const made = element("span", { class: "bar " + kind, title: kind + " " + bytes(moved[kind]) });
@@ -32,12 +34,15 @@ function costView(model) {
       return made;
     });
     const names = model.byKey.get(model.stepKey(at)).nodes.map((node) => node.name).join(", ");
-    return [[link(model.stepKey(at), "step " + at), at], short(names || "barriers alone", 60), [bar, movedSum(moved)], ...[...kinds.map((kind) => moved[kind]), movedSum(moved)].map((amount) => [bytes(amount), amount])];
+    return [[link(model.stepKey(at), "step " + at), at], short(names || "barriers alone", 60), [bar, movedSum(moved)], ...[...kinds.map((kind) => moved[kind]), movedSum(moved), ...(stays > 0 ? [model.onChip[at]] : [])].map((amount) => [bytes(amount), amount])];
   });
   return element("div", {},
     element("p", {}, `The frame moves ${bytes(all.reduce((sum, one) => sum + one, 0))}: ` + kinds.map((kind, at) => bytes(all[at]) + " " + kind).join(", ")
-      + ". Counted are attachments that are loaded and stored, resolves, copies and fills. What draws and dispatches sample isn't part of it, nor what a device compresses. A device that draws in tiles keeps on the chip what is neither loaded nor stored."),
-    table([["step"], ["work"], ["moved", "number"], ...kinds.map((kind) => [kind, "number"]), ["sum", "number"]], rows, model.moved.map((_, at) => model.stepKey(at))));
+      + ". Counted are attachments that are loaded and stored, resolves, copies and fills. What draws and dispatches sample isn't part of it, nor what a device compresses."),
+    stays > 0 ? element("p", { class: "stays" }, `The device draws in tiles, and keeps ${bytes(stays)} on the chip: `,
+      [...images].map((image, at) => [at > 0 ? ", " : "", link("image:" + model.plan.images[image].name, model.plan.images[image].name)]),
+      images.size === 1 ? " is neither loaded nor stored." : " are neither loaded nor stored.") : null,
+    table([["step"], ["work"], ["moved", "number"], ...kinds.map((kind) => [kind, "number"]), ["sum", "number"], ...(stays > 0 ? [["on the chip", "number"]] : [])], rows, model.moved.map((_, at) => model.stepKey(at))));
 }
 
 /** Images and buffers with their memory. */
@@ -73,6 +78,7 @@ function sourceView(model) {
     return { name, lines, made: element("div", { "data-file": name }, element("h2", {}, name), element("ol", { class: "source" }, lines)) };
   });
   const box = element("div", {}, files.map((file) => file.made));
+  markMistakes(box);
   box.showPlace = ({ file, line }) => {
     box.querySelectorAll(".here").forEach((one) => one.classList.remove("here"));
     const found = files.find((one) => one.name === file)?.lines[line - 1];

@@ -1,20 +1,27 @@
 /** The page of `framewright serve`: it asks its server for the state, shows it, and asks for the next. */
-const live = { version: 0, frame: 0, state: null, view: null };
+const live = { version: 0, frame: 0, state: null, bar: null, view: null };
 
-/** Settings, pictures of the outputs, and what is wrong. It stays while the other views are made anew. */
+/** What is going on, and what is wrong: above all views. */
+function addLiveBar() {
+  const bar = { status: element("p", { role: "status", id: "live-status" }), wrong: element("div", { role: "alert", id: "live-wrong" }) };
+  document.getElementById("body").before(element("section", { id: "live", "aria-label": "Live" }, bar.status, bar.wrong));
+  live.bar = bar;
+}
+
+/** Settings, and pictures of the outputs. It stays while the other views are made anew. */
 function liveView() {
-  if (live.view) return live.view.box;
-  const view = { status: element("p", { role: "status", id: "live-status" }), wrong: element("div", { role: "alert", id: "live-wrong" }),
-    controls: element("div", { class: "controls" }), outputs: element("div", { class: "outputs" }) };
-  view.box = element("div", { class: "live" }, view.status, view.wrong, view.controls, view.outputs);
-  live.view = view;
-  return view.box;
+  if (!live.view) {
+    const view = { controls: element("div", { class: "controls" }), outputs: element("div", { class: "outputs" }) };
+    view.box = element("div", {}, view.controls, view.outputs);
+    live.view = view;
+  }
+  return live.view.box;
 }
 
 /** Sends a choice. The state that follows shows it. */
 async function choose(choice) {
   const answer = await fetch("choose", { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(choice) });
-  if (!answer.ok) live.view.status.textContent = await answer.text();
+  if (!answer.ok) live.bar.status.textContent = await answer.text();
 }
 
 /** The control of a setting. */
@@ -54,7 +61,7 @@ function showControls(state) {
 
 /** The mistakes, each with its place, and below its line in the source. */
 function showWrong(state) {
-  const { wrong } = live.view;
+  const { wrong } = live.bar;
   wrong.replaceChildren();
   if (state.mistakes.length === 0) return;
   wrong.append(element("p", {}, element("strong", {}, live.frame > 0 ? "The last good frame is shown: " : "There is no frame yet: "), count(state.mistakes.length, "mistake", "mistakes")),
@@ -71,24 +78,24 @@ function sourcesOf(state, page) {
   return state.sources;
 }
 
-/** Puts every mistake below its line in the source. */
-function markMistakes(state) {
-  document.querySelectorAll("#view-source .mistake").forEach((one) => one.remove());
-  for (const mistake of state.mistakes) {
-    const line = lineOf(mistake);
+/** Puts every mistake of the state below its line in the source. */
+function markMistakes(root) {
+  root.querySelectorAll(".mistake").forEach((one) => one.remove());
+  for (const mistake of live.state?.mistakes ?? []) {
+    const line = lineOf(mistake, root);
     line?.append(element("p", { class: "mistake removed" }, mistake.message, mistake.help ? element("span", { class: "faint" }, " " + mistake.help) : null));
   }
 }
 
 /** The line of the source that a mistake is in. */
-function lineOf({ file, line }) {
+function lineOf({ file, line }, root) {
   const source = live.state.sources.find((one) => one.shown === file);
-  const found = source && [...document.querySelectorAll("#view-source [data-file]")].find((one) => one.dataset.file === source.name);
+  const found = source && [...root.querySelectorAll("[data-file]")].find((one) => one.dataset.file === source.name);
   return found?.querySelectorAll("ol.source > li")[line - 1] ?? null;
 }
 
 function showMistake(mistake) {
-  const line = lineOf(mistake);
+  const line = lineOf(mistake, document);
   document.querySelectorAll("#view-source .here").forEach((one) => one.classList.remove("here"));
   line?.classList.add("here");
   line?.scrollIntoView({ block: "center" });
@@ -105,15 +112,17 @@ function showState(state, page) {
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     showData({ ...data, live: true });
   }
-  live.view.status.textContent = state.busy ? "drawing …" : state.took;
+  live.bar.status.textContent = state.busy ? "drawing …" : state.mistakes.length > 0 ? "" : state.took;
+  liveView();
   showWrong(state);
   showControls(state);
   live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
-  markMistakes(state);
+  markMistakes(document);
 }
 
 /** Asks for states for ever. A server that is gone may come back. */
 async function follow() {
+  addLiveBar();
   for (;;) {
     try {
       const answer = await fetch("state/" + live.version);
@@ -123,7 +132,7 @@ async function follow() {
         showState(state, page);
       } else if (answer.status !== 204) throw new Error(answer.statusText);
     } catch {
-      live.view.status.textContent = "The server doesn't answer: it is asked again every second.";
+      live.bar.status.textContent = "The server doesn't answer: it is asked again every second.";
       await new Promise((done) => setTimeout(done, 1000));
     }
   }

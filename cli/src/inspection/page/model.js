@@ -10,7 +10,7 @@ class Model {
     this.sources = data.sources;
     this.outline = data.outline;
     this.summary = data.summary || null;
-    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], graph: null };
+    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], on_chip: [], graph: null };
     Object.assign(this, whole);
     /** What each step moves: image by image, and in all. */
     this.movedEach = this.moved;
@@ -18,6 +18,8 @@ class Model {
       for (const kind in sum) sum[kind] += moved[kind];
       return sum;
     }, { loaded: 0, stored: 0, resolved: 0, copied: 0 }));
+    /** What each step keeps on the chip, of a device that draws in tiles. */
+    this.onChip = this.on_chip.map((each) => each.reduce((sum, [, amount]) => sum + amount, 0));
     this.byKey = new Map();
     this.related = new Map();
     this.lines = new Map();

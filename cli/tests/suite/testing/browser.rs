@@ -34,10 +34,15 @@ impl Drop for Browser {
 impl Browser {
     /// Starts one; `None` where none is installed, which CI doesn't allow.
     pub(crate) fn start() -> Option<Browser> {
+        Browser::start_with(&[])
+    }
+
+    /// The same with further options.
+    pub(crate) fn start_with(options: &[&str]) -> Option<Browser> {
         let profile = tempfile::tempdir().expect("a folder");
         let mut command = Command::new("chromium");
         command.args(["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--remote-debugging-port=0"]);
-        command.args(["--no-first-run", "--disable-dev-shm-usage", "--window-size=1400,900"]);
+        command.args(["--no-first-run", "--disable-dev-shm-usage", "--window-size=1400,900"]).args(options);
         command.arg(format!("--user-data-dir={}", profile.path().display())).arg("about:blank");
         let started = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
         let Ok(mut process) = started else {

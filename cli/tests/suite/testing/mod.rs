@@ -3,6 +3,8 @@
 pub(crate) mod browser;
 pub(crate) mod results;
 pub(crate) mod server;
+#[cfg(unix)]
+pub(crate) mod shell;
 
 use framewright_graph::device::Profile;
 use framewright_tests::drivers::{CURRENT_LAYER, DISTRIBUTION_LAYERS, Driver};

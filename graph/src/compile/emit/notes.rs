@@ -27,5 +27,13 @@ pub(super) fn notes(results: &StageResults<'_>) -> Vec<Note> {
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),
     });
-    off.chain(remarks).chain(culled).chain(results.structure.notes.iter().cloned()).collect()
+    let of_stages = results.structure.notes.iter().chain(&results.structure.queue_notes).cloned();
+    off.chain(remarks).chain(culled).chain(of_stages).collect()
+}
+
+/// Brings the notes with figures that depend on sizes up to date: the last ones.
+pub(super) fn renew_sizes(results: &StageResults<'_>, notes: &mut [Note]) {
+    let with_sizes = &results.structure.queue_notes;
+    let first = notes.len().saturating_sub(with_sizes.len());
+    notes[first..].clone_from_slice(with_sizes);
 }

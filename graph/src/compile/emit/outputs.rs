@@ -18,7 +18,11 @@ pub(super) fn outputs(results: &StageResults<'_>) -> Vec<Output> {
             }
             _ => None,
         };
-        Output { resource: resource_id(resource), encoding, encoded, eye: declared.eye }
+        let name = match declared.resource {
+            Declared::Image(image) => &frame.images[image.0 as usize].name,
+            Declared::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
+        };
+        Output { name: name.clone(), resource: resource_id(resource), encoding, encoded, eye: declared.eye }
     });
     outputs.collect()
 }

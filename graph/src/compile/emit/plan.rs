@@ -20,6 +20,7 @@ pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Re
         settings: settings(results),
         changes: changes(results),
         decided: Arc::clone(&results.frame.decided),
+        extent: results.frame.extent,
         stereo: results.frame.stereo,
         views: views(results),
         images,

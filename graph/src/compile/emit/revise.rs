@@ -3,7 +3,7 @@
 use super::barriers::StepBarriers;
 use super::stage_results::{StageResults, frame_work};
 use super::values::{settings, views, with_bytes};
-use super::{attachments, passes};
+use super::{attachments, notes, passes};
 use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
@@ -57,6 +57,7 @@ fn pass_values(results: &StageResults<'_>, op: u32, planned: &mut Pass) {
 /// Brings sizes and values up to date. Steps and barriers are the same.
 pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
     values(results, plan);
+    plan.extent = results.frame.extent;
     let Plan { images, buffers, .. } = plan;
     for ((resource, placement), index) in results.adapted.resources.iter().zip(&results.placed.placements).zip(0..) {
         let role = match &resource.kind {
@@ -97,6 +98,7 @@ pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
             _ => {}
         }
     }
+    notes::renew_sizes(results, &mut plan.notes);
     plan.totals = with_bytes(results, plan.totals);
 }
 

@@ -70,13 +70,14 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 }
 
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
-    let Frame { sources, settings, changes, stereo, views, images, buffers, passes, outputs, .. } = new;
+    let Frame { sources, settings, changes, extent, stereo, views, images, buffers, passes, outputs, .. } = new;
     let Frame { decided, switched_off, remarks, .. } = new;
     let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs && old.stereo == *stereo;
     if !same || old.switched_off != *switched_off || old.remarks != *remarks {
         return Structure;
     }
     unless(old.settings == *settings && old.decided == *decided, Values)
+        .max(unless(old.extent == *extent, Sizes))
         .max(of_lists(&old.views, views, view))
         .max(of_lists(&old.images, images, image))
         .max(of_lists(&old.buffers, buffers, buffer))

@@ -1,6 +1,5 @@
 //! Windows: the graphics steps that can run beside each step that may leave the graphics queue.
 
-use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::scope::Step;
@@ -36,16 +35,7 @@ impl Steps<'_> {
         let count = self.steps.len() as u32;
         let before = self.walk(0..count, |step| step + 1);
         let behind = self.walk((0..count).rev(), |step| count - step);
-        let mut windows: Vec<[u32; 2]> =
-            before.into_iter().zip(behind).map(|(before, behind)| [before, count - behind]).collect();
-        // Steps of one queue follow each other.
-        let mut latest = [0; QUEUES];
-        for (window, queue) in windows.iter_mut().zip(self.queues) {
-            let latest = &mut latest[*queue as usize];
-            *latest = window[0].max(*latest);
-            window[0] = *latest;
-        }
-        windows
+        before.into_iter().zip(behind).map(|(before, behind)| [before, count - behind]).collect()
     }
 
     /// For each step its reach, in one direction.

@@ -32,21 +32,14 @@ impl Gain {
 
     pub(super) fn reason(&self, frame: &Frame, adapted: &Adapted) -> Reason {
         let name = |target: &Target| resource_name(frame, adapted, target.resource).clone();
+        let bytes = |target: &Target| adapted.bytes(target.resource, target.range);
         match self {
             Gain::Shared { before, attachments } => Reason::SharesAttachments {
                 attachments: attachments.iter().map(name).collect(),
                 before: before.and_then(|op| op_name(frame, adapted, op)).cloned(),
-                bytes: attachments.iter().map(|target| bytes(adapted, target)).fold(0, u64::saturating_add),
+                bytes: attachments.iter().map(bytes).fold(0, u64::saturating_add),
             },
-            Gain::ReadLocally(target) => Reason::ReadsLocally { image: name(target), bytes: bytes(adapted, target) },
+            Gain::ReadLocally(target) => Reason::ReadsLocally { image: name(target), bytes: bytes(target) },
         }
     }
-}
-
-/// Bytes of a part of an image.
-fn bytes(adapted: &Adapted, target: &Target) -> u64 {
-    let Some(image) = adapted.resources[target.resource as usize].image() else { return 0 };
-    let sides = image.extent_at(target.range.base_mip).map(u64::from);
-    let texels = sides.into_iter().fold(u64::from(target.range.layers), u64::saturating_mul);
-    texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
 }

@@ -4,7 +4,7 @@
 
 use super::crossed::{self, Crossed};
 use super::subresource::{SubresourceAccess, SubresourceBarrier, SubresourceState};
-use crate::compile::model::{PhysicalIndex, PhysicalResource, SubresourceIndex};
+use crate::compile::model::{PhysicalIndex, PhysicalResource, SubresourceIndex, Use};
 use crate::compile::queues::Queues;
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
@@ -23,8 +23,8 @@ pub(in crate::compile) struct AccessTimeline {
     /// For each physical resource its states around the frame; `None` if it lives within the frame.
     pub(in crate::compile) states: Vec<Option<States>>,
     /// Uses, by index, that are in another layout than they ask for, because their step uses the same subresource in other
-    /// ways.
-    pub(in crate::compile) layouts: Vec<(u32, Layout)>,
+    /// ways; and that layout, or the one that they ask for where they have it.
+    pub(super) layouts: Vec<(u32, Layout)>,
 }
 
 /// States of a resource that outlives the frame.
@@ -40,6 +40,13 @@ impl AccessTimeline {
         self.subresources[subresources.start as usize..subresources.end as usize]
             .iter()
             .fold(0, |usage, state| usage | state.usage)
+    }
+
+    /// Gives uses the layouts that they have in their steps; the second time, those that they ask for.
+    pub(in crate::compile) fn swap_layouts(&mut self, uses: &mut [Use]) {
+        for (used, layout) in &mut self.layouts {
+            std::mem::swap(&mut uses[*used as usize].layout, layout);
+        }
     }
 
     /// Finds lifetimes, before the step behind all others is added.

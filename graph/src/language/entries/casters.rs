@@ -1,15 +1,11 @@
 //! `draw: Casters(…)`: objects that cast the sun's shadow.
 
-use super::values::{self, optional};
+use super::values::optional;
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres, Share};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, combined};
 use crate::ron::{Described, Leaf, Spanned, Table, names};
-
-/// Draw lists, by name.
-pub(crate) const LISTS: [(&str, DrawList); 3] =
-    [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
 
 /// The form of `Casters`.
 pub(crate) const FORM: &str = "Casters(list: Opaque, cascade: 0, of: 1)";
@@ -18,7 +14,7 @@ fields! {
     /// Casters: objects that cast the sun's shadow onto one of several parts of the view, by distance from the camera.
     struct CastersFields<'src> {
         /// Which objects; light goes through transparent ones.
-        list: Leaf<'src> => Form::Choice("a list of casters", || names(&CASTERS)),
+        list: Leaf<'src> => Form::Choice("a list of casters", || names(&DrawList::CASTERS)),
         /// Which part, from 0, the nearest.
         cascade: Leaf<'src> => Form::Whole(0, Cascade::MOST as i64 - 1),
         /// How many parts there are; all have a map of one size.
@@ -36,15 +32,12 @@ pub(crate) fn fields() -> Table {
     CastersFields::<'static>::table()
 }
 
-/// Draw lists of objects that light doesn't go through.
-const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
-
 impl Context<'_> {
     /// The cascade of `Casters(…)`.
     pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<FieldValue<Cascade>> {
         let fields: CastersFields<'_> = self.reader.inside(leaf, rest, FORM)?;
         let most = i64::from(Cascade::MOST);
-        let list = values::choice(self.reader, fields.list, "a list of casters", &CASTERS);
+        let list = self.reader.choice(fields.list, "a list of casters", &DrawList::CASTERS);
         let index = self.whole_at(fields.cascade, "cascade", 0..=most - 1);
         let of = self.whole_at(fields.of, "number of cascades", 1..=most);
         let reach = optional(fields.reach, |leaf| self.reach(leaf));

@@ -1,8 +1,8 @@
 //! `draw`: the draw of a raster pass.
 
-use super::casters::{self, LISTS};
+use super::casters;
 use super::parts;
-use super::values::{self, MANY};
+use super::values::MANY;
 use crate::frame::DrawList;
 use crate::language::model::{Draw, Work};
 use crate::language::scope::{Context, FieldValue, combined};
@@ -19,7 +19,7 @@ static DRAWS: Words = Words {
     all: &[
         Word::new(
             "Objects",
-            &[Takes::Values(&[Form::Choice("a draw list", || names(&LISTS))])],
+            &[Takes::Values(&[Form::Choice("a draw list", || names(&DrawList::NAMED))])],
             &["Objects(Opaque)", "Objects(Masked)", "Objects(Transparent)"],
             "The scene's opaque objects, those that alpha cuts holes into, or those that let light through.",
         ),
@@ -132,5 +132,5 @@ impl Context<'_> {
 /// One of the scene's draw lists.
 fn list<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
     let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Objects(Opaque)")?;
-    values::choice(reader, list, "a draw list", &LISTS)
+    reader.choice(list, "a draw list", &DrawList::NAMED)
 }

@@ -225,7 +225,7 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Opti
                 reader.wrong(layout, "a buffer has no layout", "");
                 None
             }
-            (Some(layout), Of::Image) => values::choice(reader, layout, "an image layout", &LAYOUTS),
+            (Some(layout), Of::Image) => reader.choice(layout, "an image layout", &LAYOUTS),
             (None, Of::Buffer) => Some(Layout::Undefined),
             (None, Of::Image) => {
                 reader.wrong(leaf, "the state of an image has a layout", "add `layout: …`");
@@ -257,7 +257,7 @@ fn flags<'src, F: Flags + Copy>(reader: &mut Reader, leaf: Leaf<'src>, field: &s
     let mut all = F::empty();
     let mut complete = true;
     for entry in reader.list(leaf, field)? {
-        match values::choice(reader, entry, what, &choices) {
+        match reader.choice(entry, what, &choices) {
             Some(flag) => all = all.union(flag),
             None => complete = false,
         }

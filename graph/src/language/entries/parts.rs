@@ -250,7 +250,7 @@ impl Context<'_> {
         let (_, rest) = self.reader.one_of(leaf, &EYES)?;
         let [eye, name]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
         let image = self.image(name);
-        let chosen = values::choice(self.reader, eye, "an eye", &EYE_NAMES)?;
+        let chosen = self.reader.choice(eye, "an eye", &EYE_NAMES)?;
         Some((image?, Some(eye.spanned(chosen))))
     }
 

@@ -1,7 +1,7 @@
 //! `color` and `depth`: the targets of a pass, with their clears, blends and tests.
 
 use super::parts::{self, Selected};
-use super::values::{self, at, choice, optional};
+use super::values::{self, at, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
@@ -161,7 +161,7 @@ impl Context<'_> {
                 let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
                 let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
                 let clear = optional(fields.clear, |clear| self.clear_depth(clear));
-                let test = fields.test.map_or(Some(test), |test| choice(self.reader, test, "a depth test", &TESTS));
+                let test = fields.test.map_or(Some(test), |test| self.reader.choice(test, "a depth test", &TESTS));
                 let write = fields
                     .write
                     .map_or(Some(FieldValue::Constant(true)), |write| self.truth(write).map(FieldValue::alone));
@@ -195,11 +195,11 @@ impl Context<'_> {
         let byte = |context: &mut Self, leaf| context.whole::<u8>(leaf, "stencil value", 0..=255);
         let clear = optional(fields.clear, |clear| byte(self, clear));
         let test =
-            fields.test.map_or(Some(CompareOp::Always), |test| choice(self.reader, test, "a stencil test", &TESTS));
+            fields.test.map_or(Some(CompareOp::Always), |test| self.reader.choice(test, "a stencil test", &TESTS));
         let reference = fields.reference.map_or(Some(FieldValue::Constant(0)), |reference| byte(self, reference));
         let pass = fields
             .pass
-            .map_or(Some(StencilOp::Keep), |pass| choice(self.reader, pass, "a stencil operation", &OPERATIONS));
+            .map_or(Some(StencilOp::Keep), |pass| self.reader.choice(pass, "a stencil operation", &OPERATIONS));
         let (test, pass) = (test?, pass?);
         let state =
             combined((clear?, reference?), move |(clear, reference)| StencilState { clear, test, reference, pass });

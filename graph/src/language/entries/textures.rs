@@ -1,7 +1,7 @@
 //! `textures`: images whose texels come from picture files.
 
 use super::parameters;
-use super::values::{self, optional};
+use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
 use crate::language::model::{Decided, Decisions, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
@@ -61,9 +61,9 @@ impl Context<'_> {
         let name = self.reader.name(fields.name, "a texture");
         let path = self.reader.words(fields.file, "the path of a file");
         let color_space = color_space(self.reader, fields.color_space);
-        let shape = fields.shape.map_or(Some(vulkan::Shape::D2), |leaf| {
-            values::choice(self.reader, leaf, "the shape of a texture", &SHAPES)
-        });
+        let shape = fields
+            .shape
+            .map_or(Some(vulkan::Shape::D2), |leaf| self.reader.choice(leaf, "the shape of a texture", &SHAPES));
         let format = optional(fields.format, |leaf| match leaf.shape() {
             crate::ron::Shape::Text => self.format(leaf),
             _ => parameters::format(self.reader, leaf).map(|format| FieldValue::said(leaf, format)),
@@ -126,5 +126,5 @@ fn image(
 }
 
 pub(crate) fn color_space(reader: &mut Reader, leaf: Option<Leaf<'_>>) -> Option<ColorSpace> {
-    leaf.map_or(Some(ColorSpace::default()), |leaf| values::choice(reader, leaf, "a colour space", &COLOR_SPACES))
+    leaf.map_or(Some(ColorSpace::default()), |leaf| reader.choice(leaf, "a colour space", &COLOR_SPACES))
 }

@@ -154,7 +154,7 @@ impl Context<'_> {
     ) -> Option<FieldValue<Decided<T>>> {
         let quoted = leaf.plain().filter(|text| !self.scope.names_nothing(text));
         if quoted.is_none() {
-            return choice(self.reader, leaf, what, choices).map(|word| FieldValue::said(leaf, word));
+            return self.reader.choice(leaf, what, choices).map(|word| FieldValue::said(leaf, word));
         }
         let said = decided(self.expression(leaf, Wanted::TEXT)?, leaf.span());
         typed(said, text)?.checked(self.reader, move |said, view| {
@@ -276,29 +276,7 @@ pub(crate) fn optional_choice<T: Copy>(
     what: &str,
     choices: &[(&'static str, T)],
 ) -> Option<Option<Spanned<T>>> {
-    optional(leaf, |leaf| choice(reader, leaf, what, choices).map(|value| leaf.spanned(value)))
-}
-
-/// One of a few words.
-pub(crate) fn choice<'src, T: Copy>(
-    reader: &mut Reader,
-    leaf: Leaf<'src>,
-    what: &str,
-    choices: &[(&'static str, T)],
-) -> Option<T> {
-    if let Shape::Word(word, rest) = leaf.shape()
-        && let Some((known, value)) = choices.iter().find(|(choice, _)| *choice == word)
-    {
-        return reader.bare(known, rest).map(|()| *value);
-    }
-    let words: Vec<&'static str> = choices.iter().map(|(word, _)| *word).collect();
-    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    let forms = match &quoted[..] {
-        [one, other] => format!("write {one} or {other}"),
-        several => format!("write one of {}", several.join(", ")),
-    };
-    reader.word(leaf, what, &words, &forms);
-    None
+    optional(leaf, |leaf| reader.choice(leaf, what, choices).map(|value| leaf.spanned(value)))
 }
 
 /// The form of a fill: a value for every component or word, depth and stencil, or a colour.

@@ -4,14 +4,16 @@ use super::changes;
 use super::decided::Decisions;
 use super::lists::{buffer, image, note, output, totals, view};
 use super::outline::{About, Outline};
-use super::words::{bytes, cause, fill_value, hazard, needless_if, samples, size, words_of, words_of_list};
+use super::words::{
+    bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of, words_of_list,
+};
 use crate::frame::{
     Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, Property, StencilState, Stereo, Subject,
 };
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Moved, Pass, Plan,
-    Queue, RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
+    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
+    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -76,7 +78,12 @@ fn outline(plan: &Plan, detail: Detail<'_>) -> Outline {
     if !notes.is_empty() {
         parts.push(Outline::new("notes", notes));
     }
-    parts.push(totals(&plan.totals));
+    let mut totals = totals(&plan.totals);
+    if detail.verbose {
+        totals.parts.extend(moved(plan.moved()).map(Outline::leaf));
+        totals.parts.extend(on_chip(plan, &plan.steps).map(Outline::leaf));
+    }
+    parts.push(totals);
     Outline::new(format!("Plan for {}, with {memory}", Shown(&plan.device.name)), parts)
 }
 
@@ -125,7 +132,10 @@ impl Tree<'_> {
             Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
         parts.extend(step.releases.iter().map(|barrier| self.image_barrier(barrier)));
-        parts.extend(self.moved(step));
+        if self.detail.verbose {
+            parts.extend(moved(self.plan.moved_by(step)).map(Outline::leaf));
+            parts.extend(on_chip(self.plan, std::slice::from_ref(step)).map(Outline::leaf));
+        }
         let queue = match step.queue {
             Queue::Graphics => "",
             Queue::Compute => " on the compute queue",
@@ -324,16 +334,6 @@ impl Tree<'_> {
             Side::Image { image, range, extent, .. } => format!("{} {}", self.part(*image, *range), size(*extent)),
             Side::Buffer { bytes: taken, .. } => format!("{} {}", self.resource(side.resource()), bytes(*taken)),
         }
-    }
-
-    /// The bytes that a step moves, if the outline is to say them and there are any.
-    fn moved(self, step: &Step) -> Option<Outline> {
-        let moved = self.plan.moved_by(step);
-        let Moved { loaded, stored, resolved, copied } = moved;
-        let shares = [("loaded", loaded), ("stored", stored), ("resolved", resolved), ("copied", copied)];
-        let shares = shares.iter().filter(|(_, amount)| *amount > 0);
-        let shares: Vec<String> = shares.map(|(word, amount)| format!("{} {word}", bytes(*amount))).collect();
-        (self.detail.verbose && !shares.is_empty()).then(|| Outline::leaf(format!("moves {}", shares.join(", "))))
     }
 
     /// The stages and accesses of a barrier, if the outline is to say them.

@@ -3,10 +3,12 @@
 pub(super) use crate::base::amount::bytes;
 
 use crate::base::Place;
+use crate::base::amount::largest;
 use crate::frame::DrawList;
 use crate::plan::names::Shown;
-use crate::plan::{Cause, Hazard, StepId};
+use crate::plan::{Cause, Hazard, ImageId, Moved, Plan, Step, StepId};
 use crate::vulkan::{AddressMode, FillValue, Filter, Sampler, name_of};
+use std::collections::BTreeMap;
 
 /// The hazard of a barrier in words: the user, its work, and the step before.
 pub(super) fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
@@ -68,6 +70,29 @@ pub(super) fn count(number: u32, one: &str, many: &str) -> String {
 
 pub(super) fn samples(samples: u32) -> String {
     count(samples, "sample", "samples")
+}
+
+/// The bytes that are moved, if there are any.
+pub(super) fn moved(moved: Moved) -> Option<String> {
+    let Moved { loaded, stored, resolved, copied } = moved;
+    let shares = [("loaded", loaded), ("stored", stored), ("resolved", resolved), ("copied", copied)];
+    let shares = shares.iter().filter(|(_, amount)| *amount > 0);
+    let shares: Vec<String> = shares.map(|(word, amount)| format!("{} {word}", bytes(*amount))).collect();
+    (!shares.is_empty()).then(|| format!("moves {}", shares.join(", ")))
+}
+
+/// The images that stay on the chip in some of a Plan's steps, if there are any.
+pub(super) fn on_chip(plan: &Plan, steps: &[Step]) -> Option<String> {
+    let mut images: BTreeMap<ImageId, u64> = BTreeMap::new();
+    for (image, amount) in steps.iter().flat_map(|step| plan.on_chip_of_each(step)) {
+        let sum = images.entry(image).or_default();
+        *sum = sum.saturating_add(amount);
+    }
+    let sum = images.values().copied().fold(0, u64::saturating_add);
+    let names = images.iter().map(|(image, amount)| (Shown(&plan.image(*image).name).to_string(), *amount));
+    let names: Vec<(String, u64)> = names.collect();
+    let largest = largest(names.iter().map(|(name, amount)| (&**name, *amount)).collect());
+    (!images.is_empty()).then(|| format!("keeps {} on the chip, neither loaded nor stored: {largest}", bytes(sum)))
 }
 
 /// Width × height, and depth if there is any.

@@ -413,16 +413,16 @@ impl ShaderInterfaces for Table {
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
-        let supplied = |set, binding, name, kind| Supplied { set, binding, name, kind };
+        let supplied = |set, binding, name, kind| Supplied::new(set, binding, name, kind);
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
             Draw::Objects(_) | Draw::Casters(_) => DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
-                    Attribute { name: "position", components: 3, offset: 0 },
-                    Attribute { name: "normal", components: 3, offset: 12 },
-                    Attribute { name: "uv", components: 2, offset: 24 },
+                    Attribute::new("position", 3, 0),
+                    Attribute::new("normal", 3, 12),
+                    Attribute::new("uv", 2, 24),
                 ],
                 supplied: vec![
                     view,

@@ -1,12 +1,14 @@
 //! Malformed Plans: each mistake is said, none makes the checker panic.
 
 use crate::testing::hand_written_plans;
-use framewright_graph::frame::{Allowances, Blend, Jitter};
-use framewright_graph::plan::{BindingKind, FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
+use framewright_graph::frame::{Allowances, Blend, Cascade, Draw, DrawList, Jitter, Share};
+use framewright_graph::plan::{
+    BindingKind, FORMAT_VERSION, ImageBarrier, Output, Plan, PlanError, RenderScope, Resource, Role, View, Work,
+};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{
     Accesses, AddressMode, Component, Dimension, Format, ImageShape, Layout, LoadOp, ResolveMode, Rotation, Shape,
-    Stages, StoreOp, Usage,
+    Stages, StoreOp, Subresources, Usage,
 };
 use serde_json::Value;
 
@@ -104,9 +106,60 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),
         (|plan| plan.images[2].usage = Usage::SAMPLED, "is used as COLOR_ATTACHMENT, which its usage leaves out"),
         (
-            |plan| plan.outputs.push(Resource::Image(framewright_graph::plan::ImageId(2)).into()),
+            |plan| plan.outputs.push(Output::new("c", Resource::Image(framewright_graph::plan::ImageId(2)))),
             "`color.resolved`: is listed as an output and is transient",
         ),
+        (|plan| plan.outputs.push(plan.outputs[0].clone()), "`screen`: is an output with the name of another one"),
+        (
+            |plan| {
+                let Role::External { before, .. } = &mut plan.images[3].role else { panic!("it is an output") };
+                before.layout = Layout::TransferDstOptimal;
+            },
+            "`screen`: comes or goes in TRANSFER_DST_OPTIMAL, for which it has no usage",
+        ),
+        (
+            |plan| {
+                let Role::External { after, .. } = &mut plan.images[3].role else { panic!("it is an output") };
+                after.layout = Layout::DepthAttachmentOptimal;
+            },
+            "`screen`: comes or goes in DEPTH_ATTACHMENT_OPTIMAL, which not all of its planes can be in",
+        ),
+        (|plan| scope(plan, 1).color.clear(), "has 0 colour attachments, or none at all, as no rendering scope can"),
+        (
+            |plan| {
+                let attachment = scope(plan, 1).color[0].clone();
+                scope(plan, 1).color = vec![attachment; 33];
+            },
+            "has 33 colour attachments",
+        ),
+        (
+            |plan| {
+                let (index, of, logarithmic) = (255, 4, Share::OF_CASCADES);
+                let cascade = Cascade { list: DrawList::Opaque, index, of, reach: None, logarithmic };
+                scope(plan, 1).passes[0].draw = Some(Draw::Casters(cascade));
+            },
+            "draws a part of the shadows' reach that there isn't",
+        ),
+        (
+            // Each range is made of as many parts as there are ranges before it.
+            |plan| {
+                let image = &mut plan.images[2];
+                image.layers = 1 << 13;
+                let ranges = (1..1 << 13).map(|layers| Subresources {
+                    mips: 1,
+                    layers,
+                    ..Subresources::all(image.format, 1, 1)
+                });
+                let barriers = ranges.map(|range| ImageBarrier { range, ..plan.steps[1].image_barriers[0].clone() });
+                plan.steps[1].image_barriers = barriers.collect();
+            },
+            "tells more parts of images apart than can be followed",
+        ),
+        (
+            |plan| plan.images[3].usage = Usage::COLOR_ATTACHMENT | Usage::TRANSIENT_ATTACHMENT,
+            "`screen`: is a TRANSIENT_ATTACHMENT and more than an attachment, or outlives the frame",
+        ),
+        (|plan| scope(plan, 1).passes[0].local_barrier = true, "has a local barrier in a scope without local reads"),
         (|plan| plan.heaps[0].bytes = 1024, "reaches beyond heap 0, which has 1024 bytes"),
         (|plan| plan.heaps[0].type_bits = 0b100, "accepts the memory types 0b11, its heap may be of 0b100"),
         (|plan| plan.heaps[0].lazily_allocated = true, "lies in lazily allocated memory"),
@@ -233,8 +286,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 10", "\"format_version\": 11"),
-        "the Plan has format version 11, this program reads version 10: compile it again"
+        changed("\"format_version\": 11", "\"format_version\": 12"),
+        "the Plan has format version 12, this program reads version 11: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");
@@ -308,7 +361,7 @@ fn a_plan_without_steps_is_refused() {
     let mut plan = multisampled();
     plan.images.retain(|image| matches!(image.role, Role::External { .. }));
     plan.images[0].id.0 = 0;
-    plan.outputs = vec![Resource::Image(plan.images[0].id).into()];
+    plan.outputs = vec![Output::new("screen", Resource::Image(plan.images[0].id))];
     plan.steps.clear();
     plan.notes.clear();
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();

@@ -4,7 +4,7 @@ use crate::hand_written_plans::build;
 use framewright_graph::frame::Stereo;
 use framewright_graph::plan::{
     Access, Binding, BindingKind, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId, Initial,
-    Placement, Plan, Resource, Role, Step, StepId, Totals, Work,
+    Output, Placement, Plan, Resource, Role, Step, StepId, Totals, Work,
 };
 use framewright_graph::vulkan::{
     Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Subresources, Usage,
@@ -25,6 +25,7 @@ pub(crate) fn empty() -> Plan {
         settings: Vec::new(),
         changes: Vec::new(),
         decided: [].into(),
+        extent: [4, 4],
         stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),
@@ -56,7 +57,7 @@ pub(crate) fn output(plan: &mut Plan, name: &str) -> ImageId {
     let before = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
     let after = State { stages: CS, accesses: W, layout: Layout::General };
     let id = image(plan, name, Role::External { before, after });
-    plan.outputs.push(Resource::Image(id).into());
+    plan.outputs.push(Output::new(name, Resource::Image(id)));
     id
 }
 

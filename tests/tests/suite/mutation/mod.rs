@@ -33,7 +33,7 @@ fn compiled(name: &str, frame: &Frame, device: &Profile, order: Order) -> Plan {
 
 /// A device with all queues, and local reads.
 fn with_queues(sharing: Sharing) -> Profile {
-    let queues = Queues { compute: true, transfer: true, sharing };
+    let queues = Queues { compute: true, transfer: true, sharing, wait_bytes: 0 };
     Profile { queues, local_read: true, ..frames::device() }
 }
 

@@ -232,7 +232,7 @@ pub(crate) fn block(buffer: &Buffer, stages: Stages, read: bool, write: bool) ->
 /// Adds buffers to a Plan: those that are external leave the frame; transient ones lie in a heap of their own.
 pub(crate) fn with_buffers(mut plan: Plan, buffers: Vec<Buffer>, heap_bytes: u64) -> Plan {
     let external = buffers.iter().filter(|buffer| matches!(buffer.role, Role::External { .. }));
-    plan.outputs.extend(external.map(|buffer| Resource::Buffer(buffer.id).into()));
+    plan.outputs.extend(external.map(|buffer| Output::new(&buffer.name, Resource::Buffer(buffer.id))));
     plan.buffers = buffers;
     plan.heaps.push(Heap { bytes: heap_bytes, ..plan.heaps[0].clone() });
     super::recount(&mut plan);
@@ -263,13 +263,14 @@ pub(crate) fn tone_map(source: &Image, written: State, screen: &Image, step_numb
 
 pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Plan {
     let outputs = images.iter().filter(|image| matches!(image.role, Role::External { .. }));
-    let outputs = outputs.map(|image| Resource::Image(image.id).into()).collect();
+    let outputs = outputs.map(|image| Output::new(&image.name, Resource::Image(image.id))).collect();
     let heap = Heap { bytes: heap_bytes, alignment: HEAP_ALIGNMENT, type_bits: 0b1, lazily_allocated: false };
     let mut plan = Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
         changes: Vec::new(),
         decided: [].into(),
+        extent: [8, 8],
         stereo: Stereo::Off,
         views: Vec::new(),
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],

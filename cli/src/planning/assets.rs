@@ -1,0 +1,57 @@
+//! The files that a Plan names, shaders and pictures, and the process that compiles shaders.
+
+use crate::command_line::args::PipelineArguments;
+use crate::error::Error;
+use crate::files::inputs::{self, FileRole};
+use crate::system::Exit;
+use framewright_graph::base::{ReadFiles, Root, Sources};
+use framewright_graph::shader::{self, DrawInterfaces};
+use framewright_passes::draw;
+use framewright_passes::shipped::SHADERS;
+use framewright_passes::texture_files::TextureFiles;
+use framewright_vulkan::{Helper, ShaderLibrary};
+use std::path::{Path, PathBuf};
+
+/// Where the shaders and pictures that a Plan names come from.
+pub(crate) struct Assets {
+    /// Shaders of the folder, then shipped ones.
+    pub(crate) shaders: ShaderLibrary,
+    /// The process that compiles them.
+    pub(crate) helper: Helper,
+    /// Pictures of the folder.
+    pub(crate) textures: TextureFiles,
+}
+
+impl Assets {
+    /// Those of a folder; `None`: shipped ones alone. All files that are read, now or later, are recorded in `read`.
+    ///
+    /// # Errors
+    /// If the interface that the command line names is wrong.
+    pub(crate) fn of(
+        root: Option<&Root>,
+        arguments: &PipelineArguments,
+        helper: Helper,
+        read: &ReadFiles,
+    ) -> Result<Assets, Error> {
+        let recorded = |what| root.map(|root| root.clone().recorded(read, what));
+        let draws = arguments.interface.as_deref().map(|path| draws(path, read));
+        let draws = draws.unwrap_or_else(|| Ok(draw::interface.into()))?;
+        let folder = recorded("the shader itself").into_iter().collect();
+        Ok(Assets {
+            shaders: ShaderLibrary::new(folder, SHADERS, draws).with_helper(&helper),
+            helper,
+            textures: TextureFiles::new(
+                recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default())),
+            ),
+        })
+    }
+}
+
+/// Reads what the draws of another program bring along.
+fn draws(path: &Path, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
+    let text = inputs::text(FileRole::INTERFACE, path, shader::LARGEST_INTERFACE, read)?;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let mut sources = Sources::default();
+    DrawInterfaces::read(&mut sources, &path.to_string_lossy(), &name, text)
+        .map_err(|mistakes| Error::mistakes(sources, mistakes, Exit::Found))
+}

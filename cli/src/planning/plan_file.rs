@@ -1,0 +1,42 @@
+//! A Plan from a file. It may come from anyone: it is read within bounds, and verified before anything is done with it.
+
+use super::{Assets, helper};
+use crate::command_line::args::PipelineArguments;
+use crate::error::Error;
+use crate::files::inputs::{self, FileRole};
+use framewright_graph::base::ReadFiles;
+use framewright_graph::plan::Plan;
+use framewright_graph::verify;
+use std::path::Path;
+
+/// A file of a Plan has at most this many bytes.
+const LARGEST: usize = 1 << 30;
+
+/// The Plan that a file holds, verified.
+///
+/// # Errors
+/// If the file can't be read, is no Plan, or is one that breaks rules.
+pub(crate) fn read(path: &Path, read: &ReadFiles) -> Result<Plan, Error> {
+    let text = inputs::text(FileRole::PLAN, path, LARGEST, read)?;
+    let wrong = |problem: String| Error::NoPlan { path: path.to_owned(), problem };
+    let plan = Plan::from_json(&text).map_err(|problem| wrong(problem.to_string()))?;
+    let violations = verify::verify(&plan);
+    match violations.split_first() {
+        None => Ok(plan),
+        Some((first, others)) => {
+            let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
+            Err(wrong(format!("the Plan is not right: {first}{more}")))
+        }
+    }
+}
+
+/// The Plan that the command line names, with the files that it names in turn: they are looked for where a pipeline's are.
+///
+/// # Errors
+/// Those of [`read`]; if the Plan lies outside of the folder that `--root` names.
+pub(crate) fn load(arguments: &PipelineArguments, recorded: &ReadFiles) -> Result<(Plan, Assets), Error> {
+    let plan = read(&arguments.file, recorded)?;
+    let root = inputs::root(arguments)?;
+    let helper = helper::with(&arguments.limits, arguments.caching)?;
+    Ok((plan, Assets::of(Some(&root), arguments, helper, recorded)?))
+}

@@ -1,0 +1,181 @@
+//! `run --plan`: a Plan from a file is verified and drawn as it is, or refused with a reason.
+
+use crate::testing::{Outcome, Place, Vulkan, shipped_pipelines};
+use serde_json::Value;
+
+const SCENE: [&str; 2] = ["--scene", "spheres_and_cubes"];
+const SIZE: [&str; 2] = ["--size", "64x36"];
+
+/// A folder, and lavapipe to draw on.
+struct Bench {
+    place: Place,
+    variables: Vec<(&'static str, &'static str)>,
+}
+
+impl Bench {
+    fn new() -> Option<Bench> {
+        Some(Bench { place: Place::new(), variables: Vulkan::LAVAPIPE.variables()? })
+    }
+
+    fn run(&self, arguments: &[&[&str]]) -> Outcome {
+        self.place.run_with(&self.variables, &[&["run"][..], &arguments.concat()].concat())
+    }
+
+    fn read(&self, file: &str) -> Vec<u8> {
+        std::fs::read(self.place.path(file)).expect("written")
+    }
+
+    /// Draws a pipeline, and its Plan from a file; both pictures must be the same.
+    fn draws_the_same(&self, pipeline: &[&str], of_plan: &[&str]) {
+        self.run(&[pipeline, &SCENE, &SIZE, &["--save-plan", "plan.json", "-o", "pipeline.png"]]).exits(0);
+        self.run(&[&["--plan", "plan.json"], &SCENE, of_plan, &["-o", "plan.png"]]).exits(0);
+        assert!(self.read("pipeline.png") == self.read("plan.png"), "{pipeline:?}");
+    }
+
+    /// The Plan of `forward`, with one text in place of another one.
+    fn changed(&self, from: &str, to: &str) {
+        if !self.place.path("plan.json").exists() {
+            self.run(&[&["forward"], &SCENE, &SIZE, &["--save-plan", "plan.json"]]).exits(0);
+        }
+        let text = String::from_utf8(self.read("plan.json")).expect("text");
+        assert!(text.contains(from), "{from}");
+        self.place.file("changed.json", text.replacen(from, to, 1));
+    }
+
+    /// The message about the changed Plan, of which nothing is drawn.
+    fn refused(&self) -> String {
+        let outcome = self.run(&[&["--plan", "changed.json"], &SCENE, &["-o", "x.png"]]).exits(1);
+        assert!(!self.place.path("x.png").exists());
+        outcome.err
+    }
+}
+
+#[test]
+fn every_shipped_pipeline_draws_the_same_from_its_plan() {
+    let Some(bench) = Bench::new() else { return };
+    bench.place.run_with(&bench.variables, &["devices", "--save", "live.ron", "--device", "0"]).exits(0);
+    for name in shipped_pipelines() {
+        bench.draws_the_same(&[&*name], &[]);
+        // A Plan made without the device at hand, too.
+        let estimated =
+            [&["inspect", &*name, "--device", "live.ron"][..], &SCENE, &SIZE, &["--format", "json", "-o", "plan.json"]];
+        bench.place.run(&estimated.concat()).exits(0);
+        bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "plan.png"]]).exits(0);
+        assert!(bench.read("pipeline.png") == bench.read("plan.png"), "{name}");
+    }
+}
+
+#[test]
+fn plans_made_in_every_way_draw_the_same() {
+    let Some(bench) = Bench::new() else { return };
+    for stereo in ["multi-pass", "double-wide", "instanced"] {
+        bench.draws_the_same(&["forward", "--stereo", stereo], &[]);
+    }
+    for way in [&["--rotate", "90"][..], &["--no-alias"], &["--order", "random:3"], &["--naive", "resolves"]] {
+        bench.draws_the_same(&[&["forward"], way].concat(), &[]);
+    }
+    bench.draws_the_same(&["forward", "--poison"], &["--poison", "--validate"]);
+    bench.draws_the_same(&["forward", "--dump", "color=color.png"], &["-o", "color=again.png", "--frames", "1"]);
+    assert!(bench.read("color.png") == bench.read("again.png"));
+}
+
+#[test]
+fn the_report_names_the_plan_and_its_size() {
+    let Some(bench) = Bench::new() else { return };
+    bench.draws_the_same(&["forward"], &["--report", "report.json", "--frames", "2", "--device", "0"]);
+    let report: Value = serde_json::from_slice(&bench.read("report.json")).expect("JSON");
+    assert_eq!([&report["pipeline"], &report["plan"]], [&Value::Null, &Value::from("plan.json")]);
+    assert_eq!(report["size"], serde_json::json!([64, 36]));
+}
+
+#[test]
+fn shaders_are_found_where_a_pipeline_finds_them() {
+    let Some(bench) = Bench::new() else { return };
+    let shader =
+        "#version 450\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(0.25, 0.5, 0.75, 1.0); }\n";
+    bench.place.file("plain.frag", shader);
+    let text = r#"Pipeline(version: 1, images: [(name: "screen", format: R8G8B8A8_SRGB, size: Output)],
+        passes: [(name: "plain", draw: FullScreen("plain"), color: ["screen"])], outputs: ["screen"])"#;
+    bench.place.file("p.ron", text);
+    bench.draws_the_same(&["p.ron"], &[]);
+    std::fs::create_dir(bench.place.path("elsewhere")).expect("made");
+    std::fs::copy(bench.place.path("plan.json"), bench.place.path("elsewhere/plan.json")).expect("copied");
+    let elsewhere = bench.run(&[&["--plan", "elsewhere/plan.json"], &SCENE]).exits(1);
+    elsewhere.mentions("error: shader `plain`: not found in elsewhere; the shipped shaders");
+    let outside = bench.run(&[&["--plan", "plan.json", "--root", "elsewhere"], &SCENE]).exits(2);
+    outside.mentions("`plan.json` lies outside of `elsewhere`");
+    bench.place.file(
+        "changed.json",
+        String::from_utf8(bench.read("plan.json")).expect("text").replace("\"plain\"", "\"../plain\""),
+    );
+    assert!(bench.refused().contains("leads out of"), "{}", bench.refused());
+}
+
+#[test]
+fn what_a_plan_says_itself_can_not_be_chosen() {
+    let place = Place::new();
+    let choices = [
+        &["--set", "msaa=1"][..],
+        &["--preset", "low"],
+        &["--settings", "s.ron"],
+        &["--extend", "e.ron"],
+        &["--stereo", "auto"],
+        &["--size", "8x8"],
+        &["--dump", "color=a.png"],
+        &["--dump-all", "all"],
+        &["--save-plan", "again.json"],
+        &["--order", "file"],
+        &["--naive", "resolves"],
+        &["--one-queue"],
+        &["--no-alias"],
+        &["--rotate", "90"],
+    ];
+    for choice in choices {
+        let outcome = place.run(&[&["run", "--plan", "plan.json"][..], &SCENE, choice].concat()).exits(2);
+        outcome.mentions(&format!("error: the argument '--plan' cannot be used with '{}", choice[0]));
+    }
+    place.run(&[&["run", "forward", "--plan", "plan.json"][..], &SCENE].concat()).exits(2);
+}
+
+#[test]
+fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
+    let Some(bench) = Bench::new() else { return };
+    let version = "\"format_version\": 11";
+    bench.changed(version, "\"format_version\": 12");
+    assert_eq!(
+        bench.refused().trim_end(),
+        "error: changed.json: the Plan has format version 12, this program reads version 11: compile it again"
+    );
+    bench.changed("\"layers\": 1", "\"layers\": 1000000000");
+    assert!(bench.refused().contains("has no images like `color`"), "{}", bench.refused());
+    bench.changed("\"load\": \"CLEAR\"", "\"load\": \"LOAD\"");
+    assert!(bench.refused().starts_with("error: changed.json: the Plan is not right: "), "{}", bench.refused());
+    bench.changed("\"name\": \"color\"", "\"name\": \"\\u001b[31m\\u202e\"");
+    let hostile = bench.run(&[&["--plan", "changed.json"], &SCENE, &["-o", "nothing=x.png"]]).exits(2);
+    assert!(!hostile.err.contains(['\u{1b}', '\u{202e}']), "{}", hostile.err);
+    let text = String::from_utf8(bench.read("plan.json")).expect("text");
+    bench.place.file("changed.json", &text[..text.len() / 2]);
+    assert!(bench.refused().starts_with("error: changed.json: not a Plan: EOF while parsing"), "{}", bench.refused());
+    bench.place.file("changed.json", [0xff]);
+    assert!(bench.refused().contains("is not UTF-8"), "{}", bench.refused());
+    let outcome = bench.run(&[&["--plan", "plan.json"], &SCENE, &["--report", "plan.json"]]).exits(2);
+    outcome.mentions("`plan.json` is a Plan that is read, which would be lost");
+    bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "colour=x.png"]]).exits(2).mentions("there are `screen`");
+    let poisoned = bench.run(&[&["--plan", "plan.json"], &SCENE, &["--poison"]]).exits(1);
+    poisoned.mentions("can't be poisoned: compile the Plan with poison\nhelp: ");
+    bench.run(&[&["--plan", "none.json"], &SCENE]).exits(1).mentions("none.json");
+}
+
+#[test]
+fn a_plan_for_another_device_is_refused_with_the_command_that_makes_one_for_this() {
+    let Some(bench) = Bench::new() else { return };
+    for device in ["mali-g78", "meta-quest-3"] {
+        let inspect = ["inspect", "forward", "--device", device, "--format", "json", "-o", "changed.json"];
+        bench.place.run(&inspect).exits(0);
+        let said = bench.refused();
+        assert!(
+            said.contains("\nhelp: framewright run PIPELINE --scene SCENE --save-plan PLAN.json"),
+            "{device}: {said}"
+        );
+    }
+}

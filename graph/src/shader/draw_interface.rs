@@ -1,0 +1,215 @@
+//! What the draw source brings along for one kind of draw, and what of it no device could bind.
+
+use super::{BINDINGS, Binding, BindingKind, PASS_SET};
+use crate::vulkan::{Component, Dimension, ImageShape};
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+/// Bytes from vertex to vertex that every device allows.
+const MOST_STRIDE: u32 = 2048;
+/// Descriptor sets that every device has.
+const SETS: u32 = 4;
+
+/// The interface of the draw source for one kind of draw: vertex attributes, and resources in sets from 1 on.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DrawInterface {
+    /// Bytes from vertex to vertex; 0 if there is no vertex buffer.
+    pub vertex_stride: u32,
+    /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
+    pub attributes: Vec<Attribute>,
+    /// Resources that are bound.
+    pub supplied: Vec<Supplied>,
+}
+
+/// A vertex attribute that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attribute {
+    /// Name in shaders.
+    pub name: Cow<'static, str>,
+    /// Number of 32-bit float components, 1 to 4.
+    pub components: u32,
+    /// Offset in a vertex, in bytes.
+    pub offset: u32,
+}
+
+/// A resource that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Supplied {
+    /// Descriptor set, 1 to 3.
+    pub set: u32,
+    /// Binding number.
+    pub binding: u32,
+    /// Name in shaders.
+    pub name: Cow<'static, str>,
+    /// Kind.
+    pub kind: SuppliedKind,
+}
+
+/// Kind of a resource that is brought along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SuppliedKind {
+    /// A uniform block.
+    UniformBlock,
+    /// A storage block, read only.
+    StorageBlock,
+    /// A combined image sampler, two-dimensional, float.
+    SampledImage,
+}
+
+/// A part of a draw interface that no device need be able to bind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DrawFault {
+    /// The part.
+    pub at: DrawPart,
+    /// What is wrong, in words. Names in it are not yet escaped.
+    pub message: String,
+    /// The earlier part that is in its way.
+    pub first: Option<DrawPart>,
+}
+
+/// A part of a draw interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DrawPart {
+    /// The bytes from vertex to vertex.
+    VertexStride,
+    /// An attribute, by its number in the list.
+    Attribute(usize),
+    /// A resource, by its number in the list.
+    Supplied(usize),
+}
+
+impl Attribute {
+    /// An attribute of this many 32-bit floats, at an offset in bytes.
+    #[must_use]
+    pub const fn new(name: &'static str, components: u32, offset: u32) -> Attribute {
+        Attribute { name: Cow::Borrowed(name), components, offset }
+    }
+}
+
+impl Supplied {
+    /// A resource at a set and a binding.
+    #[must_use]
+    pub const fn new(set: u32, binding: u32, name: &'static str, kind: SuppliedKind) -> Supplied {
+        Supplied { set, binding, name: Cow::Borrowed(name), kind }
+    }
+
+    /// Whether a shader that declares `binding` reads this.
+    #[must_use]
+    pub fn is(&self, binding: &Binding) -> bool {
+        (self.set, self.binding, &*self.name) == (binding.set, binding.binding, &*binding.name)
+            && self.kind.is(&binding.kind)
+    }
+}
+
+impl SuppliedKind {
+    /// All kinds, by name.
+    pub const NAMED: [(&'static str, SuppliedKind); 3] = [
+        ("UniformBlock", SuppliedKind::UniformBlock),
+        ("StorageBlock", SuppliedKind::StorageBlock),
+        ("SampledImage", SuppliedKind::SampledImage),
+    ];
+
+    /// Whether a shader that declares such a binding reads this kind.
+    #[must_use]
+    pub fn is(self, declared: &BindingKind) -> bool {
+        const PLAIN: ImageShape =
+            ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
+        match self {
+            SuppliedKind::UniformBlock => matches!(declared, BindingKind::UniformBlock(_)),
+            SuppliedKind::StorageBlock => matches!(declared, BindingKind::StorageBlock { writable: false, .. }),
+            SuppliedKind::SampledImage => matches!(declared, BindingKind::SampledImage(PLAIN)),
+        }
+    }
+
+    /// The declaration that reads it, in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            SuppliedKind::UniformBlock => "a uniform block",
+            SuppliedKind::StorageBlock => "a storage block that is only read (`readonly buffer`)",
+            SuppliedKind::SampledImage => "a two-dimensional floating-point image (`sampler2D`)",
+        }
+    }
+}
+
+impl DrawInterface {
+    /// All that is wrong with it: what not every device can bind, and what shaders couldn't tell apart.
+    #[must_use]
+    pub fn faults(&self) -> Vec<DrawFault> {
+        let mut faults = Vec::new();
+        if self.vertex_stride > MOST_STRIDE {
+            let message = format!(
+                "vertices of {} bytes: every device allows {MOST_STRIDE}, and not all more",
+                self.vertex_stride
+            );
+            faults.push(DrawFault { at: DrawPart::VertexStride, message, first: None });
+        }
+        let mut names = HashMap::new();
+        for (number, attribute) in self.attributes.iter().enumerate() {
+            let at = DrawPart::Attribute(number);
+            let first = *names.entry(&*attribute.name).or_insert(at);
+            let twice =
+                (first != at).then(|| (format!("`{}` is the name of two attributes", attribute.name), Some(first)));
+            let wrong = twice.or_else(|| Some((attribute.fault(self.vertex_stride)?, None)));
+            faults.extend(wrong.map(|(message, first)| DrawFault { at, message, first }));
+        }
+        let (mut names, mut places) = (HashMap::new(), HashMap::new());
+        for (number, one) in self.supplied.iter().enumerate() {
+            let at = DrawPart::Supplied(number);
+            let by_place = *places.entry((one.set, one.binding)).or_insert(at);
+            let by_name = *names.entry(&*one.name).or_insert(at);
+            let wrong = match one.fault() {
+                Some(message) => Some((message, None)),
+                None if by_place != at => {
+                    Some((format!("`{}` is brought along where something else is", one.name), Some(by_place)))
+                }
+                None if by_name != at => Some((format!("`{}` is the name of two resources", one.name), Some(by_name))),
+                None => None,
+            };
+            faults.extend(wrong.map(|(message, first)| DrawFault { at, message, first }));
+        }
+        faults
+    }
+}
+
+impl Attribute {
+    fn fault(&self, stride: u32) -> Option<String> {
+        let Attribute { name, components, offset } = self;
+        if !is_identifier(name) {
+            return Some(no_identifier(name));
+        }
+        if !(1..=4).contains(components) {
+            return Some(format!("the vertex attribute `{name}` has {components} components; it can have 1 to 4"));
+        }
+        let end = offset.checked_add(components * 4);
+        let aligned = offset.is_multiple_of(4) && stride.is_multiple_of(4);
+        let fits = aligned && end.is_some_and(|end| end <= stride);
+        (!fits).then(|| format!("the vertex attribute `{name}` doesn't fit vertices of {stride} bytes"))
+    }
+}
+
+impl Supplied {
+    fn fault(&self) -> Option<String> {
+        let Supplied { set, binding, name, .. } = self;
+        if !is_identifier(name) {
+            return Some(no_identifier(name));
+        }
+        if *set == PASS_SET || *set >= SETS {
+            let last = SETS - 1;
+            return Some(format!("`{name}` can't be brought along in set {set}: a draw source has sets 1 to {last}"));
+        }
+        let last = BINDINGS - 1;
+        (*binding > last).then(|| format!("`{name}` at binding {binding}: bindings go up to {last}"))
+    }
+}
+
+/// Whether shaders can declare something of this name.
+fn is_identifier(name: &str) -> bool {
+    let mut letters = name.bytes();
+    letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_')
+        && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == b'_')
+}
+
+fn no_identifier(name: &str) -> String {
+    format!("`{name}` can't be a name in shaders, which have letters from a to z, digits and `_`")
+}

@@ -1,0 +1,81 @@
+//! What a draw source brings along for every kind of draw, and the custom passes that its program records.
+
+use super::{DrawInterface, DrawKind, interface_file};
+use crate::base::{Diagnostic, Sources};
+use crate::frame::Draw;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The interfaces of a draw source for all kinds of draws. A file can hold them, so that pipelines are checked without the
+/// program: [`DrawInterfaces::to_ron`] writes it, and [`DrawInterfaces::read`] reads it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DrawInterfaces {
+    /// Without those that bring nothing.
+    draws: BTreeMap<DrawKind, DrawInterface>,
+    custom: Option<Vec<Arc<str>>>,
+}
+
+impl DrawInterfaces {
+    /// With the interface of another kind of draw, in place of the one that it had.
+    #[must_use]
+    pub fn with(mut self, kind: DrawKind, interface: DrawInterface) -> DrawInterfaces {
+        if interface == DrawInterface::default() {
+            self.draws.remove(&kind);
+        } else {
+            self.draws.insert(kind, interface);
+        }
+        self
+    }
+
+    /// With the names of all custom passes that the program records: others are mistakes of a pipeline then.
+    #[must_use]
+    pub fn with_custom_passes(mut self, names: impl IntoIterator<Item = impl Into<Arc<str>>>) -> DrawInterfaces {
+        self.custom = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// The interface of a draw; an empty one where the pass has vertices of its own.
+    #[must_use]
+    pub fn of(&self, draw: Draw) -> DrawInterface {
+        DrawKind::of(draw).and_then(|kind| self.draws.get(&kind)).cloned().unwrap_or_default()
+    }
+
+    /// The kinds of draws that something is brought along for, with what that is.
+    pub fn all(&self) -> impl Iterator<Item = (DrawKind, &DrawInterface)> {
+        self.draws.iter().map(|(kind, interface)| (*kind, interface))
+    }
+
+    /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.
+    #[must_use]
+    pub fn custom_passes(&self) -> Option<&[Arc<str>]> {
+        self.custom.as_deref()
+    }
+
+    /// The text of a file that holds it.
+    #[must_use]
+    pub fn to_ron(&self) -> String {
+        interface_file::write(self)
+    }
+
+    /// Reads the text of a file, which is added to `sources`. `shown` is the path as the user named it, `relative` the
+    /// file's name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, in its order.
+    pub fn read(
+        sources: &mut Sources,
+        shown: &str,
+        relative: &str,
+        text: String,
+    ) -> Result<DrawInterfaces, Vec<Diagnostic>> {
+        interface_file::read(sources, shown, relative, text)
+    }
+}
+
+/// Those that a function tells. It is asked once for each kind of draw.
+impl<F: Fn(Draw) -> DrawInterface> From<F> for DrawInterfaces {
+    fn from(draws: F) -> DrawInterfaces {
+        let all = DrawInterfaces::default();
+        DrawKind::ALL.into_iter().fold(all, |all, kind| all.with(kind, draws(kind.example())))
+    }
+}

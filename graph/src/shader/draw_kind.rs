@@ -1,0 +1,66 @@
+//! The kinds of draws for which a draw source brings something along.
+
+use crate::frame::{Cascade, Draw, DrawList, Share};
+use std::fmt;
+
+/// A kind of draw that a draw source records.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum DrawKind {
+    /// One of the scene's draw lists.
+    Objects(DrawList),
+    /// Objects of a draw list that cast the sun's shadow; light goes through transparent ones.
+    Casters(DrawList),
+    /// The sky.
+    Sky,
+    /// The full screen.
+    FullScreen,
+    /// Draws of custom passes.
+    Custom,
+}
+
+impl DrawKind {
+    /// All of them.
+    pub const ALL: [DrawKind; 8] = [
+        DrawKind::Objects(DrawList::Opaque),
+        DrawKind::Objects(DrawList::Masked),
+        DrawKind::Objects(DrawList::Transparent),
+        DrawKind::Casters(DrawList::Opaque),
+        DrawKind::Casters(DrawList::Masked),
+        DrawKind::Sky,
+        DrawKind::FullScreen,
+        DrawKind::Custom,
+    ];
+
+    /// The kind of a draw; `None` if the pass has vertices of its own, which no draw source brings.
+    #[must_use]
+    pub const fn of(draw: Draw) -> Option<DrawKind> {
+        match draw {
+            Draw::Objects(list) => Some(DrawKind::Objects(list)),
+            Draw::Casters(Cascade { list, .. }) => Some(DrawKind::Casters(list)),
+            Draw::Sky => Some(DrawKind::Sky),
+            Draw::FullScreen => Some(DrawKind::FullScreen),
+            Draw::Custom => Some(DrawKind::Custom),
+            Draw::Vertices { .. } | Draw::Indirect => None,
+        }
+    }
+
+    /// A draw of this kind.
+    pub(super) const fn example(self) -> Draw {
+        match self {
+            DrawKind::Objects(list) => Draw::Objects(list),
+            DrawKind::Casters(list) => {
+                Draw::Casters(Cascade { list, index: 0, of: 1, reach: None, logarithmic: Share::OF_CASCADES })
+            }
+            DrawKind::Sky => Draw::Sky,
+            DrawKind::FullScreen => Draw::FullScreen,
+            DrawKind::Custom => Draw::Custom,
+        }
+    }
+}
+
+/// As files write it: `Objects(Opaque)`.
+impl fmt::Display for DrawKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self, f)
+    }
+}

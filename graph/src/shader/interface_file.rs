@@ -1,0 +1,265 @@
+//! The file of a draw source's interfaces.
+
+use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, Supplied, SuppliedKind};
+use crate::base::{Diagnostic, Sources, Span};
+use crate::fields;
+use crate::frame::DrawList;
+use crate::ron::{Leaf, Names, Reader, Tree};
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// The version of the file that this library reads and writes.
+const VERSION: i64 = 1;
+/// A file of a draw source's interfaces has at most this many bytes.
+pub const LARGEST_INTERFACE: usize = 1 << 20;
+const FORM: &str = "an interface is `Interface(version: 1, draws: [(of: [Sky], supplied: […]), …], custom: [\"…\"])`";
+const KINDS: &str = "a kind of draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Casters(Opaque)`, \
+                     `Casters(Masked)`, `Sky`, `FullScreen` or `Custom`";
+
+fields! {
+    struct InterfaceFields<'t> as "Interface" {
+        #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
+        version: Leaf<'t>,
+        draws: Leaf<'t>,
+        custom: Option<Leaf<'t>>,
+    }
+}
+
+fields! {
+    struct DrawFields<'t> {
+        of: Leaf<'t>,
+        vertex_stride: Option<Leaf<'t>>,
+        attributes: Option<Leaf<'t>>,
+        supplied: Option<Leaf<'t>>,
+    }
+}
+
+fields! {
+    struct AttributeFields<'t> {
+        name: Leaf<'t>,
+        components: Leaf<'t>,
+        offset: Leaf<'t>,
+    }
+}
+
+fields! {
+    struct SuppliedFields<'t> {
+        name: Leaf<'t>,
+        set: Leaf<'t>,
+        binding: Leaf<'t>,
+        kind: Leaf<'t>,
+    }
+}
+
+/// Writes the file. Kinds of draws that bring the same stand in one entry.
+pub(super) fn write(interfaces: &DrawInterfaces) -> String {
+    let mut entries: Vec<(String, &DrawInterface)> = Vec::new();
+    for (kind, interface) in interfaces.all() {
+        match entries.iter_mut().find(|(_, other)| *other == interface) {
+            Some((kinds, _)) => *kinds += &format!(", {kind}"),
+            None => entries.push((kind.to_string(), interface)),
+        }
+    }
+    let mut text = format!("Interface(\n    version: {VERSION},\n    draws: [\n");
+    for (kinds, DrawInterface { vertex_stride, attributes, supplied }) in entries {
+        // Writing to a text can't fail.
+        let _ = writeln!(text, "        (\n            of: [{kinds}],\n            vertex_stride: {vertex_stride},");
+        text += "            attributes: [\n";
+        for Attribute { name, components, offset } in attributes {
+            let one = format!("(name: {name:?}, components: {components}, offset: {offset})");
+            let _ = writeln!(text, "                {one},");
+        }
+        text += "            ],\n            supplied: [\n";
+        for Supplied { set, binding, name, kind } in supplied {
+            let one = format!("(name: {name:?}, set: {set}, binding: {binding}, kind: {kind:?})");
+            let _ = writeln!(text, "                {one},");
+        }
+        text += "            ],\n        ),\n";
+    }
+    text += "    ],\n";
+    if let Some(custom) = interfaces.custom_passes() {
+        let _ = writeln!(text, "    custom: {custom:?},");
+    }
+    text + ")\n"
+}
+
+/// Reads the file.
+pub(super) fn read(
+    sources: &mut Sources,
+    shown: &str,
+    relative: &str,
+    text: String,
+) -> Result<DrawInterfaces, Vec<Diagnostic>> {
+    if text.len() > LARGEST_INTERFACE {
+        let message = format!("`{shown}` has {} bytes; an interface has at most {LARGEST_INTERFACE}", text.len());
+        return Err(vec![Diagnostic::nowhere(message)]);
+    }
+    let text: Arc<str> = text.into();
+    let file = sources.add(shown, relative, text.clone());
+    if text.trim().is_empty() {
+        return Err(vec![Diagnostic::new(Span::new(file, 0, 0), "the file is empty").help(FORM)]);
+    }
+    let mut reader = Reader::default();
+    let tree = Tree::read(file, text, &mut reader.errors);
+    let read = tree.as_ref().and_then(|tree| whole(&mut reader, tree.root()));
+    let mut mistakes = reader.errors;
+    match read {
+        Some(read) if mistakes.is_empty() => Ok(read),
+        _ => {
+            mistakes.sort_by_key(|mistake| mistake.labels.first().map_or(0, |label| label.span.start));
+            Err(mistakes)
+        }
+    }
+}
+
+fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
+    if let Some(version) = all.field("version") {
+        let number = reader.integer(version)?;
+        if number != VERSION {
+            reader.errors.clear();
+            let message = format!("this interface is written in version {number}");
+            reader.wrong(version, message, &format!("this program reads version {VERSION}"));
+            return None;
+        }
+    }
+    let before = reader.errors.len();
+    let fields: Option<InterfaceFields<'_>> = reader.read(all, "the interface");
+    reader.errors.iter_mut().skip(before).for_each(|error| _ = error.help.get_or_insert_with(|| FORM.to_owned()));
+    let fields = fields?;
+    let mut interfaces = DrawInterfaces::default();
+    let mut seen = HashMap::new();
+    for entry in reader.list(fields.draws, "the draws")? {
+        let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
+        let kinds = kinds(reader, fields.of, &mut seen);
+        let interface = interface(reader, fields);
+        interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
+    }
+    let Some(custom) = fields.custom else { return Some(interfaces) };
+    let mut names = Names::new("custom pass");
+    for leaf in reader.list(custom, "the custom passes")? {
+        let name = reader.outside_name(leaf, "a custom pass");
+        names.give(reader, name);
+    }
+    Some(interfaces.with_custom_passes(names.in_order()))
+}
+
+/// The kinds of draws of an entry. `seen`: where they stand.
+fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>) -> Vec<DrawKind> {
+    let mut kinds = Vec::new();
+    let leaves = reader.list(leaf, "kinds of draws").unwrap_or_default();
+    if leaves.is_empty() {
+        reader.wrong(leaf, "an entry of `draws` is for one kind of draw at least", KINDS);
+    }
+    for leaf in leaves {
+        let Some(kind) = kind(reader, leaf) else { continue };
+        match seen.get(&kind) {
+            Some(first) => reader.report(
+                Diagnostic::new(leaf.span(), format!("`{kind}` stands here twice"))
+                    .remark("again here")
+                    .label(*first, "first here"),
+            ),
+            None => {
+                seen.insert(kind, leaf.span());
+                kinds.push(kind);
+            }
+        }
+    }
+    kinds
+}
+
+fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
+    const WORDS: [&str; 5] = ["Objects", "Casters", "Sky", "FullScreen", "Custom"];
+    let (word, rest) = reader.word(leaf, "a kind of draw", &WORDS, KINDS)?;
+    let mut list = |lists: &[(&'static str, DrawList)], form| {
+        let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
+        reader.choice(list, "a draw list", lists)
+    };
+    match word {
+        "Objects" => return list(&DrawList::NAMED, "Objects(Opaque)").map(DrawKind::Objects),
+        "Casters" => return list(&DrawList::CASTERS, "Casters(Opaque)").map(DrawKind::Casters),
+        _ => reader.bare(word, rest)?,
+    }
+    Some(match word {
+        "Sky" => DrawKind::Sky,
+        "FullScreen" => DrawKind::FullScreen,
+        _ => DrawKind::Custom,
+    })
+}
+
+/// An interface. After a mistake it is something like it.
+fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
+    let mut places = Places { stride: fields.vertex_stride, attributes: Vec::new(), supplied: Vec::new() };
+    let before = reader.errors.len();
+    let stride = fields.vertex_stride.and_then(|leaf| number(reader, leaf, "the stride"));
+    let mut interface = DrawInterface { vertex_stride: stride.unwrap_or(0), ..DrawInterface::default() };
+    for leaf in list(reader, fields.attributes, "attributes") {
+        interface.attributes.extend(attribute(reader, leaf));
+        places.attributes.push(leaf);
+    }
+    for leaf in list(reader, fields.supplied, "resources") {
+        interface.supplied.extend(supplied(reader, leaf));
+        places.supplied.push(leaf);
+    }
+    // Numbers of parts are those of leaves only if all were read.
+    if reader.errors.len() > before {
+        return interface;
+    }
+    for fault in interface.faults() {
+        let Some(leaf) = places.of(fault.at) else { continue };
+        let mut wrong = Diagnostic::new(leaf.span(), fault.message);
+        if let Some(first) = fault.first.and_then(|first| places.of(first)) {
+            wrong = wrong.remark("again here").label(first.span(), "first here");
+        }
+        reader.report(wrong);
+    }
+    interface
+}
+
+/// Where the parts of an interface stand.
+struct Places<'t> {
+    stride: Option<Leaf<'t>>,
+    attributes: Vec<Leaf<'t>>,
+    supplied: Vec<Leaf<'t>>,
+}
+
+impl<'t> Places<'t> {
+    fn of(&self, part: DrawPart) -> Option<Leaf<'t>> {
+        match part {
+            DrawPart::VertexStride => self.stride,
+            DrawPart::Attribute(number) => self.attributes.get(number).copied(),
+            DrawPart::Supplied(number) => self.supplied.get(number).copied(),
+        }
+    }
+}
+
+fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) -> Vec<Leaf<'t>> {
+    leaf.and_then(|leaf| reader.list(leaf, what)).unwrap_or_default()
+}
+
+fn attribute(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Attribute> {
+    let fields: AttributeFields<'_> = reader.read(leaf, "an attribute")?;
+    let name = reader.reference(fields.name, "an attribute");
+    let components = number(reader, fields.components, "the number of components");
+    let offset = number(reader, fields.offset, "the offset");
+    Some(Attribute { name: name?.text.to_string().into(), components: components?, offset: offset? })
+}
+
+fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Supplied> {
+    let fields: SuppliedFields<'_> = reader.read(leaf, "a resource")?;
+    let name = reader.reference(fields.name, "a resource");
+    let set = number(reader, fields.set, "the set");
+    let binding = number(reader, fields.binding, "the binding");
+    let kind = reader.choice(fields.kind, "a kind of resource", &SuppliedKind::NAMED);
+    Some(Supplied { set: set?, binding: binding?, name: name?.text.to_string().into(), kind: kind? })
+}
+
+/// A whole number that isn't negative.
+fn number(reader: &mut Reader, leaf: Leaf<'_>, what: &str) -> Option<u32> {
+    let number = reader.integer(leaf)?;
+    let small = u32::try_from(number).ok();
+    if small.is_none() {
+        reader.wrong(leaf, format!("{what} can't be {number}"), "");
+    }
+    small
+}

@@ -1,0 +1,191 @@
+//! The file of a draw source's interfaces: what is written is read again, and every mistake is told at its place.
+
+use framewright_graph::base::{self, Sources};
+use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+fn read(text: &str) -> Result<DrawInterfaces, String> {
+    let mut sources = Sources::default();
+    let read = DrawInterfaces::read(&mut sources, "engine.ron", "engine.ron", text.to_owned());
+    read.map_err(|mistakes| base::render(&sources, &mistakes))
+}
+
+fn engine(draw: Draw) -> DrawInterface {
+    let camera = Supplied::new(1, 0, "camera", SuppliedKind::UniformBlock);
+    match draw {
+        Draw::Objects(_) => DrawInterface {
+            vertex_stride: 20,
+            attributes: vec![Attribute::new("place", 3, 0), Attribute::new("tangent", 2, 12)],
+            supplied: vec![camera, Supplied::new(3, 7, "detail", SuppliedKind::SampledImage)],
+        },
+        Draw::Sky | Draw::Custom => DrawInterface { supplied: vec![camera], ..DrawInterface::default() },
+        _ => DrawInterface::default(),
+    }
+}
+
+const ENGINE: &str = r#"Interface(
+    version: 1,
+    draws: [
+        (
+            of: [Objects(Opaque), Objects(Masked), Objects(Transparent)],
+            vertex_stride: 20,
+            attributes: [
+                (name: "place", components: 3, offset: 0),
+                (name: "tangent", components: 2, offset: 12),
+            ],
+            supplied: [
+                (name: "camera", set: 1, binding: 0, kind: UniformBlock),
+                (name: "detail", set: 3, binding: 7, kind: SampledImage),
+            ],
+        ),
+        (
+            of: [Sky, Custom],
+            vertex_stride: 0,
+            attributes: [
+            ],
+            supplied: [
+                (name: "camera", set: 1, binding: 0, kind: UniformBlock),
+            ],
+        ),
+    ],
+    custom: ["grass", "hair-2"],
+)
+"#;
+
+#[test]
+fn an_engine_writes_its_interfaces_and_reads_them_again() {
+    let interfaces = DrawInterfaces::from(engine).with_custom_passes(["grass", "hair-2"]);
+    assert_eq!(interfaces.to_ron(), ENGINE);
+    assert_eq!(read(ENGINE), Ok(interfaces.clone()));
+    for kind in DrawKind::ALL {
+        let draw = match kind {
+            DrawKind::Objects(list) => Draw::Objects(list),
+            DrawKind::Sky => Draw::Sky,
+            DrawKind::Custom => Draw::Custom,
+            _ => Draw::FullScreen,
+        };
+        assert_eq!(interfaces.of(draw), engine(draw), "{kind}");
+    }
+    assert_eq!(interfaces.of(Draw::Vertices { count: 3, instances: 1 }), DrawInterface::default());
+}
+
+#[test]
+fn names_of_custom_passes_are_known_only_if_they_are_told() {
+    let without = DrawInterfaces::from(engine);
+    assert_eq!(read(&without.to_ron()).expect("right").custom_passes(), None);
+    let none = without.with_custom_passes([""; 0]);
+    assert_eq!(read(&none.to_ron()).expect("right").custom_passes(), Some(&[][..]));
+}
+
+/// The file with a mistake in it.
+#[track_caller]
+fn wrong(right: &str, mistake: &str, place: &str, said: &[&str]) {
+    assert!(ENGINE.contains(right), "the file doesn't hold {right}");
+    let rendered = read(&ENGINE.replacen(right, mistake, 1)).expect_err(mistake);
+    for words in [&format!(" engine.ron:{place}\n")[..]].iter().chain(said) {
+        assert!(rendered.contains(words), "`{words}` is not in\n{rendered}");
+    }
+    assert_eq!(rendered.matches("error: ").count(), 1, "{rendered}");
+}
+
+#[test]
+fn each_mistake_is_told_at_its_place() {
+    wrong("Interface(", "Interfaces(", "1:1", &["expected `Interface(…)`, found `Interfaces`"]);
+    wrong("version: 1", "version: 2", "2:14", &["this interface is written in version 2", "reads version 1"]);
+    wrong("    version: 1,\n", "", "1:1", &["the interface lacks the field `version`", "an interface is `Interface("]);
+    wrong("draws: [", "drawn: [", "3:5", &["the interface has no field `drawn`", "did you mean `draws`?"]);
+    wrong("Objects(Masked)", "Objects(Opaque)", "5:35", &["`Objects(Opaque)` stands here twice", "first here"]);
+    wrong("of: [Sky, ", "of: [Objects(Masked), ", "17:18", &["`Objects(Masked)` stands here twice"]);
+    wrong("of: [Sky, Custom]", "of: []", "17:17", &["is for one kind of draw at least", "`Sky`"]);
+    wrong("[Sky", "[Skye", "17:18", &["`Skye` is not a kind of draw", "did you mean `Sky`?"]);
+    wrong("Objects(Masked)", "Objects(Mask)", "5:43", &["`Mask` is not a draw list", "did you mean `Masked`?"]);
+    wrong("[Sky", "[Casters(Transparent)", "17:26", &["`Transparent` is not a draw list", "`Opaque` or `Masked`"]);
+    wrong("vertex_stride: 20", "vertex_stride: 4000", "6:28", &["vertices of 4000 bytes: every device allows 2048"]);
+    wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);
+    wrong("vertex_stride: 20", "vertex_stride: 16", "9:17", &["`tangent` doesn't fit vertices of 16 bytes"]);
+    wrong("offset: 12", "offset: 13", "9:17", &["`tangent` doesn't fit vertices of 20 bytes"]);
+    wrong("offset: 12", "offset: 4294967292", "9:17", &["`tangent` doesn't fit vertices of 20 bytes"]);
+    wrong("components: 2", "components: 5", "9:17", &["`tangent` has 5 components; it can have 1 to 4"]);
+    wrong("components: 2", "components: 1.5", "9:47", &["expected a whole number, found `1.5`"]);
+    wrong("\"tangent\"", "\"place\"", "9:17", &["`place` is the name of two attributes", "first here"]);
+    wrong("\"tangent\"", "\"tan gent\"", "9:17", &["`tan gent` can't be a name in shaders"]);
+    wrong("\"tangent\"", "\"tan\\u{202e}gent\"", "9:24", &["names take no escapes"]);
+    wrong("\"tangent\"", "\"tan\u{202e}gent\"", "9:17", &["`tan\\u{202e}gent` can't be a name in shaders"]);
+    wrong("set: 3", "set: 0", "13:17", &["`detail` can't be brought along in set 0: a draw source has sets 1 to 3"]);
+    wrong("set: 3", "set: 4", "13:17", &["`detail` can't be brought along in set 4"]);
+    wrong("binding: 7", "binding: 256", "13:17", &["`detail` at binding 256: bindings go up to 255"]);
+    wrong("binding: 7", "binding: 5000000000", "13:51", &["the binding can't be 5000000000"]);
+    wrong("set: 3, binding: 7", "set: 1, binding: 0", "13:17", &["`detail` is brought along where something else is"]);
+    wrong("\"detail\"", "\"camera\"", "13:17", &["`camera` is the name of two resources", "first here"]);
+    wrong("SampledImage", "SampledImages", "13:60", &["is not a kind of resource", "did you mean `SampledImage`?"]);
+    wrong("kind: SampledImage", "stage: SampledImage", "13:54", &["a resource has no field `stage`"]);
+    wrong("\"hair-2\"", "\"grass\"", "26:23", &["`grass` is the name of more than one custom pass"]);
+    wrong("\"hair-2\"", "\"2\"", "26:23", &["`2` can't be the name of a custom pass"]);
+}
+
+#[test]
+fn all_mistakes_are_told_at_once() {
+    let text = ENGINE.replace("set: 3", "set: 9").replace("[Sky", "[Skye").replace("\"grass\"", "\"\"");
+    assert_eq!(read(&text).expect_err("wrong").matches("error: ").count(), 3);
+}
+
+#[test]
+fn a_file_that_is_empty_too_large_or_full_of_mistakes_is_refused_quickly() {
+    assert!(read("  \n").expect_err("empty").contains("the file is empty"));
+    let large = format!("Interface(version: 1, draws: [{}])", " ".repeat(1 << 20));
+    assert!(read(&large).expect_err("large").contains("an interface has at most 1048576"));
+    let many = format!(
+        "Interface(version: 1, draws: [(of: [Sky], supplied: [{}])])",
+        "(name: \"a\", set: 1, binding: 0, kind: UniformBlock),".repeat(18_000)
+    );
+    assert!(read(&many).expect_err("many").contains("`a` is brought along where something else is"));
+}
+
+fn interface() -> impl Strategy<Value = DrawInterface> {
+    let kind = prop::sample::select(SuppliedKind::NAMED.map(|(_, kind)| kind).to_vec());
+    let supplied = prop::collection::btree_map((1_u32..4, 0_u32..256), ("[A-Za-z_][A-Za-z0-9_]{0,9}", kind), 0..6);
+    let attributes = prop::collection::btree_map("[A-Za-z_][A-Za-z0-9_]{0,9}", 1_u32..5, 0..6);
+    (supplied, attributes, 0_u32..9).prop_map(|(supplied, named, more)| {
+        let mut interface = DrawInterface::default();
+        for (name, components) in named {
+            let offset = interface.vertex_stride;
+            interface.vertex_stride += 4 * components;
+            interface.attributes.push(Attribute { name: name.into(), components, offset });
+        }
+        interface.vertex_stride += 4 * more;
+        let by_name: BTreeMap<String, Supplied> = supplied
+            .into_iter()
+            .map(|((set, binding), (name, kind))| (name.clone(), Supplied { set, binding, name: name.into(), kind }))
+            .collect();
+        interface.supplied.extend(by_name.into_values());
+        interface
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+    #[test]
+    fn what_is_written_is_read_again(
+        draws in prop::collection::btree_map(prop::sample::select(DrawKind::ALL.to_vec()), interface(), 0..8),
+        custom in prop::option::of(prop::collection::btree_set("[a-z_][a-z0-9_-]{5,9}", 0..4)),
+    ) {
+        let all = draws.into_iter().fold(DrawInterfaces::default(), |all, (kind, draws)| all.with(kind, draws));
+        let all = match custom {
+            Some(names) => all.with_custom_passes(names),
+            None => all,
+        };
+        prop_assert_eq!(read(&all.to_ron()), Ok(all));
+    }
+}
+
+#[test]
+fn a_list_decides_what_objects_bring() {
+    let masked = Draw::Objects(DrawList::Masked);
+    let only = |draw: Draw| if draw == masked { engine(masked) } else { DrawInterface::default() };
+    let interfaces = DrawInterfaces::from(only);
+    assert_eq!(interfaces.of(masked), engine(masked));
+    assert_eq!(interfaces.of(Draw::Objects(DrawList::Opaque)), DrawInterface::default());
+}

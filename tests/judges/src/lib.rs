@@ -1,0 +1,1 @@
+//! Nothing is built here: Cargo.toml says what this is for.
