@@ -5,7 +5,7 @@ use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole, PipelineFile};
 use crate::files::shipped;
-use crate::planning::Assets;
+use crate::planning::{Assets, helper};
 use crate::system::Exit;
 use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
 use framewright_graph::compile::{self, Options, heap_size};
@@ -17,6 +17,7 @@ use framewright_graph::plan::Plan;
 use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::texture_files::TextureFiles;
+use framewright_vulkan::Helper;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -222,7 +222,7 @@ fn drawn(
     }
     let mut thumbnails: Vec<Thumbnail> = Vec::new();
     if arguments.capture {
-        let (made, frames) = (planned.parts(), arguments.frames);
+        let (made, frames) = ((&planned.plan, &planned.frame), arguments.frames);
         captures::draw(Drawing { device, pipeline, made, scene, options, frames }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
             thumbnails.push(captured.thumbnail(address));
