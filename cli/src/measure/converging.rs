@@ -138,3 +138,70 @@ fn averaged(frame: &mut Frame, at: usize) -> Option<(Pass, ImageIndex)> {
     frame.images.push(image);
     Some((average, mean))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command_line::args::{self, Command};
+    use crate::measure::subjects::reference_settings;
+    use crate::planning::{self, View};
+    use framewright_graph::base::ReadFiles;
+    use framewright_graph::device::Estimated;
+    use framewright_graph::vulkan::Rotation;
+
+    /// Shipped pipelines with a preset `reference`.
+    const PIPELINES: [&str; 10] = [
+        "deferred",
+        "deferred_mobile",
+        "dynamic_resolution",
+        "forward",
+        "forward_overlay",
+        "image_quality",
+        "post",
+        "shadows",
+        "soft_focus",
+        "temporal",
+    ];
+
+    fn of(pipeline: &str, set: &str, device: &Profile) -> (Converging, Planned) {
+        let words = ["framewright", "inspect", pipeline, "--set", set];
+        let words = words.into_iter().take(if set.is_empty() { 3 } else { 5 });
+        let line = args::parse(words.map(Into::into)).expect("a command line");
+        let Command::Inspect(arguments) = line.command else { panic!("another command") };
+        let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
+        loaded.set.extend(reference_settings(&loaded).expect("a preset"));
+        let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
+        let converging = Converging::of(frame, device);
+        let planned = converging.planned(&loaded, device, &mut Estimated(device), 64).expect("a Plan");
+        (converging, planned)
+    }
+
+    #[test]
+    fn plans_of_references_round_nothing_between_passes() {
+        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        for pipeline in PIPELINES {
+            let (_, planned) = of(pipeline, "", &device);
+            for image in planned.plan.images.iter().filter(|image| !image.format.is_integer()) {
+                let exact = if image.format.is_depth() { Format::D32_SFLOAT } else { Format::R32G32B32A32_SFLOAT };
+                assert_eq!(image.format, exact, "{pipeline}: {}", image.name);
+            }
+        }
+    }
+
+    /// Light is averaged over frames where the tested pipeline averages light, and not where it averages what is shown.
+    #[test]
+    fn references_average_before_or_after_tone_mapping_as_the_tested_pipeline_does() {
+        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        let averages = |pipeline, set| {
+            let (converging, planned) = of(pipeline, set, &device);
+            let planned = planned.frame.passes.iter().filter(|pass| pass.name.ends_with("averages frames")).count();
+            assert_eq!(planned, converging.averages.len());
+            planned
+        };
+        for pipeline in PIPELINES {
+            assert_eq!(averages(pipeline, ""), usize::from(pipeline != "image_quality"), "{pipeline}");
+        }
+        assert_eq!(averages("image_quality", "mapped=pixels"), 1);
+        assert_eq!(averages("image_quality", "tone_mapping=clip"), 0);
+    }
+}
