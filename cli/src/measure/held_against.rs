@@ -76,10 +76,9 @@ impl Bench<'_> {
         let reference = match self.references.read(&key) {
             Some(kept) => kept,
             None => {
-                let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
                 let scene = choice.scene.still_at(frame);
-                let planned = self.planned(choice, &scene, &more)?;
-                let drawn = reference::draw(&self.device, &planned, &mut self.pipeline, &scene, choice.size)?;
+                let converging = self.converging(choice, &scene)?;
+                let drawn = reference::draw(&self.device, &converging, &mut self.pipeline, &scene, choice.size)?;
                 let Some(drawn) = drawn else { return Ok(None) };
                 self.references.keep(&key, drawn)?
             }

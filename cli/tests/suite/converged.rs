@@ -79,3 +79,51 @@ fn edges(pipeline: &str, without_tone_mapping: &str) -> Option<f64> {
     assert!(errors.len() > 50, "{} pixels on edges", errors.len());
     Some(rms)
 }
+
+/// The light of the reference of `image_quality` under a setting, and its extent.
+fn reference_of(place: &Place, variables: &[(&str, &str)], set: &str) -> image::Rgb32FImage {
+    let arguments = [
+        "measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "48x27", "--frames", "1", "--set", set, "--sweep",
+        "msaa=1", "-o", set,
+    ];
+    place.run_with(variables, &arguments).exits(0);
+    let folder = std::fs::read_dir(place.path(set).join("pictures")).expect("pictures");
+    let mut files = folder.map(|file| file.expect("a file").path());
+    let file = files.find(|path| path.extension().is_some_and(|ending| ending == "exr")).expect("a reference");
+    image::open(file).expect("a picture").into_rgb32f()
+}
+
+/// A blur is as wide in the reference as in the picture, which has fewer texels: that of the unblurred reference, in 64 bits.
+#[test]
+fn a_blur_is_as_wide_in_a_reference_as_on_the_screen() {
+    const DRAWS: usize = 5;
+    let place = Place::new();
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let [sharp, blurred] = ["blur=0", "blur=5"].map(|set| reference_of(&place, &variables, set));
+    let (width, height) = sharp.dimensions();
+    let mut expected: Vec<[f64; 3]> = sharp.pixels().map(|pixel| pixel.0.map(f64::from)).collect();
+    for _ in 0..DRAWS {
+        let at = |x: i64, y: i64| {
+            let [x, y] = [(x, width), (y, height)].map(|(at, size)| at.clamp(0, i64::from(size) - 1));
+            expected[(y * i64::from(width) + x) as usize]
+        };
+        let tent = |x: i64, y: i64| {
+            let mut sum = [0.0; 3];
+            for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
+                let weight = f64::from((2 - i32::abs(dx)) * (2 - i32::abs(dy))) / 16.0;
+                let texel = at(x + i64::from(dx), y + i64::from(dy));
+                (0..3).for_each(|channel| sum[channel] += weight * texel[channel]);
+            }
+            sum
+        };
+        let places = (0..i64::from(height)).flat_map(|y| (0..i64::from(width)).map(move |x| (x, y)));
+        expected = places.map(|(x, y)| tent(x, y)).collect();
+    }
+    let rms = |of: &image::Rgb32FImage| {
+        let pairs = of.pixels().zip(&expected).flat_map(|(found, expected)| found.0.into_iter().zip(expected));
+        let sum: f64 = pairs.map(|(found, expected)| (f64::from(found) - expected).powi(2)).sum();
+        (sum / (3 * expected.len()) as f64).sqrt()
+    };
+    println!("{} from the blurred reference, {} from the sharp one", rms(&blurred), rms(&sharp));
+    assert!(rms(&blurred) < 1e-4 && rms(&sharp) > 0.05, "{} and {}", rms(&blurred), rms(&sharp));
+}

@@ -25,12 +25,6 @@ impl Part {
         [0, 1].map(|axis| self.offset[axis] + self.scale[axis] * uv[axis])
     }
 
-    /// The inverse of [`Part::screen_uv`].
-    #[must_use]
-    pub fn own_uv(&self, place: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|axis| (place[axis] - self.offset[axis]) / self.scale[axis])
-    }
-
     /// Where a position in clip space is seen in the image, after the division by w.
     #[must_use]
     pub fn screen_pos(&self, [x, y, _, w]: [f64; 4]) -> [f64; 2] {

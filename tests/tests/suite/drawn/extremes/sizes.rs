@@ -51,15 +51,18 @@ fn every_shipped_pipeline_draws_pictures_of_one_pixel() -> Result<(), Box<dyn Er
     let Some(device) = device() else { return Ok(()) };
     let scene = even_sky();
     // An overlay shows depth in a corner.
-    let plain: [(&str, &[(&str, &str)]); 8] = [
+    let plain: [(&str, &[(&str, &str)]); 11] = [
         ("auto_exposure", &[]),
         ("deferred", &[]),
         ("deferred_mobile", &[]),
         ("dynamic_resolution", &[]),
         ("forward", &[]),
+        ("forward_overlay", &[("overlay", "false")]),
+        ("image_quality", &[]),
         ("post", &[("overlay", "false")]),
         ("shadows", &[]),
         ("soft_focus", &[]),
+        ("temporal", &[]),
     ];
     for (name, set) in plain {
         let pipeline = format!("examples/pipelines/{name}.ron");

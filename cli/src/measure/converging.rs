@@ -1,0 +1,207 @@
+//! The frame that a reference is drawn by: that of the tested settings, with nothing rounded between its passes, and with light that
+//! is averaged over all its frames before it is tone-mapped.
+
+use super::run::Bench;
+use super::subjects::{self, Choice};
+use crate::error::Error;
+use crate::picture::FileFormat;
+use crate::planning::{Loaded, Planned};
+use framewright_graph::compile::Options;
+use framewright_graph::device::{MemoryProvider, Profile};
+use framewright_graph::frame::{
+    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Lifetime, ParamValue, Pass, Resource, Sampled, Work,
+};
+use framewright_graph::vulkan::{FillValue, Format, Stages, Subresources};
+use framewright_passes::scene::Scene;
+
+/// Shipped shaders that tone-map an image of light, and the name by which they know it.
+const TONE_MAPPERS: [&str; 4] = ["tone_map", "tone_map_operator", "reinhard", "expose"];
+const LIGHT: &str = "source";
+/// The shader that averages frames, its images, and its number of frames.
+const AVERAGE: &str = "average_frames";
+const NOW: &str = "now";
+const BEFORE: &str = "before";
+const FRAMES: &str = "frames";
+
+/// A frame for a reference, and its Plan once it is known over how many frames light is averaged.
+pub(super) struct Converging {
+    frame: Frame,
+    /// The pass that averages each image that is tone-mapped.
+    averages: Vec<usize>,
+    /// Whether the tested output holds light without an upper end.
+    pub(super) is_light: bool,
+}
+
+impl Bench<'_> {
+    /// The frame for a choice's reference.
+    pub(super) fn converging(&mut self, choice: &Choice, scene: &Scene) -> Result<Converging, Error> {
+        let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
+        let frame = self.planned(choice, scene, &more)?.frame;
+        Ok(Converging::of(frame, &self.device.profile()))
+    }
+}
+
+impl Converging {
+    /// The frame as it is for a reference on a device.
+    fn of(mut frame: Frame, device: &Profile) -> Converging {
+        let output = frame.outputs.first().map(|output| output.resource);
+        let is_light = match output {
+            Some(Resource::Image(image)) => FileFormat::OpenExr.holds(frame.images[image.0 as usize].format),
+            _ => false,
+        };
+        frame.make_exact(device);
+        let mut averages = Vec::new();
+        let mut at = 0;
+        while at < frame.passes.len() {
+            if let Some((average, mean)) = averaged(&mut frame, at) {
+                let light = frame.passes[at].sampled.iter_mut().find(|sampled| *sampled.binding == *LIGHT);
+                if let Some(light) = light {
+                    (light.image, light.range) = (mean, Subresources::WHOLE);
+                }
+                frame.passes.insert(at, average);
+                averages.push(at);
+                at += 1;
+            }
+            at += 1;
+        }
+        Converging { frame, averages, is_light }
+    }
+
+    /// Frames that are drawn before light is averaged over as many.
+    pub(super) fn before(&self, frames: u16) -> u16 {
+        if self.averages.is_empty() { 0 } else { frames }
+    }
+
+    /// Its Plan where light is averaged over so many frames.
+    ///
+    /// # Errors
+    /// Those of the compiler.
+    pub(super) fn planned(
+        &self,
+        pipeline: &Loaded,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        frames: u16,
+    ) -> Result<Planned, Error> {
+        let mut frame = self.frame.clone();
+        for at in &self.averages {
+            frame.passes[*at].params = vec![(FRAMES.into(), ParamValue::Integer(frames.into()))];
+        }
+        let plan = pipeline.compile(&frame, device, memory, &Options::default())?;
+        Ok(Planned { frame, plan })
+    }
+}
+
+/// The pass that averages the light that the pass `at` tone-maps, and the new image of the mean; `None` if it tone-maps none, or each
+/// sample by itself.
+fn averaged(frame: &mut Frame, at: usize) -> Option<(Pass, ImageIndex)> {
+    let pass = &frame.passes[at];
+    let Work::Draw { draw: Draw::FullScreen, shader, .. } = &pass.work else { return None };
+    let light = pass.sampled.iter().find(|sampled| *sampled.binding == *LIGHT && sampled.face == Face::Resolved)?;
+    if !TONE_MAPPERS.contains(&&**shader) {
+        return None;
+    }
+    let source = &frame.images[light.image.0 as usize];
+    let mean = ImageIndex(u32::try_from(frame.images.len()).ok()?);
+    let image = Image {
+        name: format!("{} over frames", pass.name).into(),
+        format: Format::R32G32B32A32_SFLOAT,
+        allocated: None,
+        eyes: source.eyes.filter(|_| light.eye.is_none()),
+        samples: 1,
+        resolve: None,
+        chosen: None,
+        lifetime: Lifetime::History { frames: 1, initial: FillValue::Color([0.0; 4]) },
+        ..source.clone()
+    };
+    let sampled = |binding: &str, image, frames_ago| Sampled {
+        span: light.span,
+        eye: light.eye.filter(|_| frames_ago == 0),
+        frames_ago,
+        ..Sampled::new(binding, image, Stages::FRAGMENT_SHADER)
+    };
+    let work = Work::Draw { draw: Draw::FullScreen, shader: AVERAGE.into(), discards: false, per_sample: false };
+    let average = Pass {
+        span: pass.span,
+        view: pass.view,
+        sampled: vec![sampled(NOW, light.image, 0), sampled(BEFORE, mean, 1)],
+        color: vec![ColorTarget {
+            image: mean,
+            range: Subresources::WHOLE,
+            span: pass.span,
+            clear: None,
+            blend: Blend::Replace,
+        }],
+        params: vec![(FRAMES.into(), ParamValue::Integer(1))],
+        ..Pass::new(&format!("{} averages frames", pass.name), work)
+    };
+    frame.images.push(image);
+    Some((average, mean))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command_line::args::{self, Command};
+    use crate::measure::subjects::reference_settings;
+    use crate::planning::{self, View};
+    use framewright_graph::base::ReadFiles;
+    use framewright_graph::device::Estimated;
+    use framewright_graph::vulkan::Rotation;
+
+    /// Shipped pipelines with a preset `reference`.
+    const PIPELINES: [&str; 10] = [
+        "deferred",
+        "deferred_mobile",
+        "dynamic_resolution",
+        "forward",
+        "forward_overlay",
+        "image_quality",
+        "post",
+        "shadows",
+        "soft_focus",
+        "temporal",
+    ];
+
+    fn of(pipeline: &str, set: &str, device: &Profile) -> (Converging, Planned) {
+        let words = ["framewright", "inspect", pipeline, "--set", set];
+        let words = words.into_iter().take(if set.is_empty() { 3 } else { 5 });
+        let line = args::parse(words.map(Into::into)).expect("a command line");
+        let Command::Inspect(arguments) = line.command else { panic!("another command") };
+        let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
+        loaded.set.extend(reference_settings(&loaded).expect("a preset"));
+        let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
+        let converging = Converging::of(frame, device);
+        let planned = converging.planned(&loaded, device, &mut Estimated(device), 64).expect("a Plan");
+        (converging, planned)
+    }
+
+    #[test]
+    fn plans_of_references_round_nothing_between_passes() {
+        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        for pipeline in PIPELINES {
+            let (_, planned) = of(pipeline, "", &device);
+            for image in planned.plan.images.iter().filter(|image| !image.format.is_integer()) {
+                let exact = if image.format.is_depth() { Format::D32_SFLOAT } else { Format::R32G32B32A32_SFLOAT };
+                assert_eq!(image.format, exact, "{pipeline}: {}", image.name);
+            }
+        }
+    }
+
+    /// Light is averaged over frames where the tested pipeline averages light, and not where it averages what is shown.
+    #[test]
+    fn references_average_before_or_after_tone_mapping_as_the_tested_pipeline_does() {
+        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        let averages = |pipeline, set| {
+            let (converging, planned) = of(pipeline, set, &device);
+            let planned = planned.frame.passes.iter().filter(|pass| pass.name.ends_with("averages frames")).count();
+            assert_eq!(planned, converging.averages.len());
+            planned
+        };
+        for pipeline in PIPELINES {
+            assert_eq!(averages(pipeline, ""), usize::from(pipeline != "image_quality"), "{pipeline}");
+        }
+        assert_eq!(averages("image_quality", "mapped=pixels"), 1);
+        assert_eq!(averages("image_quality", "tone_mapping=clip"), 0);
+    }
+}
