@@ -148,6 +148,9 @@ mod tests {
     use framewright_graph::base::ReadFiles;
     use framewright_graph::device::Estimated;
     use framewright_graph::vulkan::Rotation;
+    use framewright_passes::draw;
+    use framewright_passes::shipped::SHADERS;
+    use framewright_vulkan::ShaderLibrary;
 
     /// Shipped pipelines with a preset `reference`.
     const PIPELINES: [&str; 10] = [
@@ -169,6 +172,8 @@ mod tests {
         let line = args::parse(words.map(Into::into)).expect("a command line");
         let Command::Inspect(arguments) = line.command else { panic!("another command") };
         let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
+        // Compiled by this program: a test is no helper process.
+        loaded.assets.shaders = ShaderLibrary::new(Vec::new(), SHADERS, draw::interface.into());
         loaded.set.extend(reference_settings(&loaded).expect("a preset"));
         let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
         let converging = Converging::of(frame, device);

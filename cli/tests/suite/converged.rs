@@ -83,8 +83,20 @@ fn edges(pipeline: &str, without_tone_mapping: &str) -> Option<f64> {
 /// The light of the reference of `image_quality` under a setting, and its extent.
 fn reference_of(place: &Place, variables: &[(&str, &str)], set: &str) -> image::Rgb32FImage {
     let arguments = [
-        "measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "48x27", "--frames", "1", "--set", set, "--sweep",
-        "msaa=1", "-o", set,
+        "measure",
+        "image_quality",
+        "--scene",
+        "spheres_and_cubes",
+        "--size",
+        "48x27",
+        "--frames",
+        "1",
+        "--set",
+        set,
+        "--sweep",
+        "msaa=1",
+        "-o",
+        set,
     ];
     place.run_with(variables, &arguments).exits(0);
     let folder = std::fs::read_dir(place.path(set).join("pictures")).expect("pictures");
