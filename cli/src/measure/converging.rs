@@ -173,7 +173,7 @@ mod tests {
         let Command::Inspect(arguments) = line.command else { panic!("another command") };
         let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
         // Compiled by this program: a test is no helper process.
-        loaded.assets.shaders = ShaderLibrary::new(Vec::new(), SHADERS, draw::interface.into());
+        loaded.assets.shaders = ShaderLibrary::new(Vec::new(), SHADERS, draw::interface);
         loaded.set.extend(reference_settings(&loaded).expect("a preset"));
         let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
         let converging = Converging::of(frame, device);

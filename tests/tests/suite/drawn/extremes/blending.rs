@@ -168,7 +168,9 @@ fn unguarded_samples_are_averaged_or_leave_something_finite() -> Result<(), Box<
     for (format, rounding) in [("R16G16B16A16_SFLOAT", 1.0 / 512.0), ("R32G32B32A32_SFLOAT", 1e-6)] {
         for by_sample in [1, 5] {
             let images = format!(r#"(name: "samples", format: {format}, size: Output, samples: 4),"#);
-            let Some(found) = red(&images, &drawn_unguarded("samples", 3, by_sample), "samples")? else { return Ok(()) };
+            let Some(found) = red(&images, &drawn_unguarded("samples", 3, by_sample), "samples")? else {
+                return Ok(());
+            };
             for (at, found) in found.into_iter().enumerate() {
                 let samples = [0, 1, 2, 3].map(|it| value(at % SIDE + it * by_sample, at / SIDE, 3));
                 let mean = samples.iter().sum::<f64>() / 4.0;
