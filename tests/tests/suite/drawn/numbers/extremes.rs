@@ -47,8 +47,8 @@ pub(super) const EXTREMES: [(&str, &str, &str); 35] = [
         "drawn::extremes::sizes::pictures_of_one_pixel_row_or_column_hold_what_large_ones_hold",
     ),
     (
-        "the shipped pipelines, but for falling snow, at 1 × 1, 1 × 5 and 5 × 1",
-        "all pixels alike",
+        "the shipped pipelines at 1 × 1, 1 × 5 and 5 × 1",
+        "all pixels alike; where snow falls the sky, or what is brighter",
         "drawn::extremes::sizes::every_shipped_pipeline_draws_pictures_of_one_pixel",
     ),
     (
@@ -57,7 +57,7 @@ pub(super) const EXTREMES: [(&str, &str, &str); 35] = [
         "drawn::scale::the_area_filter_is_the_mean_of_what_a_pixel_covers_at_every_scale",
     ),
     (
-        "images as wide or as high as the device can draw",
+        "images as wide or as high as the device can draw, and both",
         "every texel is drawn and read back; a texel more is an error that names the image and the limit",
         "drawn::extremes::sizes::the_largest_images_hold_each_texel_and_larger_ones_are_refused",
     ),
