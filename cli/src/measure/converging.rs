@@ -44,11 +44,8 @@ impl Bench<'_> {
 impl Converging {
     /// The frame as it is for a reference on a device.
     fn of(mut frame: Frame, device: &Profile) -> Converging {
-        let output = frame.outputs.first().map(|output| output.resource);
-        let is_light = match output {
-            Some(Resource::Image(image)) => FileFormat::OpenExr.holds(frame.images[image.0 as usize].format),
-            _ => false,
-        };
+        let is_light =
+            screen(&frame).is_some_and(|image| FileFormat::OpenExr.holds(frame.images[image.0 as usize].format));
         frame.make_exact(device);
         let mut averages = Vec::new();
         let mut at = 0;
@@ -92,13 +89,29 @@ impl Converging {
     }
 }
 
-/// The pass that averages the light that the pass `at` tone-maps, and the new image of the mean; `None` if it tone-maps none, or each
-/// sample by itself.
+/// The image that is the picture.
+fn screen(frame: &Frame) -> Option<ImageIndex> {
+    match frame.outputs.first()?.resource {
+        Resource::Image(image) => Some(image),
+        Resource::Buffer(_) => None,
+    }
+}
+
+/// The pass that averages the light that the pass `at` tone-maps, and the new image of the mean; `None` if it tone-maps none, or samples
+/// or texels of which several make a pixel.
 fn averaged(frame: &mut Frame, at: usize) -> Option<(Pass, ImageIndex)> {
     let pass = &frame.passes[at];
     let Work::Draw { draw: Draw::FullScreen, shader, .. } = &pass.work else { return None };
     let light = pass.sampled.iter().find(|sampled| *sampled.binding == *LIGHT && sampled.face == Face::Resolved)?;
     if !TONE_MAPPERS.contains(&&**shader) {
+        return None;
+    }
+    // What is tone-mapped at another size than the screen's is averaged as it is shown.
+    let (Some(target), Some(screen)) = (pass.color.first().map(|target| target.image), screen(frame)) else {
+        return None;
+    };
+    let extent = |image: ImageIndex| frame.images[image.0 as usize].extent;
+    if extent(target) != extent(screen) {
         return None;
     }
     let source = &frame.images[light.image.0 as usize];

@@ -128,8 +128,7 @@ fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
             compared(device, 28, |of, found| {
                 let color = of.even3(0).map(|channel| 65504.0 / 65505.0 * channel);
                 let light = weighted_resolve::expanded(color);
-                let [found, expected] =
-                    [[found[0], found[1], found[2]], light].map(|it| weighted_resolve::compressed(it));
+                let [found, expected] = [[found[0], found[1], found[2]], light].map(weighted_resolve::compressed);
                 own(&found, &expected)
             })?,
         ),
