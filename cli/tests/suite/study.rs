@@ -175,3 +175,42 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
         "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study"
     );
 }
+
+/// Each preset of `shadows` has what the page recommends for its budget, in all settings that the sweep varied; so have the defaults, as
+/// `high` does.
+#[test]
+fn presets_of_shadows_are_what_the_page_recommends() {
+    let page = std::fs::read_to_string(repository("docs/trade-offs.md")).expect("the page");
+    let answers: Vec<(f64, &str)> = page
+        .split("$ framewright choose trade-offs/shadows --max-mib ")
+        .skip(1)
+        .map(|answer| {
+            let (limit, rest) = answer.split_once("\nbest: ").expect("an answer");
+            (limit.parse().expect("a number"), rest.lines().next().expect("settings"))
+        })
+        .collect();
+    assert_eq!(answers.len(), 4, "{answers:?}");
+    assert!(answers.is_sorted_by(|a, b| a.0 < b.0), "{answers:?}");
+    let place = Place::new();
+    let values = |preset: &[&str]| -> BTreeMap<String, String> {
+        let arguments = [&["inspect", "shadows", "--format", "json"], preset].concat();
+        let plan: Value = serde_json::from_str(&place.run(&arguments).exits(0).out).expect("JSON");
+        let settings = plan["settings"].as_array().expect("settings").iter();
+        settings
+            .map(|it| {
+                let text = |of: &str| it[of].as_str().expect("a text").to_owned();
+                (text("name"), text("value"))
+            })
+            .collect()
+    };
+    let presets = ["low", "medium", "high", "ultra"];
+    let cases = presets.into_iter().zip(&answers).chain([("", &answers[2])]);
+    for (preset, (limit, best)) in cases {
+        let arguments = ["--preset", preset];
+        let values = values(if preset.is_empty() { &[] } else { &arguments });
+        for chosen in best.split(' ') {
+            let (name, value) = chosen.split_once('=').expect("NAME=VALUE");
+            assert_eq!(values[name], value, "`{preset}` in {limit} MiB: {name}");
+        }
+    }
+}
