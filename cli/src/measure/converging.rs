@@ -6,6 +6,7 @@ use super::subjects::{self, Choice};
 use crate::error::Error;
 use crate::picture::FileFormat;
 use crate::planning::{Loaded, Planned};
+use framewright_graph::base::FilePath;
 use framewright_graph::compile::Options;
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::frame::{
@@ -18,7 +19,7 @@ use framewright_passes::scene::Scene;
 const TONE_MAPPERS: [&str; 4] = ["tone_map", "tone_map_operator", "reinhard", "expose"];
 const LIGHT: &str = "source";
 /// The shader that averages frames, its images, and its number of frames.
-const AVERAGE: &str = "average_frames";
+const AVERAGE: &str = "shipped:average_frames";
 const NOW: &str = "now";
 const BEFORE: &str = "before";
 const FRAMES: &str = "frames";
@@ -37,20 +38,20 @@ impl Bench<'_> {
     pub(super) fn converging(&mut self, choice: &Choice, scene: &Scene) -> Result<Converging, Error> {
         let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
         let frame = self.planned(choice, scene, &more)?.frame;
-        Ok(Converging::of(frame, &self.device.profile()))
+        Ok(Converging::of(frame, &self.device.profile(), &self.pipeline))
     }
 }
 
 impl Converging {
     /// The frame as it is for a reference on a device.
-    fn of(mut frame: Frame, device: &Profile) -> Converging {
+    fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
         let is_light =
             screen(&frame).is_some_and(|image| FileFormat::OpenExr.holds(frame.images[image.0 as usize].format));
         frame.make_exact(device);
         let mut averages = Vec::new();
         let mut at = 0;
         while at < frame.passes.len() {
-            if let Some((average, mean)) = averaged(&mut frame, at) {
+            if let Some((average, mean)) = averaged(&mut frame, at, pipeline) {
                 let light = frame.passes[at].sampled.iter_mut().find(|sampled| *sampled.binding == *LIGHT);
                 if let Some(light) = light {
                     (light.image, light.range) = (mean, Subresources::WHOLE);
@@ -97,13 +98,24 @@ fn screen(frame: &Frame) -> Option<ImageIndex> {
     }
 }
 
+/// Whether a pass's shader is a shipped tone mapper. It has that name in a shipped file, and in one of the user's own unless a shader
+/// of that name lies beside it.
+fn tone_maps(shader: &str, pipeline: &Loaded) -> bool {
+    let file = FilePath::of_text(shader);
+    let is_shipped = || match &file {
+        FilePath::Shipped(_) => true,
+        FilePath::Own(name) => pipeline.assets.shaders.own_texts(&FilePath::from(""), name).is_empty(),
+    };
+    TONE_MAPPERS.contains(&file.path()) && is_shipped()
+}
+
 /// The pass that averages the light that the pass `at` tone-maps, and the new image of the mean; `None` if it tone-maps none, or samples
 /// or texels of which several make a pixel.
-fn averaged(frame: &mut Frame, at: usize) -> Option<(Pass, ImageIndex)> {
+fn averaged(frame: &mut Frame, at: usize, pipeline: &Loaded) -> Option<(Pass, ImageIndex)> {
     let pass = &frame.passes[at];
     let Work::Draw { draw: Draw::FullScreen, shader, .. } = &pass.work else { return None };
     let light = pass.sampled.iter().find(|sampled| *sampled.binding == *LIGHT && sampled.face == Face::Resolved)?;
-    if !TONE_MAPPERS.contains(&&**shader) {
+    if !tone_maps(shader, pipeline) {
         return None;
     }
     // What is tone-mapped at another size than the screen's is averaged as it is shown.
@@ -158,12 +170,13 @@ mod tests {
     use crate::command_line::args::{self, Command};
     use crate::measure::subjects::reference_settings;
     use crate::planning::{self, View};
-    use framewright_graph::base::ReadFiles;
+    use framewright_graph::base::{ReadFiles, Root};
     use framewright_graph::device::Estimated;
     use framewright_graph::vulkan::Rotation;
     use framewright_passes::draw;
     use framewright_passes::shipped::SHADERS;
     use framewright_vulkan::ShaderLibrary;
+    use std::path::Path;
 
     /// Shipped pipelines with a preset `reference`.
     const PIPELINES: [&str; 10] = [
@@ -186,10 +199,12 @@ mod tests {
         let Command::Inspect(arguments) = line.command else { panic!("another command") };
         let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
         // Compiled by this program: a test is no helper process.
-        loaded.assets.shaders = ShaderLibrary::new(Vec::new(), SHADERS, draw::interface);
+        let folder = Path::new(pipeline).parent().filter(|folder| folder.is_absolute());
+        let roots = folder.map(|folder| Root::new(folder.to_owned())).into_iter().collect();
+        loaded.assets.shaders = ShaderLibrary::new(roots, SHADERS, draw::interface);
         loaded.set.extend(reference_settings(&loaded).expect("a preset"));
         let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
-        let converging = Converging::of(frame, device);
+        let converging = Converging::of(frame, device, &loaded);
         let planned = converging.planned(&loaded, device, &mut Estimated(device), 64).expect("a Plan");
         (converging, planned)
     }
@@ -221,5 +236,23 @@ mod tests {
         }
         assert_eq!(averages("image_quality", "mapped=pixels"), 1);
         assert_eq!(averages("image_quality", "tone_mapping=clip"), 0);
+        // A pipeline that extends a shipped one names shaders as shipped ones; one of the user's own that is called so is none.
+        let folder = tempfile::tempdir().expect("a folder");
+        let own = folder.path().join("own.ron");
+        std::fs::write(&own, "Pipeline(version: 1, extends: \"forward.ron\")").expect("written");
+        assert_eq!(averages(own.to_str().expect("a path"), ""), 1);
+        let pass = "(name: \"shown\", draw: FullScreen(\"tone_map\"), sample: {\"source\": \"light\"}, color: [\"screen\"], \
+            params: {\"exposure\": 1.0, \"white_point\": 9.0})";
+        let text = format!(
+            "Pipeline(version: 1, settings: [(name: \"msaa\", value: OneOf(default: 1, of: [1]))], \
+             presets: [(name: \"reference\", set: {{\"msaa\": 1}})], \
+             images: [(name: \"light\", format: Color(hdr: true), size: Output), (name: \"screen\", format: Output, size: Output)], \
+             passes: [(name: \"sky\", draw: Sky, color: [(image: \"light\", clear: (0.0, 0.0, 0.0, 1.0))]), {pass}], outputs: [\"screen\"])"
+        );
+        std::fs::write(&own, text).expect("written");
+        assert_eq!(averages(own.to_str().expect("a path"), ""), 1);
+        let shader = SHADERS.iter().find(|(name, _)| *name == "tone_map.frag").expect("it is shipped").1;
+        std::fs::write(folder.path().join("tone_map.frag"), shader).expect("written");
+        assert_eq!(averages(own.to_str().expect("a path"), ""), 0);
     }
 }

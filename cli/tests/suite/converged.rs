@@ -2,6 +2,8 @@
 
 use crate::testing::{Place, Vulkan, repository};
 use framewright_passes::scene::load;
+use framewright_passes::srgb;
+use framewright_passes::twin::tone_mapping::modified_reinhard;
 use framewright_tests::raycast::RayCaster;
 use glam::DVec2;
 
@@ -111,6 +113,28 @@ fn references_average_light_or_what_is_shown_as_the_tested_pipeline_does() {
         let (own, other) = if of_light { (of_mean, of_shown) } else { (of_shown, of_mean) };
         assert!(own < 0.015 && other > 0.1, "{pipeline}, {set:?}: {own} and {other}");
     }
+}
+
+/// Frames that are drawn before the mean of light is known are no part of a reference. Its mean is of many frames of a sample a pixel
+/// each here: the first of them show an edge as nothing or as all.
+#[test]
+fn a_reference_shows_the_mean_of_all_frames_and_of_no_part_of_them() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    place.file(
+        "bright.ron",
+        r#"Pipeline(version: 1, extends: "forward.ron",
+            changes: [Set(pass: "tone_map", to: (params: {"exposure": 16.0, "white_point": "white_point"}))])"#,
+    );
+    let scene = repository("examples/sweeps/one_unlit_cube.ron");
+    let scene = scene.to_str().expect("a path");
+    let light = reference_of(&place, &variables, "bright.ron", scene, &["white_point=100"]);
+    let pixels: Vec<(f64, f64)> = light.pixels().map(|pixel| pixel.0[0].into()).zip(coverage()).collect();
+    // The red of the scene's sky and cube.
+    let [sky, cube] = [0x20, 0xf0].map(|value| 16.0 * srgb::decode(f64::from(value) / 255.0));
+    let error = error_on_edges(&pixels, |covered| modified_reinhard(sky + (cube - sky) * covered, 100.0));
+    println!("{error}");
+    assert!(error < 0.02, "{error}");
 }
 
 /// A screen of 8 bits shows no more than white, in no frame: a reference without rounding doesn't either.
