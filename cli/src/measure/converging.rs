@@ -1,8 +1,6 @@
 //! The frame that a reference is drawn by: that of the tested settings, with nothing rounded between its passes, and with light that
 //! is averaged over all its frames before it is tone-mapped.
 
-use super::run::Bench;
-use super::subjects::{self, Choice};
 use crate::error::Error;
 use crate::picture::FileFormat;
 use crate::planning::{Loaded, Planned};
@@ -13,7 +11,6 @@ use framewright_graph::frame::{
     Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Lifetime, ParamValue, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::vulkan::{FillValue, Format, Stages, Subresources};
-use framewright_passes::scene::Scene;
 
 /// Shipped shaders that tone-map an image of light, and the name by which they know it.
 const TONE_MAPPERS: [&str; 4] = ["tone_map", "tone_map_operator", "reinhard", "expose"];
@@ -33,18 +30,9 @@ pub(super) struct Converging {
     pub(super) is_light: bool,
 }
 
-impl Bench<'_> {
-    /// The frame for a choice's reference.
-    pub(super) fn converging(&mut self, choice: &Choice, scene: &Scene) -> Result<Converging, Error> {
-        let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
-        let frame = self.planned(choice, scene, &more)?.frame;
-        Ok(Converging::of(frame, &self.device.profile(), &self.pipeline))
-    }
-}
-
 impl Converging {
-    /// The frame as it is for a reference on a device.
-    fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
+    /// The frame as it is for a reference of a pipeline on a device.
+    pub(super) fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
         let is_light =
             screen(&frame).is_some_and(|image| FileFormat::OpenExr.holds(frame.images[image.0 as usize].format));
         frame.make_exact(device);

@@ -99,10 +99,10 @@ fn light_of(seen: f64, white_point: f64) -> f64 {
 #[test]
 fn references_average_light_or_what_is_shown_as_the_tested_pipeline_does() {
     let quality = |mapped| ["tone_mapping=reinhard", "exposure=16", mapped];
-    for (pipeline, set, white_point, of_light) in [
-        ("image_quality", quality("mapped=pixels"), f64::INFINITY, true),
-        ("image_quality", quality("mapped=samples"), f64::INFINITY, false),
-        ("deferred", ["exposure=16", "white_point=100", "bloom=0"], 100.0, true),
+    for (pipeline, set, white_point, of_light, limit) in [
+        ("image_quality", quality("mapped=pixels"), f64::INFINITY, true, 0.008),
+        ("image_quality", quality("mapped=samples"), f64::INFINITY, false, 0.008),
+        ("deferred", ["exposure=16", "white_point=100", "bloom=0"], 100.0, true, 0.03),
     ] {
         let Some(pixels) = of_cube(pipeline, &set) else { return };
         let [sky, cube] = [0.0, 1.0].map(|covered| mean_where(&pixels, covered));
@@ -111,14 +111,14 @@ fn references_average_light_or_what_is_shown_as_the_tested_pipeline_does() {
         let of_mean = error_on_edges(&pixels, |covered| shown(sky + (cube - sky) * covered, white_point));
         println!("{pipeline}, {set:?}: {of_mean} from mapped light, {of_shown} from the mean of what is shown");
         let (own, other) = if of_light { (of_mean, of_shown) } else { (of_shown, of_mean) };
-        assert!(own < 0.015 && other > 0.1, "{pipeline}, {set:?}: {own} and {other}");
+        assert!(own < limit && other > 0.1, "{pipeline}, {set:?}: {own} and {other}");
     }
 }
 
-/// Frames that are drawn before the mean of light is known are no part of a reference. Its mean is of many frames of a sample a pixel
-/// each here: the first of them show an edge as nothing or as all.
+/// Shaders of a pipeline that extends a shipped one have other names, and are the same. Here each frame has one sample a pixel: in the
+/// first ones an edge is nothing or all, so frames that are drawn before the mean of light is known are no part of the reference.
 #[test]
-fn a_reference_shows_the_mean_of_all_frames_and_of_no_part_of_them() {
+fn the_reference_of_what_extends_a_shipped_pipeline_averages_light_too() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let place = Place::new();
     place.file(
@@ -134,7 +134,7 @@ fn a_reference_shows_the_mean_of_all_frames_and_of_no_part_of_them() {
     let [sky, cube] = [0x20, 0xf0].map(|value| 16.0 * srgb::decode(f64::from(value) / 255.0));
     let error = error_on_edges(&pixels, |covered| modified_reinhard(sky + (cube - sky) * covered, 100.0));
     println!("{error}");
-    assert!(error < 0.02, "{error}");
+    assert!(error < 0.03, "{error}");
 }
 
 /// A screen of 8 bits shows no more than white, in no frame: a reference without rounding doesn't either.
