@@ -112,7 +112,7 @@ pub(crate) fn write_views(folder: &Path, results: &Results) -> Result<(), Error>
 /// Writes a table, a page, a plot and `results.json`, the last one last: all of them, or none if there is no room for all.
 ///
 /// # Errors
-/// As [`write`] and [`write_views`].
+/// As [`write()`] and [`write_views`].
 pub(crate) fn write_all(folder: &Path, results: &Results) -> Result<(), Error> {
     let mut files = made_of(folder, results)?;
     files.push(file(folder, results)?);
