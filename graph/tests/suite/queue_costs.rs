@@ -70,6 +70,12 @@ fn a_small_fill_stays_and_says_what_it_would_save() {
 }
 
 #[test]
+fn a_fill_that_saves_just_what_its_waits_cost_stays() {
+    let queue = |bytes| queue_of_first(&plan(&cleared(bytes, 16 * MIB)));
+    assert_eq!([4 * MIB, 4 * MIB + 4].map(queue), [Queue::Graphics, Queue::Transfer]);
+}
+
+#[test]
 fn a_large_fill_moves_and_says_what_it_saves() {
     let plan = plan(&cleared(8 * MIB, 16 * MIB));
     assert_eq!(shown(&plan), ["transfer: clear, after lit of the frame before", "shadows", "lit, after clear"]);
