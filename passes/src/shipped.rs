@@ -12,6 +12,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "adapt_exposure.comp",
     "ambient_occlusion.frag",
     "ambient_occlusion_blur.frag",
+    "average_frames.frag",
     "bloom_grow.frag",
     "bloom_mix.frag",
     "bloom_shrink.frag",

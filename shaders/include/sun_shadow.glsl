@@ -11,6 +11,14 @@
 
 #include "include/scene.glsl"
 
+// The last share of the reach, along which shadows fade.
+const float FADING = 0.1;
+
+// The share of the sun's light that arrives at a share of the reach, 0 to 1, where this much of the filter is uncovered.
+float faded(float uncovered, float distance_share) {
+    return mix(1.0, uncovered, clamp((1.0 - distance_share) / FADING, 0.0, 1.0));
+}
+
 #ifdef HAS_sun_shadow
 
 #include "include/texture.glsl"
@@ -19,8 +27,6 @@
 const float DEPTH_ROUNDING = 1.0 / 32768.0;
 // A place is looked up by this many texels above its surface, times the sine of the angle between its normal and the sun.
 const float RISE = 1.0;
-// The last share of the reach, along which shadows fade.
-const float FADING = 0.1;
 // The last share of a cascade's map at each border, along which the next cascade takes over.
 const float BLENDING = 0.08;
 
@@ -86,8 +92,7 @@ float sunlit(vec3 position, vec3 normal) {
             rest *= 1.0 - part;
         }
     }
-    const float fading = clamp((1.0 - distance_share) / FADING, 0.0, 1.0);
-    return mix(1.0, share + rest, fading);
+    return faded(share + rest, distance_share);
 #else
     return 1.0;
 #endif

@@ -15,6 +15,7 @@
 #include "include/overlay.glsl"
 #include "include/radiance.glsl"
 #include "include/scale.glsl"
+#include "include/sun_shadow.glsl"
 #include "include/temporal.glsl"
 #include "include/tone_mapping.glsl"
 
@@ -55,15 +56,21 @@ vec3 unit(uint which) {
     return direction_of(2.0 * even3(which) - 1.0);
 }
 
+// A part of an image: at random, of full width, or all of it.
+vec4 part(uint which) {
+    const vec2 size = vec2(at % 8u < 2u ? 1.0 : 0.0625 + 0.875 * even(which), at % 8u == 0u ? 1.0 : 0.0625 + 0.875 * even(which + 1u));
+    return vec4(size, (1.0 - size) * vec2(even(which + 2u), even(which + 3u)));
+}
+
 vec4 result(int formula) {
     switch (formula) {
-        case 0: return vec4(reinhard(wide3(0u, -20, 16)), 0.0);
-        case 1: return vec4(modified_reinhard(wide3(0u, -20, 16), wide(3u, 0, 100)), 0.0);
-        case 2: return vec4(filmic(wide3(0u, -20, 16)), 0.0);
-        case 3: return vec4(neutral(wide3(0u, -20, 16)), 0.0);
+        case 0: return vec4(reinhard(wide3(0u, -24, 16)), 0.0);
+        case 1: return vec4(modified_reinhard(wide3(0u, -24, 16), wide(3u, 0, 100)), 0.0);
+        case 2: return vec4(filmic(wide3(0u, -24, 16)), 0.0);
+        case 3: return vec4(neutral(wide3(0u, -24, 16)), 0.0);
         case 4: return vec4(encode_pq(even(0u)), encode_pq(wide(1u, -60, 0)), 0.0, 0.0);
-        case 5: return vec4(encode_hdr10(wide3(0u, -20, 16), 203.0), 0.0);
-        case 6: return vec4(luminance(wide3(0u, -20, 16)));
+        case 5: return vec4(encode_hdr10(wide3(0u, -24, 16), 203.0), 0.0);
+        case 6: return vec4(luminance(wide3(0u, -24, 16)));
         case 7: return vec4(float(bin_of(wide(0u, -30, 16))), stop_of(uint(at & 255u)), 0.0, 0.0);
         case 8: return vec4(covered_by(even(0u), even(1u), even(2u)));
         case 9: return vec4(fade_threshold(uvec2(at & 255u, at >> 8)), fades_out(2.0 * even(0u) - 1.0, vec2(at & 255u, at >> 8)), 0.0, 0.0);
@@ -77,8 +84,8 @@ vec4 result(int formula) {
                              0.0, 0.0);
         case 17: return vec4(shade_of_distance(wide(0u, -20, 0), 0.1, 20.0), shade_of_signed(2.0 * even3(1u) - 1.0, 1.0));
         case 18: return vec4(near_distance(), infinite_depth(wide(0u, -20, 0)), 0.0, 0.0);
-        case 19: return vec4(wide3(0u, -20, 16) * resolve_weight(wide3(0u, -20, 16)), 0.0);
-        case 20: return vec4(mixed(wide3(0u, -20, 16), wide3(3u, -20, 16), even(6u)), 0.0);
+        case 19: return vec4(wide3(0u, -24, 16) * resolve_weight(wide3(0u, -24, 16)), 0.0);
+        case 20: return vec4(mixed(wide3(0u, -24, 16), wide3(3u, -24, 16), even(6u)), 0.0);
         case 21: return vec4(catmull_rom(4.0 * even(0u) - 2.0));
         case 22: return vec4(occlusion_by(even3(0u), unit(3u), 1.0, 1.0), openness(even(6u), 1.0), spiral_turn(ivec2(at & 255u, at >> 8)),
                              0.0);
@@ -99,7 +106,12 @@ vec4 result(int formula) {
             return vec4(allowed_history(even3(27u), around, 1.0, 0.25 * even(30u)), 0.0);
         }
         case 26: return vec4(change_allowed(even(0u), 0.5 * even(1u)), share_after(0.01 + even(2u), 0.25 * even(3u), 2.0 * even(4u)), 0.0, 0.0);
-        case 27: return vec4(reinhard_luminance(wide3(0u, -20, 16)), 0.0);
+        case 27: return vec4(reinhard_luminance(wide3(0u, -24, 16)), 0.0);
+        case 28: return vec4(shown(to_ycocg(65504.0 / 65505.0 * even3(0u))), 0.0);
+        case 29: return vec4(faded(even(0u), 0.8 + 0.25 * even(1u)), 0.0, 0.0, 0.0);
+        case 30: return uv_clamp(vec4(even3(4u), even(7u)), part(0u), ivec2(1u + bits(8u) % 4096u, 1u + bits(9u) % 64u));
+        case 31: return uv_adjust(vec4(even3(4u), even(7u)), part(0u));
+        case 32: return vec4(uv_unadjust(vec2(even(4u), even(5u)), part(0u)), 0.0, 0.0);
         default: return vec4(0.0);
     }
 }

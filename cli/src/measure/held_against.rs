@@ -1,5 +1,6 @@
 //! The pictures that choices are held against: still ones, and those of a moving scene.
 
+use super::converging::Converging;
 use super::digest::Digest;
 use super::pipeline_digest;
 use super::reference;
@@ -76,10 +77,11 @@ impl Bench<'_> {
         let reference = match self.references.read(&key) {
             Some(kept) => kept,
             None => {
-                let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
                 let scene = choice.scene.still_at(frame);
-                let planned = self.planned(choice, &scene, &more)?;
-                let drawn = reference::draw(&self.device, &planned, &mut self.pipeline, &scene, choice.size)?;
+                let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
+                let frame = self.planned(choice, &scene, &more)?.frame;
+                let converging = Converging::of(frame, &self.device.profile(), &self.pipeline);
+                let drawn = reference::draw(&self.device, &converging, &mut self.pipeline, &scene, choice.size)?;
                 let Some(drawn) = drawn else { return Ok(None) };
                 self.references.keep(&key, drawn)?
             }

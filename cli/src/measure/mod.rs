@@ -8,6 +8,7 @@
 
 mod checks;
 pub(crate) mod choosing;
+mod converging;
 mod cost;
 mod csv;
 mod digest;

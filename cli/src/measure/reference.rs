@@ -1,6 +1,7 @@
 //! The picture that choices are held against: the same pipeline under its preset `reference`, drawn many times, each time shifted by
-//! another part of a texel, and averaged.
+//! another part of a texel, and averaged: before tone mapping what is tone-mapped, all else as it is shown.
 
+use super::converging::Converging;
 use crate::command_line::values::Size;
 use crate::drawing::{Prepared, pictures};
 use crate::error::Error;
@@ -17,47 +18,71 @@ pub(crate) const LEAST_SAMPLES: u32 = 64;
 /// A reference is drawn at least this often, so that half of it is one too.
 const LEAST_FRAMES: u16 = 16;
 
-/// A reference, and the one of its first half.
+/// A reference, and one of half as many frames.
 #[derive(Debug)]
-pub(crate) struct Drawn {
-    pub(crate) picture: Light,
-    /// Half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
-    pub(crate) of_half: Light,
+pub(super) struct Drawn {
+    pub(super) picture: Light,
+    /// One of half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
+    pub(super) of_half: Light,
 }
 
 /// Draws a reference.
 ///
 /// # Errors
 /// Those of drawing; Ctrl-C.
-pub(crate) fn draw(
+pub(super) fn draw(
     device: &Device,
-    planned: &Planned,
+    converging: &Converging,
     pipeline: &mut Loaded,
     scene: &Scene,
     size: Size,
 ) -> Result<Option<Drawn>, Error> {
+    let planned = |pipeline: &Loaded, frames| {
+        let mut memory = device.memory();
+        converging.planned(pipeline, &device.profile(), &mut memory, frames)
+    };
+    let (extent, samples) = drawn(&planned(pipeline, 1)?.plan, size);
+    let all = frames(extent, samples, size);
+    let mut mean = |frames| {
+        let planned = planned(pipeline, frames)?;
+        // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
+        let shifts = Jitter::halton(frames, extent);
+        let number = (converging.before(frames), frames);
+        mean(device, &planned, pipeline, scene, (&shifts, number), converging.is_light)
+    };
+    let Some(picture) = mean(all)? else { return Ok(None) };
+    Ok(mean(all / 2)?.map(|of_half| Drawn { picture, of_half }))
+}
+
+/// The mean of what a display shows of some frames, after others that aren't looked at: each is cut to what the tested output can
+/// hold. `None` if there is no picture.
+fn mean(
+    device: &Device,
+    planned: &Planned,
+    pipeline: &mut Loaded,
+    scene: &Scene,
+    (shifts, (before, frames)): (&Jitter, (u16, u16)),
+    is_light: bool,
+) -> Result<Option<Light>, Error> {
     let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
     let mut prepared =
         Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &ExecutorOptions::default())?;
-    let (extent, samples) = drawn(&planned.plan, size);
-    let frames = frames(extent, samples, size);
-    // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
-    prepared.source.set_jitter(&Jitter::halton(frames, extent))?;
+    prepared.source.set_jitter(shifts)?;
     let mut sum: Option<Sum> = None;
-    let mut of_half = None;
-    for frame in 0..frames {
+    for frame in 0..before + frames {
         if interrupt::asked() {
-            return Err(Error::Interrupted { frames: frame.into(), wanted: frames.into() });
+            return Err(Error::Interrupted { frames: frame.into(), wanted: (before + frames).into() });
         }
         prepared.executor.frame(&mut prepared.source)?;
+        if frame < before {
+            continue;
+        }
         let file = request.encode(&mut prepared.executor, &planned.plan)?;
         let light = Light::decode(&file.contents).map_err(|problem| Error::NoLight { path: file.path, problem })?;
+        let light = Light { is_light, ..light };
         sum.get_or_insert_with(|| Sum::of_nothing(&light)).add(&light);
-        if frame + 1 == frames / 2 {
-            of_half = sum.as_ref().map(Sum::mean);
-        }
     }
-    Ok(sum.zip(of_half).map(|(sum, of_half)| Drawn { picture: sum.mean(), of_half }))
+    Ok(sum.map(|sum| sum.mean()))
 }
 
 /// Size and samples of the largest target that objects are drawn into.
@@ -96,7 +121,8 @@ impl Sum {
 
     fn add(&mut self, light: &Light) {
         for (sum, texel) in self.light.iter_mut().zip(&light.texels) {
-            sum.iter_mut().zip(texel).for_each(|(sum, light)| *sum += f64::from(*light));
+            let shown = |light: f32| if self.is_light { light } else { light.clamp(0.0, 1.0) };
+            sum.iter_mut().zip(texel).for_each(|(sum, light)| *sum += f64::from(shown(*light)));
         }
         self.frames += 1.0;
     }

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 /// The version of the form in which references are kept, and of the way in which they are drawn.
-const FORMAT_VERSION: u32 = 2;
+const FORMAT_VERSION: u32 = 3;
 
 /// References that stay in memory.
 const REMEMBERED: usize = 8;

@@ -175,3 +175,52 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
         "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study"
     );
 }
+
+/// The small presets of `shadows` have what the page recommends for their budgets of memory, in all settings that the sweep varied. The
+/// larger ones and the defaults keep to their budgets, and are at least as right by RMSE, as the page says.
+#[test]
+fn presets_of_shadows_are_what_the_page_says() {
+    let page = std::fs::read_to_string(repository("docs/trade-offs.md")).expect("the page");
+    let answers: Vec<(f64, &str)> = page
+        .split("$ framewright choose trade-offs/shadows --max-mib ")
+        .skip(1)
+        .map(|answer| {
+            let (limit, rest) = answer.split_once("\nbest: ").expect("an answer");
+            (limit.parse().expect("a number"), rest.lines().next().expect("settings"))
+        })
+        .collect();
+    assert_eq!(answers.len(), 4, "{answers:?}");
+    assert!(answers.is_sorted_by(|a, b| a.0 < b.0), "{answers:?}");
+    let place = Place::new();
+    let values = |preset: &[&str]| -> BTreeMap<String, String> {
+        let arguments = [&["inspect", "shadows", "--format", "json"], preset].concat();
+        let plan: Value = serde_json::from_str(&place.run(&arguments).exits(0).out).expect("JSON");
+        let settings = plan["settings"].as_array().expect("settings").iter();
+        settings
+            .map(|it| {
+                let text = |of: &str| it[of].as_str().expect("a text").to_owned();
+                (text("name"), text("value"))
+            })
+            .collect()
+    };
+    let swept = |preset: &[&str]| {
+        let values = values(preset);
+        format!("cascades={} shadow_size={}", values["cascades"], values["shadow_size"])
+    };
+    // Memory and RMSE of a row of the page.
+    let figures = |settings: &str| {
+        let row = format!("| `{}` |", settings.replace(' ', "` `"));
+        let row = page.lines().find_map(|line| line.strip_prefix(&row)).expect("a row");
+        let figures: Vec<f64> = row.split('|').filter_map(|figure| figure.trim().parse().ok()).collect();
+        [figures[1], figures[3]]
+    };
+    for (preset, (limit, best)) in ["low", "medium"].into_iter().zip(&answers) {
+        assert_eq!(swept(&["--preset", preset]), *best, "`{preset}` in {limit} MiB");
+    }
+    for (preset, (limit, best)) in
+        [(&["--preset", "high"][..], &answers[2]), (&["--preset", "ultra"], &answers[3]), (&[], &answers[2])]
+    {
+        let [memory, rmse] = figures(&swept(preset));
+        assert!(memory <= *limit && rmse <= figures(best)[1], "{preset:?}: {memory} MiB of {limit}, {rmse}");
+    }
+}

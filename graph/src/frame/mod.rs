@@ -8,6 +8,7 @@ mod capture;
 pub mod change;
 mod covers;
 mod decided;
+mod exact;
 mod index;
 mod jitter;
 mod output;

@@ -1,4 +1,5 @@
-//! Twin of `shaders/include/stereo.glsl`: where an eye's picture lies in what is drawn into.
+//! Twin of `shaders/include/stereo.glsl` and `shaders/include/part.glsl`: where an eye's picture lies in what is drawn into, or what a pass
+//! sees of an image.
 
 /// The part of an image that holds an eye's picture: its width and height as shares, and where it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,10 +26,26 @@ impl Part {
         [0, 1].map(|axis| self.offset[axis] + self.scale[axis] * uv[axis])
     }
 
-    /// The inverse of [`Part::screen_uv`].
+    /// A place in the image as a place in the part, 0 to 1 from its upper left corner.
     #[must_use]
     pub fn own_uv(&self, place: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| (place[axis] - self.offset[axis]) / self.scale[axis])
+    }
+
+    /// The place nearest to a place in the image whose linear filter, four texels of an image of `texels`, reaches no texel beyond the
+    /// part along an axis that isn't seen whole; a 512th of a texel further in. The middle of a part that is narrower than that.
+    #[must_use]
+    pub fn nearest_within(&self, place: [f64; 2], texels: [u32; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let side = f64::from(texels[axis]);
+            let [first, last] = [self.offset[axis], self.offset[axis] + self.scale[axis]].map(|border| border * side);
+            let (first, last) = (first + 0.5 + 1.0 / 512.0, last - 0.5 - 1.0 / 512.0);
+            match place[axis] * side {
+                _ if self.scale[axis] == 1.0 => place[axis],
+                _ if first >= last => (first + last) / 2.0 / side,
+                at => at.clamp(first, last) / side,
+            }
+        })
     }
 
     /// Where a position in clip space is seen in the image, after the division by w.

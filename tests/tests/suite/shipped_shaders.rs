@@ -17,6 +17,7 @@ const DRAWN: &[(&str, Draw)] = &[
     ("accumulate", Draw::FullScreen),
     ("ambient_occlusion", Draw::FullScreen),
     ("ambient_occlusion_blur", Draw::FullScreen),
+    ("average_frames", Draw::FullScreen),
     ("bloom_grow", Draw::FullScreen),
     ("bloom_mix", Draw::FullScreen),
     ("bloom_shrink", Draw::FullScreen),
@@ -158,10 +159,11 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 35] = [
+    let cases: [(&str, &[&str], &[&str]); 36] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
         ("ambient_occlusion_blur", &["source", "depth"], &[]),
+        ("average_frames", &["now", "before"], &["frames"]),
         ("bloom_grow", &["own", "below"], &["radius", "share"]),
         ("bloom_mix", &["sharp", "bloom"], &["radius", "strength"]),
         ("bloom_shrink", &["source"], &["partial"]),

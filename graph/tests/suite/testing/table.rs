@@ -275,6 +275,11 @@ impl ShaderInterfaces for Table {
                 texture("before", 1, false, float),
                 params(&[("share", "float")]),
             ]),
+            "average_frames" => full_screen(vec![
+                texture("now", 0, false, float),
+                texture("before", 1, false, float),
+                params(&[("frames", "int")]),
+            ]),
             "motion" | "motion_masked" => {
                 ShaderInterface { outputs: outputs(1, float, 2), ..lit(name == "motion_masked") }
             }

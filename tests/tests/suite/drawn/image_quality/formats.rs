@@ -1,7 +1,7 @@
 //! The effect of the precision of colour and depth on the picture, and on memory.
 
-use crate::drawn::image_quality::{Set, picture, plan, shining_behind_glass};
-use framewright_graph::plan::Plan;
+use crate::drawn::image_quality::{PIPELINE, Set, picture, plan, plan_of, shining_behind_glass};
+use framewright_graph::plan::{Note, Plan};
 use framewright_graph::vulkan::Format::{self, *};
 use std::error::Error;
 
@@ -70,8 +70,14 @@ fn coarse_depth_loses_nothing_however_near_the_near_plane_is() -> Result<(), Box
     let (Some(usual), Some(smallest)) = (usual?, smallest?) else { return Ok(()) };
     assert_eq!(smallest.steps_from(&usual), 0.0);
     scene.camera.near = 1e-6;
-    let Some(found) = picture(&[("depth_precision", "Smallest")], &scene, [65, 47])? else { return Ok(()) };
+    let set = [("depth_precision", "Smallest")];
+    let Some(found) = picture(&set, &scene, [65, 47])? else { return Ok(()) };
     assert!(found.steps_from(&usual) <= STEP, "{} steps", found.steps_from(&usual));
+    let Some(plan) = plan_of(PIPELINE, &set, &scene, true)? else { return Ok(()) };
+    let depths: Vec<Format> = plan.images.iter().map(|image| image.format).filter(|it| it.is_depth()).collect();
+    assert!(!depths.is_empty() && depths.iter().all(|format| *format == D32_SFLOAT), "{depths:?}");
+    let says = |note: &Note| note.text.contains("D32_SFLOAT is taken") && note.text.contains("too coarse");
+    assert!(plan.notes.iter().any(says), "{:?}", plan.notes);
     Ok(())
 }
 

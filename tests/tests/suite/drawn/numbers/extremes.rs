@@ -1,6 +1,6 @@
 //! The table of extremes: what, the result, and the test that shows it.
 
-pub(super) const EXTREMES: [(&str, &str, &str); 32] = [
+pub(super) const EXTREMES: [(&str, &str, &str); 35] = [
     (
         "near 10⁻⁴ m and far 10⁸ m in `D32_SFLOAT`, reversed, with a far plane or without",
         "surfaces 1/64 of their distance apart are told apart at every distance",
@@ -48,7 +48,7 @@ pub(super) const EXTREMES: [(&str, &str, &str); 32] = [
     ),
     (
         "the shipped pipelines at 1 × 1, 1 × 5 and 5 × 1",
-        "all pixels alike",
+        "all pixels alike; where snow falls the sky, or what is brighter",
         "drawn::extremes::sizes::every_shipped_pipeline_draws_pictures_of_one_pixel",
     ),
     (
@@ -57,7 +57,7 @@ pub(super) const EXTREMES: [(&str, &str, &str); 32] = [
         "drawn::scale::the_area_filter_is_the_mean_of_what_a_pixel_covers_at_every_scale",
     ),
     (
-        "images as wide or as high as the device can draw",
+        "images as wide or as high as the device can draw, and both",
         "every texel is drawn and read back; a texel more is an error that names the image and the limit",
         "drawn::extremes::sizes::the_largest_images_hold_each_texel_and_larger_ones_are_refused",
     ),
@@ -75,6 +75,21 @@ pub(super) const EXTREMES: [(&str, &str, &str); 32] = [
         "the same in blends",
         "their sum where a half float holds it; beyond that 65,504, or 0 where the driver stores NaN, as SwiftShader does",
         "drawn::extremes::blending::blends_are_read_as_their_sum_as_far_as_a_half_float_holds_it",
+    ),
+    (
+        "the same unguarded, as a user's shader may store it, in half floats and in 32 bits",
+        "as they are where a half float holds them; else 65,504, or 0 where the driver stores NaN; nothing that isn't finite is read",
+        "drawn::extremes::blending::unguarded_numbers_are_read_as_they_are_or_as_the_largest_or_0",
+    ),
+    (
+        "the same unguarded in the plain average of four samples",
+        "their mean where a half float holds all of them; else something finite",
+        "drawn::extremes::blending::unguarded_samples_are_averaged_or_leave_something_finite",
+    ),
+    (
+        "the same unguarded in blends",
+        "their sum where a half float holds it; else 65,504, or 0 where the driver stores NaN",
+        "drawn::extremes::blending::unguarded_sums_are_read_as_they_are_or_as_the_largest_or_0",
     ),
     (
         "the same in resolves that weigh or tone-map samples",

@@ -10,7 +10,7 @@ use framewright_passes::twin::stereo::Part;
 use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard, reinhard_luminance};
 use framewright_passes::twin::{
     alpha_coverage, ambient_occlusion, cross_fade, distance, effects, exposure, g_buffer, hdr10, lighting, motion,
-    overlay, scale, temporal, weighted_resolve,
+    overlay, scale, sun_shadow, temporal, weighted_resolve,
 };
 use framewright_tests::render::{Setup, device, render, rgba};
 use framewright_tests::shapes::empty_scene;
@@ -46,7 +46,7 @@ fn beside(found: &[f64], expected: &[f64], scale: f64) -> Vec<Compared> {
     own(found, expected).into_iter().map(|one| Compared { scale, ..one }).collect()
 }
 
-const LIGHT: &str = "light 2⁻²⁰ to 2¹⁶";
+const LIGHT: &str = "light 2⁻²⁴ to 2¹⁶";
 
 pub(super) fn rows() -> Result<Option<Vec<Row>>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
@@ -65,7 +65,7 @@ fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
         curve(0, "tone_mapping::reinhard", reinhard)?,
         Row::of(
             "tone_mapping::modified_reinhard",
-            "light 2⁻²⁰ to 2¹⁶, white points 1 to 2¹⁰⁰",
+            "light 2⁻²⁴ to 2¹⁶, white points 1 to 2¹⁰⁰",
             Ulp,
             compared(device, 1, |of, found| {
                 own(&found[..3], &of.light(0).map(|light| modified_reinhard(light, of.wide(3, 0, 100))))
@@ -94,7 +94,7 @@ fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
         ),
         Row::of(
             "hdr10::encode_hdr10",
-            "light 2⁻²⁰ to 2¹⁶, white at 203 cd/m²",
+            "light 2⁻²⁴ to 2¹⁶, white at 203 cd/m²",
             Steps,
             compared(device, 5, |of, found| own(&found[..3], &hdr10::encode_hdr10(of.light(0), 203.0)))?,
         ),
@@ -122,8 +122,19 @@ fn tone(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
             compared(device, 19, |of, found| own(&found[..3], &weighted_resolve::compressed(of.light(0))))?,
         ),
         Row::of(
+            "weighted_resolve::expanded",
+            "colours 0 to 65504/65505, expanded, and compressed in 64 bits",
+            Steps,
+            compared(device, 28, |of, found| {
+                let color = of.even3(0).map(|channel| 65504.0 / 65505.0 * channel);
+                let light = weighted_resolve::expanded(color);
+                let [found, expected] = [[found[0], found[1], found[2]], light].map(weighted_resolve::compressed);
+                own(&found, &expected)
+            })?,
+        ),
+        Row::of(
             "temporal::mixed",
-            "light 2⁻²⁰ to 2¹⁶, shares 0 to 1",
+            "light 2⁻²⁴ to 2¹⁶, shares 0 to 1",
             Ulp,
             compared(device, 20, |of, found| own(&found[..3], &temporal::mixed(of.light(0), of.light(3), of.even(6))))?,
         ),
@@ -207,6 +218,16 @@ fn light(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
             compared(device, 11, |of, found| own(&found[1..2], &[stripe(of.wide(1, 4, 15))]))?,
         ),
         Row::of(
+            "sun_shadow::faded",
+            "uncovered 0 to 1, 0.8 to 1.05 of the reach",
+            Ulp,
+            compared(device, 29, |of, found| {
+                let expected = sun_shadow::faded(of.even(0), 0.8 + 0.25 * of.even(1));
+                // The distance from the end of the reach is taken from 1, and is a tenth of it at most.
+                beside(&found[..1], &[expected], 10.0)
+            })?,
+        ),
+        Row::of(
             "lighting::highlight",
             "all directions",
             Steps,
@@ -249,6 +270,11 @@ fn light(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
 /// Of a near distance of 0.1 m, and a period of 1 m.
 fn stripe(periods: f64) -> f64 {
     effects::stripe(0.1 / periods, 0.1, 1.0)
+}
+
+/// Of an image or of a part.
+fn two_places(of: &Arguments) -> [[f64; 2]; 2] {
+    [[of.even(4), of.even(5)], [of.even(6), of.even(7)]]
 }
 
 fn places(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
@@ -310,13 +336,39 @@ fn places(device: &Device) -> Result<Vec<Row>, Box<dyn Error>> {
         ),
         Row::of(
             "stereo::screen_uv",
-            "places in the right eye's picture; screen_pos too",
+            "places in the right eye's picture, Part::half; screen_pos too",
             Ulp,
             compared(device, 24, |of, found| {
                 let [x, y, w] = of.even3(0);
                 let half = Part::half(true);
                 let clip = [2.0 * x - 1.0, 2.0 * y - 1.0, 0.0, 1.0 + 3.0 * w];
                 let ([a, b], [c, d]) = (half.screen_uv([x, y]), half.screen_pos(clip));
+                beside(&found, &[a, b, c, d], 1.0)
+            })?,
+        ),
+        Row::of(
+            "stereo::screen_uv",
+            "two places at once, in parts at random",
+            Ulp,
+            compared(device, 31, |of, found| {
+                let [one, other] = two_places(of);
+                let ([a, b], [c, d]) = (of.part(0).screen_uv(one), of.part(0).screen_uv(other));
+                beside(&found, &[a, b, c, d], 1.0)
+            })?,
+        ),
+        Row::of(
+            "stereo::own_uv",
+            "places in an image, of parts of a 16th and more",
+            Ulp,
+            compared(device, 32, |of, found| beside(&found[..2], &of.part(0).own_uv(two_places(of)[0]), 16.0))?,
+        ),
+        Row::of(
+            "stereo::nearest_within",
+            "two places at once, in parts at random of images of 1 to 4,096 texels",
+            Ulp,
+            compared(device, 30, |of, found| {
+                let texels = [1 + of.bits(8) % 4096, 1 + of.bits(9) % 64];
+                let [[a, b], [c, d]] = two_places(of).map(|place| of.part(0).nearest_within(place, texels));
                 beside(&found, &[a, b, c, d], 1.0)
             })?,
         ),

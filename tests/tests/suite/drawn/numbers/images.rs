@@ -4,7 +4,7 @@ use super::Unit::{Steps, Ulp};
 use super::{Compared, Row};
 use crate::drawn::filters::Image;
 use crate::drawn::{bloom, filters, scale};
-use framewright_passes::twin::accumulate::accumulated;
+use framewright_passes::twin::accumulate::{self, accumulated};
 use framewright_passes::twin::bloom::{mixed, shrunk, tent};
 use framewright_passes::twin::filters::{blur, downsample, gauss};
 use framewright_passes::twin::scale::{area, bilinear, sharpened};
@@ -115,18 +115,23 @@ fn scales() -> Result<Vec<Row>, Box<dyn Error>> {
 fn averages() -> Result<Vec<Row>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(Vec::new()) };
     let scene = empty_scene();
-    let [mut over_time, mut of_shadows] = [Vec::new(), Vec::new()];
+    let [mut over_time, mut of_means, mut of_shadows] = [Vec::new(), Vec::new(), Vec::new()];
     for (share, taps) in [("0.0", 1), ("0.5", 2), ("0.95", 3), ("1.0", 5), ("-1.0", 7), ("2.0", 3)] {
         let width = taps.to_string();
         let set = [("share", share), ("taps", &*width)];
         let setup = Setup { pipeline: "tests/pipelines/accumulate.ron", set: &set, scene: &scene, extent: [8, 8] };
-        let [now, before, averaged, shadowed] =
-            <[_; 4]>::try_from(render(device, &setup)?).map_err(|_| "not four outputs")?.map(|output| rgba(&output));
-        for ((now, before), found) in now.iter().zip(before).zip(averaged) {
-            let expected = accumulated([now[0], now[1], now[2]], before, share.parse()?);
+        let [now, before, averaged, shadowed, means] =
+            <[_; 5]>::try_from(render(device, &setup)?).map_err(|_| "not five outputs")?.map(|output| rgba(&output));
+        for ((now, before), found) in now.iter().zip(&before).zip(averaged) {
+            let expected = accumulated([now[0], now[1], now[2]], *before, share.parse()?);
             let each =
                 (0..4).map(|at| Compared { found: found[at], expected: expected[at], scale: now[at].max(before[at]) });
             over_time.extend(each);
+        }
+        for ((now, before), found) in now.iter().zip(&before).zip(means) {
+            let expected = accumulate::averaged([now[0], now[1], now[2]], *before, taps.into());
+            let scale = |at: usize| now[at].max(before[at]);
+            of_means.extend((0..4).map(|at| Compared { found: found[at], expected: expected[at], scale: scale(at) }));
         }
         for [x, y, depth, found] in shadowed {
             let caster = |x: i32, y: i32| now[(y * 64 + x) as usize][0];
@@ -135,6 +140,7 @@ fn averages() -> Result<Vec<Row>, Box<dyn Error>> {
     }
     Ok(vec![
         Row::of("accumulate::accumulated", "noise 0 to 60,000, shares −1 to 2, all of alpha", Ulp, over_time),
+        Row::of("accumulate::averaged", "noise 0 to 60,000, of 1 to 7 frames", Ulp, of_means),
         Row::of("sun_shadow::uncovered", "places and depths at random in noise, a slope, 1 to 7 taps", Ulp, of_shadows),
     ])
 }
