@@ -2,7 +2,7 @@
 //! is averaged over all its frames before it is tone-mapped.
 
 use crate::error::Error;
-use crate::picture::FileFormat;
+use crate::picture;
 use crate::planning::{Loaded, Planned};
 use framewright_graph::base::FilePath;
 use framewright_graph::compile::Options;
@@ -26,15 +26,14 @@ pub(super) struct Converging {
     frame: Frame,
     /// The pass that averages each image that is tone-mapped.
     averages: Vec<usize>,
-    /// Whether the tested output holds light without an upper end.
-    pub(super) is_light: bool,
+    /// Steps from black to white in the tested output's picture; `None`: it holds light without an upper end.
+    pub(super) steps: Option<u16>,
 }
 
 impl Converging {
     /// The frame as it is for a reference of a pipeline on a device.
     pub(super) fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
-        let is_light =
-            screen(&frame).is_some_and(|image| FileFormat::OpenExr.holds(frame.images[image.0 as usize].format));
+        let steps = screen(&frame).and_then(|image| picture::steps(frame.images[image.0 as usize].format));
         frame.make_exact(device);
         let mut averages = Vec::new();
         let mut at = 0;
@@ -50,7 +49,7 @@ impl Converging {
             }
             at += 1;
         }
-        Converging { frame, averages, is_light }
+        Converging { frame, averages, steps }
     }
 
     /// Frames that are drawn before light is averaged over as many.

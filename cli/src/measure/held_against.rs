@@ -5,7 +5,7 @@ use super::digest::Digest;
 use super::pipeline_digest;
 use super::reference;
 use super::references::{self, Reference, References};
-use super::run::{Bench, settings};
+use super::run::{Bench, kept, settings};
 use super::subjects::{self, Choice};
 use crate::command_line::measuring::MeasureArguments;
 use crate::drawing::{Prepared, pictures};
@@ -13,11 +13,14 @@ use crate::error::Error;
 use crate::files::inputs;
 use crate::metric::{Changes, Flicker};
 use crate::picture::{FileFormat, Light};
+use crate::system::counted::{Progress, Words};
 use crate::system::{interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_vulkan::ExecutorOptions;
+use std::collections::HashSet;
 use std::path::Path;
 use std::rc::Rc;
+use std::time::Duration;
 
 /// The values of `--reference` that are no files.
 pub(super) const AUTO: &str = "auto";
@@ -68,8 +71,51 @@ impl Bench<'_> {
         }
     }
 
+    /// Draws the references that choices need and that the folder doesn't hold: then it is known how far the work is. The problem of a
+    /// reference is told with the choices that need it.
+    ///
+    /// # Errors
+    /// Those that end the whole sweep; Ctrl-C.
+    pub(super) fn draw_references(&mut self, choices: &[Choice]) -> Result<(), Error> {
+        if !matches!(self.given, Given::Auto) {
+            return Ok(());
+        }
+        let mut known = HashSet::new();
+        let mut wanted = Vec::new();
+        for choice in choices {
+            for frame in 0..self.arguments.flicker.unwrap_or(1) {
+                if interrupt::asked() {
+                    return Err(Error::Interrupted { frames: 0, wanted: 0 });
+                }
+                let Ok(Some(key)) = kept(self.reference_key(choice, frame))? else { continue };
+                if known.insert(key.clone()) && self.references.read(&key).is_none() {
+                    wanted.push((choice, frame));
+                }
+            }
+        }
+        let words = Words { doing: "drawing", done: "drew", things: "references" };
+        let progress = Progress::new(wanted.len(), 0, words, Duration::from_secs(60));
+        for (choice, frame) in wanted {
+            // What goes wrong here goes wrong again where the choice is measured.
+            let _of_choice = kept(self.drawn_reference(choice, frame, &|done, of| progress.within(done, of)))?;
+            progress.done_one();
+        }
+        progress.finish();
+        Ok(())
+    }
+
     /// The picture that a choice is held against at a frame of its scene; `None` if there is none.
     pub(super) fn reference(&mut self, choice: &Choice, frame: u32) -> Result<Option<(Rc<Reference>, String)>, Error> {
+        self.drawn_reference(choice, frame, &|_, _| ())
+    }
+
+    /// As [`Bench::reference`], and tells how many of how many frames are drawn.
+    fn drawn_reference(
+        &mut self,
+        choice: &Choice,
+        frame: u32,
+        progress: &dyn Fn(usize, usize),
+    ) -> Result<Option<(Rc<Reference>, String)>, Error> {
         let Some(key) = self.reference_key(choice, frame)? else { return Ok(None) };
         if let Some(known) = self.references.lately(&key) {
             return Ok(Some((known, key)));
@@ -81,7 +127,8 @@ impl Bench<'_> {
                 let more = subjects::reference_settings(&self.pipeline).unwrap_or_default();
                 let frame = self.planned(choice, &scene, &more)?.frame;
                 let converging = Converging::of(frame, &self.device.profile(), &self.pipeline);
-                let drawn = reference::draw(&self.device, &converging, &mut self.pipeline, &scene, choice.size)?;
+                let drawn =
+                    reference::draw(&self.device, &converging, &mut self.pipeline, (&scene, choice.size), progress)?;
                 let Some(drawn) = drawn else { return Ok(None) };
                 self.references.keep(&key, drawn)?
             }

@@ -83,11 +83,10 @@ pub(super) fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [Str
     let fields = |subject: &Subject| {
         let Subject { framewright, shipped_shaders, pipeline, pipeline_digest, device, driver, .. } = subject;
         let Subject { frames, flicker_frames, reference, baseline, .. } = subject;
-        let known = |text: &str| if text.is_empty() { "unknown".to_owned() } else { format!("`{text}`") };
         let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
         [
-            ("framewright", known(framewright)),
-            ("shipped_shaders", known(shipped_shaders)),
+            ("framewright", format!("`{framewright}`")),
+            ("shipped_shaders", format!("`{shipped_shaders}`")),
             ("pipeline_digest", format!("`{pipeline_digest}`")),
             ("pipeline", format!("`{pipeline}`")),
             ("device", format!("`{device}`")),

@@ -24,9 +24,11 @@ pub(super) struct Drawn {
     pub(super) picture: Light,
     /// One of half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
     pub(super) of_half: Light,
+    /// Steps from black to white in the tested output's picture; `None`: it holds light without an upper end.
+    pub(super) steps: Option<u16>,
 }
 
-/// Draws a reference.
+/// Draws a reference, and tells `progress` how many frames are drawn, and of how many.
 ///
 /// # Errors
 /// Those of drawing; Ctrl-C.
@@ -34,8 +36,8 @@ pub(super) fn draw(
     device: &Device,
     converging: &Converging,
     pipeline: &mut Loaded,
-    scene: &Scene,
-    size: Size,
+    (scene, size): (&Scene, Size),
+    progress: &dyn Fn(usize, usize),
 ) -> Result<Option<Drawn>, Error> {
     let planned = |pipeline: &Loaded, frames| {
         let mut memory = device.memory();
@@ -43,15 +45,18 @@ pub(super) fn draw(
     };
     let (extent, samples) = drawn(&planned(pipeline, 1)?.plan, size);
     let all = frames(extent, samples, size);
-    let mut mean = |frames| {
+    let with_those_before = |frames: u16| usize::from(converging.before(frames)) + usize::from(frames);
+    let in_all = with_those_before(all) + with_those_before(all / 2);
+    let mut mean = |frames, done_before: usize| {
         let planned = planned(pipeline, frames)?;
         // Shifts are those of the texels that are drawn: together they sample each pixel of the output evenly.
         let shifts = Jitter::halton(frames, extent);
         let number = (converging.before(frames), frames);
-        mean(device, &planned, pipeline, scene, (&shifts, number), converging.is_light)
+        let progress = |done: u16| progress(done_before + usize::from(done), in_all);
+        mean(device, &planned, pipeline, scene, (&shifts, number), (converging.steps.is_none(), &progress))
     };
-    let Some(picture) = mean(all)? else { return Ok(None) };
-    Ok(mean(all / 2)?.map(|of_half| Drawn { picture, of_half }))
+    let Some(picture) = mean(all, 0)? else { return Ok(None) };
+    Ok(mean(all / 2, with_those_before(all))?.map(|of_half| Drawn { picture, of_half, steps: converging.steps }))
 }
 
 /// The mean of what a display shows of some frames, after others that aren't looked at: each is cut to what the tested output can
@@ -62,7 +67,7 @@ fn mean(
     pipeline: &mut Loaded,
     scene: &Scene,
     (shifts, (before, frames)): (&Jitter, (u16, u16)),
-    is_light: bool,
+    (is_light, progress): (bool, &dyn Fn(u16)),
 ) -> Result<Option<Light>, Error> {
     let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
     let mut prepared =
@@ -74,6 +79,7 @@ fn mean(
             return Err(Error::Interrupted { frames: frame.into(), wanted: (before + frames).into() });
         }
         prepared.executor.frame(&mut prepared.source)?;
+        progress(frame + 1);
         if frame < before {
             continue;
         }

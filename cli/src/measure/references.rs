@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 /// The version of the form in which references are kept, and of the way in which they are drawn.
-const FORMAT_VERSION: u32 = 3;
+const FORMAT_VERSION: u32 = 4;
 
 /// References that stay in memory.
 const REMEMBERED: usize = 8;
@@ -26,6 +26,7 @@ const LARGEST: usize = 1 << 16;
 /// A picture that choices are held against.
 #[derive(Debug)]
 pub(super) struct Reference {
+    /// As the tested output shows it.
     pub(super) picture: Light,
     /// Its own errors beside one of half as many samples; `None`: it was given.
     pub(super) errors: Option<Errors>,
@@ -46,8 +47,8 @@ struct Beside {
     format_version: u32,
     /// A digest of the picture's file and of all that is said here.
     digest: String,
-    /// Whether light isn't limited to what a display shows.
-    is_light: bool,
+    /// Steps from black to white in the tested output's picture; `null`: it holds light without an upper end.
+    steps: Option<u16>,
     errors: Errors,
 }
 
@@ -81,13 +82,13 @@ impl References {
         let read = ReadFiles::default();
         let [picture, beside] = ["exr", "json"].map(|ending| self.folder.join(References::name(key, ending)));
         let beside = inputs::text(FileRole::RESULTS, &beside, LARGEST, &read).ok()?;
-        let Beside { format_version: _, digest, is_light, errors } = serde_json::from_str(&beside).ok()?;
+        let Beside { format_version: _, digest, steps, errors } = serde_json::from_str(&beside).ok()?;
         let file = inputs::measured_picture(&picture, &read).ok()?;
-        if digest != self::digest(&file, is_light, &errors).ok()? {
+        if digest != self::digest(&file, steps, &errors).ok()? {
             return None;
         }
-        let picture = Light { is_light, ..Light::decode(&file).ok()? };
-        Some(Reference { picture, errors: Some(errors) })
+        let picture = Light { is_light: steps.is_none(), ..Light::decode(&file).ok()? };
+        Some(Reference { picture: shown(picture, steps), errors: Some(errors) })
     }
 
     /// Keeps a reference that was drawn.
@@ -95,12 +96,12 @@ impl References {
     /// # Errors
     /// If it can't be written.
     pub(super) fn keep(&self, key: &str, drawn: Drawn) -> Result<Reference, Error> {
-        let Drawn { picture, of_half } = drawn;
-        let errors = Errors::between(&picture, &of_half, PIXELS_PER_DEGREE);
+        let Drawn { picture, of_half, steps } = drawn;
         let file = encoded(&picture, FileFormat::OpenExr)?;
-        let is_light = picture.is_light;
-        let digest = digest(&file, is_light, &errors)?;
-        let beside = Beside { format_version: FORMAT_VERSION, digest, is_light, errors };
+        let [picture, of_half] = [picture, of_half].map(|drawn| shown(drawn, steps));
+        let errors = Errors::between(&picture, &of_half, PIXELS_PER_DEGREE);
+        let digest = digest(&file, steps, &errors)?;
+        let beside = Beside { format_version: FORMAT_VERSION, digest, steps, errors };
         let text = serde_json::to_string_pretty(&beside)? + "\n";
         let files = [("exr", &*file), ("json", text.as_bytes())];
         for (ending, contents) in files {
@@ -111,9 +112,17 @@ impl References {
     }
 }
 
+/// A picture as an output of so many steps shows it.
+fn shown(picture: Light, steps: Option<u16>) -> Light {
+    match steps {
+        Some(steps) => picture.in_steps(steps),
+        None => picture,
+    }
+}
+
 /// A digest of a reference's file and of what is said beside it.
-fn digest(file: &[u8], is_light: bool, errors: &Errors) -> serde_json::Result<String> {
-    let said = serde_json::to_string(&(FORMAT_VERSION, is_light, errors))?;
+fn digest(file: &[u8], steps: Option<u16>, errors: &Errors) -> serde_json::Result<String> {
+    let said = serde_json::to_string(&(FORMAT_VERSION, steps, errors))?;
     Ok(Digest::of_bytes([file, said.as_bytes()]))
 }
 

@@ -22,11 +22,9 @@ pub(crate) struct Results {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Subject {
-    /// Framewright's version. Empty: an earlier one, which didn't say it.
-    #[serde(default)]
+    /// Framewright's version.
     pub(crate) framewright: String,
-    /// A digest of all shipped shaders. Empty as above.
-    #[serde(default)]
+    /// A digest of all shipped shaders.
     pub(crate) shipped_shaders: String,
     /// The pipeline's file, as it was named.
     pub(crate) pipeline: String,

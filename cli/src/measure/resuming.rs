@@ -99,6 +99,10 @@ impl Bench<'_> {
             let there = text::count(choices.len() - missing.len(), "choice is", "choices are");
             text::say(&format!("note: {there} measured already"));
         }
+        self.draw_references(&missing).map_err(|error| match interrupt::asked() {
+            true => Error::InterruptedMeasuring { measured: results.rows.len(), wanted: choices.len() },
+            false => error,
+        })?;
         let words = Words { doing: "measuring", done: "measured", things: "choices" };
         let steps = (WARM_UP + self.arguments.frames) as usize;
         let progress = Progress::new(missing.len(), steps, words, Duration::from_secs(60));

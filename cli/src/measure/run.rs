@@ -83,11 +83,14 @@ impl Bench<'_> {
         }
         let mut frames: Vec<Vec<FrameReport>> = vec![Vec::new(); all.len()];
         for round in 0..WARM_UP + self.arguments.frames {
-            for (ready, frames) in prepared.iter_mut().zip(&mut frames) {
+            for (at, (ready, frames)) in prepared.iter_mut().zip(&mut frames).enumerate() {
                 if interrupt::asked() {
                     return Err(Error::Interrupted { frames: round, wanted: WARM_UP + self.arguments.frames });
                 }
-                progress.step();
+                // The baseline isn't counted: it belongs to all.
+                if at > 0 {
+                    progress.step();
+                }
                 let Ok(drawn) = ready else { continue };
                 match kept(drawn.draw())? {
                     Ok(report) if round >= WARM_UP => frames.push(report),
@@ -136,7 +139,7 @@ impl Bench<'_> {
 }
 
 /// A choice's own problem stays with it; one of the whole command ends it.
-fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
+pub(super) fn kept<T>(result: Result<T, Error>) -> Result<Result<T, String>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
         Err(error) if interrupt::asked() || is_of_all(&error) => Err(error),

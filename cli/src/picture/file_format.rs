@@ -56,6 +56,17 @@ impl FileFormat {
     }
 }
 
+/// Steps from black to white in a picture of the format; `None` if it holds light without an upper end.
+#[must_use]
+pub(crate) fn steps(format: Format) -> Option<u16> {
+    match format {
+        _ if FileFormat::OpenExr.holds(format) => None,
+        Format::A2B10G10R10_UNORM_PACK32 => Some(1023),
+        Format::R16G16B16A16_UNORM => Some(u16::MAX),
+        _ => Some(255),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::texel;

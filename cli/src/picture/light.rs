@@ -60,6 +60,16 @@ impl Light {
             Err(DecodingError::Neither)
         }
     }
+
+    /// Rounded to so many steps from black to white in the curve of sRGB, as a file of integers holds it.
+    #[must_use]
+    pub(crate) fn in_steps(mut self, steps: u16) -> Light {
+        let steps = f64::from(steps);
+        #[allow(clippy::cast_possible_truncation, reason = "light is kept with as many bits as shaders have")]
+        let rounded = |light: f32| srgb::decode((srgb::encode(light.into()) * steps).round() / steps) as f32;
+        self.texels.iter_mut().flatten().for_each(|light| *light = rounded(*light));
+        self
+    }
 }
 
 /// A PNG holds values in the curve of sRGB.

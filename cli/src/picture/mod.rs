@@ -17,5 +17,5 @@ mod texel;
 pub(crate) mod values;
 
 pub(crate) use data::{EncodingError, Picture};
-pub(crate) use file_format::FileFormat;
+pub(crate) use file_format::{FileFormat, steps};
 pub(crate) use light::{DecodingError, Light};

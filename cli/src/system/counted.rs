@@ -37,6 +37,8 @@ struct Work {
     done: AtomicUsize,
     /// Steps that are done, of all things.
     steps_done: AtomicUsize,
+    /// Thousandths of the thing that is worked on, where things take turns as a whole.
+    thousandths: AtomicUsize,
 }
 
 impl Progress {
@@ -48,8 +50,7 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
-        let (done, steps_done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let work = Arc::new(Work { words, things, steps, begun: Instant::now(), done, steps_done });
+        let work = Arc::new(Work::begun(things, steps, words));
         let lines = bar.is_hidden().then(|| written(&work, every, text::say));
         Progress { bar, work, lines }
     }
@@ -59,8 +60,14 @@ impl Progress {
         self.work.steps_done.fetch_add(1, Ordering::Relaxed);
     }
 
+    /// So much of the thing that is worked on is done: `part` of `of`.
+    pub(crate) fn within(&self, part: usize, of: usize) {
+        self.work.thousandths.store(1000 * part / of.max(1), Ordering::Relaxed);
+    }
+
     /// One more thing is done.
     pub(crate) fn done_one(&self) {
+        self.work.thousandths.store(0, Ordering::Relaxed);
         self.work.done.fetch_add(1, Ordering::Relaxed);
         self.bar.inc(1);
     }
@@ -95,22 +102,29 @@ fn written(work: &Arc<Work>, every: Duration, say: impl Fn(&str) + Send + 'stati
 }
 
 impl Work {
+    fn begun(things: usize, steps: usize, words: Words) -> Work {
+        let [done, steps_done, thousandths] = [0; 3].map(AtomicUsize::new);
+        Work { words, things, steps, begun: Instant::now(), done, steps_done, thousandths }
+    }
+
     /// How far it is, how fast, and when it ends if it goes on like this.
     #[allow(clippy::cast_precision_loss, reason = "the figures are rounded")]
     fn line(&self, elapsed: Duration) -> String {
         let Work { words, things, steps, .. } = self;
         let done = self.done.load(Ordering::Relaxed);
         // A thing that is done is one more step.
-        let part = (self.steps_done.load(Ordering::Relaxed) + done) as f64 / (things * (steps + 1)) as f64;
+        let steps_done = self.steps_done.load(Ordering::Relaxed) + done;
+        let begun = self.thousandths.load(Ordering::Relaxed) as f64 / 1000.0;
+        let part = (steps_done as f64 + begun) / (things * (steps + 1)) as f64;
         let so_far = format!("note: {} {done} of {things} {}", words.done, words.things);
         if part == 0.0 {
             return so_far;
         }
         let left = duration(elapsed.as_secs_f64() * (1.0 - part) / part);
-        if *steps > 0 {
+        let rate = done as f64 / elapsed.as_secs_f64();
+        if *steps > 0 || rate < 0.1 {
             return format!("{so_far}, {:.0} % of all work, {left} left", 100.0 * part);
         }
-        let rate = done as f64 / elapsed.as_secs_f64();
         let rate = if rate < 10.0 { format!("{rate:.1}") } else { format!("{rate:.0}") };
         format!("{so_far}, {rate} a second, {left} left")
     }
@@ -134,7 +148,7 @@ mod tests {
     fn work(steps: usize, things: usize, [steps_done, done]: [usize; 2]) -> Work {
         let words = Words { doing: "checking", done: "checked", things: "variants" };
         let [done, steps_done] = [done, steps_done].map(AtomicUsize::new);
-        Work { words, things, steps, begun: Instant::now(), done, steps_done }
+        Work { done, steps_done, ..Work::begun(things, steps, words) }
     }
 
     #[test]
@@ -154,6 +168,16 @@ mod tests {
         let line = |done| work(9, 8, done).line(Duration::from_secs(60));
         assert_eq!(line([20, 0]), "note: checked 0 of 8 variants, 25 % of all work, 3 min 0 s left");
         assert_eq!(line([36, 4]), "note: checked 4 of 8 variants, 50 % of all work, 1 min 0 s left");
+    }
+
+    #[test]
+    fn a_part_of_a_thing_counts_until_the_thing_is_done() {
+        let progress = Progress::new(4, 0, work(0, 4, [0, 0]).words, Duration::from_secs(3600));
+        let line = || progress.work.line(Duration::from_secs(60));
+        progress.within(8, 16);
+        assert_eq!(line(), "note: checked 0 of 4 variants, 12 % of all work, 7 min 0 s left");
+        progress.done_one();
+        assert_eq!(line(), "note: checked 1 of 4 variants, 25 % of all work, 3 min 0 s left");
     }
 
     #[test]

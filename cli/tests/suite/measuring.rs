@@ -1,6 +1,7 @@
 //! `measure`: sweeps, their costs and errors beside a converged reference, and what is kept of them (NU-1).
 
 use crate::testing::{Outcome, Place, Vulkan};
+use framewright_passes::srgb;
 use serde_json::Value;
 
 /// The part of the command line that all sweeps share, for the lavapipe of this machine.
@@ -232,6 +233,39 @@ fn references_are_read_back_unless_they_are_damaged() {
         sweep("msaa=4");
         assert!(std::fs::read(&file).expect("read") == drawn, "it was not drawn again");
     }
+}
+
+/// A picture of 8 bits is held against its reference in 8 bits, and the reference is kept unrounded.
+#[test]
+fn pictures_are_held_against_references_in_the_steps_of_the_output() {
+    let place = Place::new();
+    let Some(out) = measure(&place, &["--sweep", "msaa=1", "--flicker", "2", "-o", "swept"]) else { return };
+    out.exits(0);
+    let results = results(&place, "swept");
+    let row = row(&results, &[("msaa", "1")]);
+    let reference = row["reference"].as_str().expect("a path");
+    let picture = format!("swept/{}", row["picture"].as_str().expect("a path"));
+    let errors = |reference: &str| {
+        let reference = format!("swept/{reference}");
+        let out = place.run(&["compare", &reference, &picture, "--format", "json"]).exits(0).out;
+        serde_json::from_str::<serde_json::Value>(&out).expect("JSON")["errors"].clone()
+    };
+    assert_eq!(row["errors"], errors(reference));
+    let unrounded = reference.replace(".png", ".exr");
+    assert!((number(&errors(&unrounded)["rmse"]) / number(&row["errors"]["rmse"]) - 1.0).abs() < 0.02);
+    let light = exr::prelude::read_first_rgba_layer_from_file(
+        place.path("swept").join(&unrounded),
+        |size, _| Vec::with_capacity(size.area()),
+        |texels: &mut Vec<f32>, _, (red, _, _, _): (f32, f32, f32, f32)| texels.push(red),
+    );
+    let texels = light.expect("read").layer_data.channel_data.pixels;
+    let between = |light: f32| {
+        let steps = 255.0 * srgb::encode(light.into());
+        (steps - steps.round()).abs() > 0.1
+    };
+    assert!(texels.iter().filter(|light| between(**light)).count() > texels.len() / 2);
+    // Nothing moves: what stands still in all frames doesn't flicker.
+    assert_eq!(number(&row["flicker"]["worst"]), 0.0);
 }
 
 #[test]
