@@ -29,7 +29,7 @@ quality() {
 }
 
 sweep edges image_quality --scene spheres_and_cubes --sweep "$scenes,one_unlit_cube.ron" --size 320x180 \
-    --sweep msaa=1,4 --sweep render_scale=1,2
+    --sweep msaa=1,4,8 --sweep render_scale=1,2
 quality scale --set msaa=1 --sweep render_scale=0.5,1,1.5,2,3,4 --sweep filter=bilinear,area,catmull_rom
 # What is averaged first, light or what is shown of it, is a choice here: all choices are held against both.
 for order in light_shown light_averaged; do

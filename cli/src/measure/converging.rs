@@ -33,7 +33,8 @@ pub(super) struct Converging {
 impl Converging {
     /// The frame as it is for a reference of a pipeline on a device.
     pub(super) fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
-        let steps = screen(&frame).and_then(|image| picture::steps(frame.images[image.0 as usize].format));
+        let encoding = frame.outputs.first().and_then(|output| output.encoding);
+        let steps = screen(&frame).and_then(|image| picture::steps(frame.images[image.0 as usize].format, encoding));
         frame.make_exact(device);
         let mut averages = Vec::new();
         let mut at = 0;
@@ -202,7 +203,12 @@ mod tests {
         for pipeline in PIPELINES {
             let (_, planned) = of(pipeline, "", &device);
             for image in planned.plan.images.iter().filter(|image| !image.format.is_integer()) {
-                let exact = if image.format.is_depth() { Format::D32_SFLOAT } else { Format::R32G32B32A32_SFLOAT };
+                let exact = match image.format.components() {
+                    _ if image.format.is_depth() => Format::D32_SFLOAT,
+                    1 => Format::R32_SFLOAT,
+                    2 => Format::R32G32_SFLOAT,
+                    _ => Format::R32G32B32A32_SFLOAT,
+                };
                 assert_eq!(image.format, exact, "{pipeline}: {}", image.name);
             }
         }

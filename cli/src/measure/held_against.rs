@@ -25,6 +25,8 @@ use std::time::Duration;
 /// The values of `--reference` that are no files.
 pub(super) const AUTO: &str = "auto";
 const NONE: &str = "none";
+/// How often a line says how far the work is, where there is no terminal.
+pub(super) const LINES_EVERY: Duration = Duration::from_secs(60);
 /// The key of a reference that is a file.
 pub(super) const GIVEN: &str = "given";
 
@@ -82,6 +84,8 @@ impl Bench<'_> {
         }
         let mut known = HashSet::new();
         let mut wanted = Vec::new();
+        let words = Words { doing: "planning", done: "planned", things: "choices" };
+        let progress = Progress::new(choices.len(), 0, words, LINES_EVERY);
         for choice in choices {
             for frame in 0..self.arguments.flicker.unwrap_or(1) {
                 if interrupt::asked() {
@@ -92,9 +96,11 @@ impl Bench<'_> {
                     wanted.push((choice, frame));
                 }
             }
+            progress.done_one();
         }
+        progress.finish();
         let words = Words { doing: "drawing", done: "drew", things: "references" };
-        let progress = Progress::new(wanted.len(), 0, words, Duration::from_secs(60));
+        let progress = Progress::new(wanted.len(), 0, words, LINES_EVERY);
         for (choice, frame) in wanted {
             // What goes wrong here goes wrong again where the choice is measured.
             let _of_choice = kept(self.drawn_reference(choice, frame, &|done, of| progress.within(done, of)))?;

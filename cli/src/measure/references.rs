@@ -59,8 +59,11 @@ impl References {
     }
 
     /// A reference that was asked for lately.
-    pub(super) fn lately(&self, key: &str) -> Option<Rc<Reference>> {
-        self.latest.iter().find(|(latest, _)| latest == key).map(|(_, reference)| Rc::clone(reference))
+    pub(super) fn lately(&mut self, key: &str) -> Option<Rc<Reference>> {
+        let at = self.latest.iter().position(|(latest, _)| latest == key)?;
+        let (key, reference) = self.latest.remove(at)?;
+        self.latest.push_front((key, Rc::clone(&reference)));
+        Some(reference)
     }
 
     /// Remembers a reference for those that ask for it soon.

@@ -1,6 +1,6 @@
 //! A sweep goes on where it stopped: what is measured already stays, and each batch is written as soon as it is done.
 
-use super::held_against::{AUTO, GIVEN, Given};
+use super::held_against::{AUTO, GIVEN, Given, LINES_EVERY};
 use super::references::{Reference, References};
 use super::results::{FORMAT_VERSION, Outcome, Results, Row, Subject};
 use super::run::{AT_ONCE, Bench, WARM_UP, settings};
@@ -105,7 +105,7 @@ impl Bench<'_> {
         })?;
         let words = Words { doing: "measuring", done: "measured", things: "choices" };
         let steps = (WARM_UP + self.arguments.frames) as usize;
-        let progress = Progress::new(missing.len(), steps, words, Duration::from_secs(60));
+        let progress = Progress::new(missing.len(), steps, words, LINES_EVERY);
         let folder = &self.arguments.output;
         let mut shown = Instant::now();
         for batch in missing.chunks(AT_ONCE) {

@@ -13,7 +13,7 @@ use crate::system::{Exit, interrupt};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Stereo;
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, Stage};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
@@ -67,8 +67,12 @@ impl Bench<'_> {
         let options = ExecutorOptions { timestamps: true, fragment_counts: true, ..ExecutorOptions::default() };
         let all: Vec<&Choice> = [baseline].into_iter().chain(batch).collect();
         let mut plans = Vec::with_capacity(all.len());
-        for choice in &all {
-            plans.push(kept(self.planned(choice, &choice.scene.scene, &[]))?);
+        for (at, choice) in all.iter().enumerate() {
+            let planned = kept(self.planned(choice, &choice.scene.scene, &[]))?;
+            plans.push(planned.and_then(|planned| match fewer_samples(&planned) {
+                Some(why) if at > 0 => Err(why),
+                _ => Ok(planned),
+            }));
         }
         let mut prepared = Vec::with_capacity(all.len());
         for (choice, planned) in all.iter().zip(&plans) {
@@ -136,6 +140,17 @@ impl Bench<'_> {
     fn stereo(&self, choice: &Choice) -> Stereo {
         Stereo::first_fit(&choice.stereo.0, &self.device.profile()).unwrap_or(choice.stereo.0[0])
     }
+}
+
+/// Why an image has fewer samples than was chosen, if the device lacks them: such a choice is another one's, and not measured.
+fn fewer_samples(planned: &Planned) -> Option<String> {
+    let Planned { frame, plan } = planned;
+    let notes = plan.notes.iter().filter(|note| note.stage == Stage::Fit);
+    notes.into_iter().find_map(|note| {
+        let wanted = frame.images.iter().find(|image| image.name == note.subject)?.samples;
+        let has = plan.images.iter().find(|image| image.name == note.subject)?.samples;
+        (1 < has && has < wanted).then(|| format!("`{}`: {}", note.subject, note.text))
+    })
 }
 
 /// A choice's own problem stays with it; one of the whole command ends it.

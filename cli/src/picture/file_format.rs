@@ -2,7 +2,7 @@
 
 use super::data::{EncodingError, Picture};
 use super::{exr, png};
-use framewright_graph::vulkan::{Format, Numeric};
+use framewright_graph::vulkan::{Encoding, Format, Numeric};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -56,13 +56,14 @@ impl FileFormat {
     }
 }
 
-/// Steps from black to white in a picture of the format; `None` if it holds light without an upper end.
+/// Steps from black to white in the picture file of an output; `None` if it holds light without an upper end. What isn't encoded is written
+/// with 8 bits, as a display shows it.
 #[must_use]
-pub(crate) fn steps(format: Format) -> Option<u16> {
+pub(crate) fn steps(format: Format, encoding: Option<Encoding>) -> Option<u16> {
     match format {
         _ if FileFormat::OpenExr.holds(format) => None,
-        Format::A2B10G10R10_UNORM_PACK32 => Some(1023),
-        Format::R16G16B16A16_UNORM => Some(u16::MAX),
+        Format::A2B10G10R10_UNORM_PACK32 if encoding.is_some() => Some(1023),
+        Format::R16G16B16A16_UNORM if encoding.is_some() => Some(u16::MAX),
         _ => Some(255),
     }
 }
@@ -71,7 +72,6 @@ pub(crate) fn steps(format: Format) -> Option<u16> {
 mod tests {
     use super::super::texel;
     use super::*;
-    use framewright_graph::vulkan::Encoding;
     use framewright_graph::vulkan::Format::*;
 
     fn png(
@@ -81,6 +81,20 @@ mod tests {
         bytes: &[u8],
     ) -> Result<Vec<u8>, EncodingError> {
         FileFormat::Png.encode(&Picture { format, encoding, extent, bytes })
+    }
+
+    #[test]
+    fn pictures_have_the_steps_of_their_files() {
+        for (format, encoding, bits) in [
+            (R8G8B8A8_SRGB, None, Some(8)),
+            (R8_UNORM, None, Some(8)),
+            (A2B10G10R10_UNORM_PACK32, Some(Encoding::Srgb), Some(10)),
+            (A2B10G10R10_UNORM_PACK32, None, Some(8)),
+            (R16G16B16A16_UNORM, Some(Encoding::Srgb), Some(16)),
+            (R16G16B16A16_SFLOAT, None, None),
+        ] {
+            assert_eq!(steps(format, encoding), bits.map(|bits| u16::MAX >> (16 - bits)), "{format:?}");
+        }
     }
 
     fn decoded(file: &[u8]) -> image::DynamicImage {

@@ -156,6 +156,19 @@ mod tests {
     }
 
     #[test]
+    fn light_is_rounded_to_the_nearest_step() {
+        let steps = |light: f64| srgb::decode(light / 255.0) as f32;
+        let texels = vec![[steps(10.4), steps(10.6), steps(254.6)], [0.0, 1.0, f32::NAN]];
+        let rounded = Light { extent: [2, 1], texels, is_light: false }.in_steps(255).texels;
+        assert_eq!(rounded[0], [steps(10.0), steps(11.0), steps(255.0)]);
+        assert!(rounded[1][..2] == [0.0, 1.0] && rounded[1][2].is_nan(), "{rounded:?}");
+        // A file holds what was rounded as it is.
+        let bytes: Vec<u8> = rounded[0].iter().chain(&[1.0]).flat_map(|light| light.to_ne_bytes()).collect();
+        let file = written(FileFormat::Png, Format::R32G32B32A32_SFLOAT, [1, 1], &bytes);
+        assert_eq!(Light::decode(&file).expect("a picture").texels[0], rounded[0]);
+    }
+
+    #[test]
     fn what_is_no_picture_is_refused() {
         let problem = |file: &[u8]| Light::decode(file).expect_err("no picture").to_string();
         assert_eq!(problem(b"hello"), "it is neither a PNG nor an OpenEXR file");

@@ -148,6 +148,27 @@ fn what_a_screen_cuts_off_is_cut_off_in_every_frame_of_a_reference() {
     assert_eq!(brightest, 1.0);
 }
 
+/// An image of one component has a reference of one: the other colours of light are no error.
+#[test]
+fn a_grey_picture_is_held_against_a_grey_reference() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    place.file(
+        "grey.ron",
+        r#"Pipeline(version: 1, settings: [(name: "msaa", value: OneOf(default: 1, of: [1]))],
+            presets: [(name: "reference", set: {"msaa": 1})],
+            images: [(name: "screen", format: R8_UNORM, size: Output)],
+            passes: [(name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))])],
+            outputs: ["screen"])"#,
+    );
+    let words = ["measure", "grey.ron", "--scene", "spheres_and_cubes", "--size", "48x27", "--frames", "1"];
+    place.run_with(&variables, &[&words[..], &["--sweep", "msaa=1", "-o", "grey"]].concat()).exits(0);
+    let results = std::fs::read_to_string(place.path("grey/results.json")).expect("results");
+    let results: serde_json::Value = serde_json::from_str(&results).expect("JSON");
+    let rmse = &results["rows"][0]["outcome"]["measured"]["errors"]["rmse"];
+    assert!(rmse.as_f64().is_some_and(|rmse| rmse < 0.01), "{rmse}");
+}
+
 /// A blur is as wide in the reference as in the picture, which has fewer texels: that of the unblurred reference, in 64 bits.
 #[test]
 fn a_blur_is_as_wide_in_a_reference_as_on_the_screen() {

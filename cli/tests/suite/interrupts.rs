@@ -181,11 +181,36 @@ fn ctrl_c_ends_a_sweep_and_keeps_what_is_measured() {
     interrupted(child).exits(130).mentions("those are kept, and the same command goes on with the others");
     assert!((8..24).contains(&rows("swept")), "{} rows", rows("swept"));
     // Within the first batch, whose choices were all drawn: those that were held against their references already are kept.
-    let sweep = ["--sweep", "white_point=1..100:8", "--frames", "1", "-o", "held"];
+    let sweep = ["--sweep", "white_point=1..100:8", "--frames", "1", "--flicker", "100", "-o", "held"];
     let child = start(&place, &variables, &[&words[..], &sweep].concat());
-    let maps = || std::fs::read_dir(place.path("held/heat_maps")).is_ok_and(|files| files.count() > 1);
+    let maps = || std::fs::read_dir(place.path("held/heat_maps")).is_ok_and(|files| files.count() > 2);
+    // Those of the first, and one of the second, whose flicker takes long.
     until(maps, "the second is held against its reference");
     let said = interrupted(child).exits(130).err;
     let kept = rows("held");
     assert!((1..8).contains(&kept) && said.contains(&format!("interrupted after {kept} of 8 choices")), "{said}");
+}
+
+#[test]
+fn ctrl_c_ends_the_drawing_of_references_and_keeps_those_that_are_drawn() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let words = ["measure", "image_quality", "--scene", "spheres_and_cubes", "--size", "96x54", "--frames", "1"];
+    let sweep = ["--sweep", "white_point=1..100:24", "-o", "swept"];
+    let drawn = || -> Vec<std::path::PathBuf> {
+        let files = std::fs::read_dir(place.path("swept/pictures")).into_iter().flatten();
+        let paths = files.map(|file| file.expect("a file").path());
+        paths.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect()
+    };
+    let child = start(&place, &variables, &[&words[..], &sweep].concat());
+    until(|| drawn().len() > 1, "two references are drawn");
+    interrupted(child).exits(130).mentions("interrupted after 0 of 24 choices");
+    let kept = drawn();
+    assert!(kept.len() < 24);
+    let made = |path: &std::path::PathBuf| std::fs::metadata(path).and_then(|data| data.modified()).expect("a time");
+    let before: Vec<_> = kept.iter().map(made).collect();
+    let child = start(&place, &variables, &[&words[..], &sweep].concat());
+    until(|| drawn().len() > kept.len(), "the same command goes on");
+    interrupted(child).exits(130);
+    assert_eq!(kept.iter().map(made).collect::<Vec<_>>(), before, "they were drawn again");
 }

@@ -412,6 +412,18 @@ fn bars_flicker_less_with_temporal_anti_aliasing() {
     place.run_with(&variables, &wrong).exits(2).mentions("flicker is measured against references of each frame");
 }
 
+/// A device that lacks what was chosen draws something else, which is no figure of the choice.
+#[test]
+fn samples_that_the_device_lacks_are_not_measured() {
+    let place = Place::new();
+    let Some(out) = measure(&place, &["--sweep", "msaa=4,8", "--reference", "none", "-o", "swept"]) else { return };
+    out.exits(0);
+    let results = results(&place, "swept");
+    assert!(number(&row(&results, &[("msaa", "4")])["cost"]["moved_bytes"]) > 0.0);
+    let why = results["rows"][1]["outcome"]["failed"].as_str().expect("an error");
+    assert!(why.starts_with("`color`: 4 samples instead of 8"), "{why}");
+}
+
 #[test]
 fn a_choice_that_can_not_be_drawn_is_a_row() {
     let place = Place::new();

@@ -196,7 +196,7 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
 }
 
 /// Presets that the page calls `choose`'s answer (`None`: the defaults): pipeline, preset, sweep, and the limits.
-const RECOMMENDED: [(&str, Option<&str>, &str, &str); 10] = [
+const RECOMMENDED: [(&str, Option<&str>, &str, &str); 9] = [
     ("image_quality", None, "edges", "--max-moved-mib 2.5"),
     ("image_quality", Some("low"), "edges", "--max-mib 1"),
     ("image_quality", Some("high"), "edges", "--max-mib 3"),
@@ -205,7 +205,6 @@ const RECOMMENDED: [(&str, Option<&str>, &str, &str); 10] = [
     ("shadows", Some("low"), "shadows", "--max-mib 8"),
     ("shadows", Some("medium"), "shadows", "--max-mib 12"),
     ("shadows", Some("high"), "shadows", "--max-mib 50"),
-    ("shadows", Some("ultra"), "shadows", "--max-rmse 0.0058"),
     ("shadows", None, "shadows", "--max-mib 50"),
 ];
 

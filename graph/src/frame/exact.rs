@@ -46,6 +46,9 @@ impl Frame {
             Format::D16_UNORM | Format::X8_D24_UNORM_PACK32 | Format::D32_SFLOAT => Format::D32_SFLOAT,
             format if format.is_depth() => Format::D32_SFLOAT_S8_UINT,
             format if format.is_integer() => return None,
+            // A component that isn't there is read as 0.
+            format if format.components() == 1 => Format::R32_SFLOAT,
+            format if format.components() == 2 => Format::R32G32_SFLOAT,
             _ => Format::R32G32B32A32_SFLOAT,
         };
         let support = device.format(format)?;
