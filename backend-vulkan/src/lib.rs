@@ -7,7 +7,7 @@
 //! the draws of objects and sky. What a shader needs is matched by name with what its pass and the draw source give it.
 //!
 //! - [`ShaderLibrary`] finds, compiles and reflects shaders. It needs no device.
-//! - [`Device`] is opened by choice, default or name; it lists what it can do ([`Device::profile`]) and what images take of
+//! - [`Device`] is opened by choice, default or name, or adopted from the program ([`Device::adopt`]); it lists what it can do ([`Device::profile`]) and what images take of
 //!   its memory ([`Device::memory`]), which is all that compiling a Plan needs. Everything made from a device keeps it open.
 //! - [`Executor`] verifies a Plan, refuses it if it was made for other memory needs, and draws its frames one after
 //!   another; several may be in flight.
@@ -54,8 +54,8 @@ pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions};
 pub use gpu::{
-    Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
-    SamplerDescriptor, Severity, layer, minimum_features, rotation_of_surface,
+    AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
+    SamplerDescriptor, Severity, layer, minimum_features, optional_features, rotation_of_surface,
 };
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};

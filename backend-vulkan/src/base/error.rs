@@ -55,6 +55,14 @@ pub enum Error {
         /// All that it lacks.
         missing: Vec<String>,
     },
+    /// A device that the program made itself was made without something that is needed.
+    #[error("{} was created without {}: add what it lacks where the device is created", escape(device), missing.join(", "))]
+    NotEnabled {
+        /// The device.
+        device: String,
+        /// All that it was created without.
+        missing: Vec<String>,
+    },
     /// Validation was asked for and there is no validation layer.
     #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}", looked(layer_path))]
     NoValidationLayer {
@@ -238,6 +246,7 @@ impl Error {
             | Error::BadResource { .. }
             | Error::DrawSource { .. } => Blame::Files,
             Error::BadPlan { .. }
+            | Error::NotEnabled { .. }
             | Error::Cancelled { .. }
             | Error::Violations { .. }
             | Error::OtherMemoryNeeds { .. }

@@ -17,6 +17,11 @@ pub fn minimum_features() -> impl Iterator<Item = &'static str> {
     MINIMUM_FEATURES.iter().map(|(name, _)| *name)
 }
 
+/// The features that are used where a device has them, by Vulkan's names, and what each is for.
+pub fn optional_features() -> impl Iterator<Item = (&'static str, &'static str)> {
+    OPTIONAL_FEATURES.iter().map(|(name, purpose, _)| (*name, *purpose))
+}
+
 /// Reaches one feature's flag.
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
 
@@ -47,6 +52,15 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     ("sampleRateShading", |it| &mut it.core.sample_rate_shading),
 ];
 
+/// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
+const OPTIONAL_FEATURES: [(&str, &str, Flag); 5] = [
+    ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
+    ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
+    ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
+    ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
+    ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
+];
+
 impl Features {
     /// The features of `physical`. `local_read`: whether its extension is there.
     pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice, local_read: bool) -> Features {
@@ -71,18 +85,93 @@ impl Features {
 
     /// The features that are switched on: the minimum, and beyond it cube arrays, what draws for two eyes at once, counts of
     /// what is drawn, and local reads where the device has them.
-    pub(crate) fn used(has: &Features, local_read: bool) -> Features {
+    pub(crate) fn used(has: &mut Features, local_read: bool) -> Features {
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
             *flag(&mut features) = vk::TRUE;
         }
+        for (_, _, flag) in OPTIONAL_FEATURES {
+            *flag(&mut features) = *flag(has);
+        }
         features.local_read.dynamic_rendering_local_read = local_read.into();
-        features.core.image_cube_array = has.core.image_cube_array;
-        features.core.shader_clip_distance = has.core.shader_clip_distance;
-        features.core.pipeline_statistics_query = has.core.pipeline_statistics_query;
-        features.v1_1.multiview = has.v1_1.multiview;
-        features.v1_2.shader_output_layer = has.v1_2.shader_output_layer;
         features
+    }
+
+    /// The features in a chain, as a device was created with it: those of Vulkan 1.0 to 1.3 in the structures of a version, or in those of
+    /// the extensions that they come from.
+    ///
+    /// # Safety
+    /// Each structure in the chain is valid, and of the type that it says.
+    pub(super) unsafe fn enabled(chain: &vk::PhysicalDeviceFeatures2<'_>) -> Features {
+        let mut on = Features { core: chain.features, ..Features::default() };
+        let mut next = chain.p_next.cast::<vk::BaseInStructure<'_>>().cast_const();
+        // SAFETY: the caller's word: it is null or a valid structure.
+        while let Some(structure) = unsafe { next.as_ref() } {
+            use vk::StructureType as Is;
+            macro_rules! read {
+                ($structure:ident) => {
+                    // SAFETY: the caller's word: the structure is of the type that it says.
+                    unsafe { &*next.cast::<vk::$structure<'_>>() }
+                };
+            }
+            match structure.s_type {
+                Is::PHYSICAL_DEVICE_VULKAN_1_1_FEATURES => {
+                    on.v1_1.multiview = read!(PhysicalDeviceVulkan11Features).multiview;
+                }
+                Is::PHYSICAL_DEVICE_MULTIVIEW_FEATURES => {
+                    on.v1_1.multiview = read!(PhysicalDeviceMultiviewFeatures).multiview;
+                }
+                Is::PHYSICAL_DEVICE_VULKAN_1_2_FEATURES => {
+                    let it = read!(PhysicalDeviceVulkan12Features);
+                    on.v1_2.timeline_semaphore = it.timeline_semaphore;
+                    on.v1_2.host_query_reset = it.host_query_reset;
+                    on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
+                    on.v1_2.shader_output_layer = it.shader_output_layer;
+                }
+                Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
+                    on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
+                }
+                Is::PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES => {
+                    on.v1_2.host_query_reset = read!(PhysicalDeviceHostQueryResetFeatures).host_query_reset;
+                }
+                Is::PHYSICAL_DEVICE_SEPARATE_DEPTH_STENCIL_LAYOUTS_FEATURES => {
+                    let it = read!(PhysicalDeviceSeparateDepthStencilLayoutsFeatures);
+                    on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
+                }
+                Is::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES => {
+                    let it = read!(PhysicalDeviceVulkan13Features);
+                    on.v1_3.dynamic_rendering = it.dynamic_rendering;
+                    on.v1_3.synchronization2 = it.synchronization2;
+                    on.v1_3.maintenance4 = it.maintenance4;
+                    on.v1_3.shader_demote_to_helper_invocation = it.shader_demote_to_helper_invocation;
+                    on.v1_3.shader_terminate_invocation = it.shader_terminate_invocation;
+                }
+                Is::PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES => {
+                    on.v1_3.dynamic_rendering = read!(PhysicalDeviceDynamicRenderingFeatures).dynamic_rendering;
+                }
+                Is::PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES => {
+                    on.v1_3.synchronization2 = read!(PhysicalDeviceSynchronization2Features).synchronization2;
+                }
+                Is::PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES => {
+                    on.v1_3.maintenance4 = read!(PhysicalDeviceMaintenance4Features).maintenance4;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_DEMOTE_TO_HELPER_INVOCATION_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderDemoteToHelperInvocationFeatures);
+                    on.v1_3.shader_demote_to_helper_invocation = it.shader_demote_to_helper_invocation;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_TERMINATE_INVOCATION_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderTerminateInvocationFeatures);
+                    on.v1_3.shader_terminate_invocation = it.shader_terminate_invocation;
+                }
+                Is::PHYSICAL_DEVICE_DYNAMIC_RENDERING_LOCAL_READ_FEATURES_KHR => {
+                    let it = read!(PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR);
+                    on.local_read.dynamic_rendering_local_read = it.dynamic_rendering_local_read;
+                }
+                _ => {}
+            }
+            next = structure.p_next;
+        }
+        on
     }
 
     /// Features of the minimum that the device lacks, by Vulkan's names.

@@ -37,9 +37,25 @@ pub(crate) struct Gpu {
     pub(crate) caches: Caches,
     allocator: ManuallyDrop<Mutex<Allocator>>,
     abandoned: OnceLock<PendingWork>,
+    /// Whether the program made the device itself, and destroys it.
+    is_adopted: bool,
     /// Cancels waits for the device.
     pub(crate) cancel: Cancel,
     pub(crate) instance: ManuallyDrop<Instance>,
+}
+
+/// A device that was made, and what it was made with.
+pub(super) struct Made {
+    pub(super) raw: ash::Device,
+    /// The features that are switched on and used.
+    pub(super) features: Features,
+    /// Whether images can be in the layout `PRESENT_SRC_KHR`.
+    pub(super) presents: bool,
+    pub(super) families: QueueFamilies,
+    /// At least one queue of each family.
+    pub(super) queues: Vec<(u32, vk::Queue)>,
+    /// Whether the program made the device itself, and destroys it.
+    pub(super) is_adopted: bool,
 }
 
 /// Work that the device didn't finish in time: these timeline semaphores have not reached these values.
@@ -54,10 +70,9 @@ impl Gpu {
     pub(super) fn open(instance: Instance, physical: vk::PhysicalDevice, summary: DeviceSummary) -> Result<Gpu, Error> {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = minimum::has_local_read(&instance.raw, physical);
-        let has = Features::of(&instance.raw, physical, false);
-        let features = Features::used(&has, has_local_read);
-        let mut chained = Features::used(&has, has_local_read);
-        let max_views = minimum::max_views(&instance.raw, physical, &features);
+        let mut has = Features::of(&instance.raw, physical, false);
+        let features = Features::used(&mut has, has_local_read);
+        let mut chained = Features::used(&mut has, has_local_read);
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
@@ -72,6 +87,21 @@ impl Gpu {
         // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
         let raw = unsafe { instance.raw.create_device(physical, &info, None) }
             .map_err(Error::vulkan("opening the device"))?;
+        // SAFETY: the device was created with one queue of each of these families.
+        let queue = |family: &u32| (*family, unsafe { raw.get_device_queue(*family, 0) });
+        let queues = families.indices.iter().map(queue).collect();
+        Gpu::of(instance, physical, summary, Made { raw, features, presents, families, queues, is_adopted: false })
+    }
+
+    /// A device that was made, of an instance that it keeps.
+    pub(super) fn of(
+        instance: Instance,
+        physical: vk::PhysicalDevice,
+        summary: DeviceSummary,
+        made: Made,
+    ) -> Result<Gpu, Error> {
+        let Made { raw, features, presents, families, queues, is_adopted } = made;
+        let max_views = minimum::max_views(&instance.raw, physical, &features);
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -85,8 +115,10 @@ impl Gpu {
         let allocator = match allocator {
             Ok(allocator) => allocator,
             Err(error) => {
-                // SAFETY: nothing was made from the device yet.
-                unsafe { raw.destroy_device(None) };
+                if !is_adopted {
+                    // SAFETY: nothing was made from the device yet.
+                    unsafe { raw.destroy_device(None) };
+                }
                 return Err(Error::OutOfMemory {
                     what: "the device".into(),
                     bytes: 0,
@@ -95,7 +127,8 @@ impl Gpu {
                 });
             }
         };
-        let local_read = has_local_read.then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
+        let local_read =
+            features.local_read().then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
         let labels = are_shown(&instance, physical).then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         Ok(Gpu {
             physical,
@@ -105,11 +138,12 @@ impl Gpu {
             features,
             max_views,
             presents,
-            queues: Queues::new(&raw, families),
+            queues: Queues::new(families, queues),
             summary,
             caches: Caches::default(),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             abandoned: OnceLock::new(),
+            is_adopted,
             cancel: Cancel::default(),
             raw,
             instance: ManuallyDrop::new(instance),
@@ -199,7 +233,9 @@ impl Drop for Gpu {
         unsafe {
             self.caches.destroy(&self.raw);
             ManuallyDrop::drop(&mut self.allocator);
-            self.raw.destroy_device(None);
+            if !self.is_adopted {
+                self.raw.destroy_device(None);
+            }
             ManuallyDrop::drop(&mut self.instance);
         }
     }

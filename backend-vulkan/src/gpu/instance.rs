@@ -18,8 +18,8 @@ pub(crate) struct Instance {
     /// The validation layer, if it is on.
     pub(crate) validation: Option<Validation>,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// Keeps the loader in memory.
-    _entry: ash::Entry,
+    /// Keeps the loader in memory; `None` of an instance that the program made itself, and destroys.
+    entry: Option<ash::Entry>,
 }
 
 /// The validation layer in use.
@@ -61,15 +61,21 @@ impl Instance {
                 raw = create(&entry, labels, surfaces, Some(validation), &known)?;
             }
         }
-        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, _entry: entry };
+        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, entry: None };
         if let Some(validation) = &instance.validation {
-            let functions = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
+            let functions = ext::debug_utils::Instance::new(&entry, &instance.raw);
             // SAFETY: the messages live as long as the instance, which destroys the messenger first.
             let messenger = unsafe { functions.create_debug_utils_messenger(&validation.messages.messenger(), None) }
                 .map_err(Error::vulkan("creating a debug messenger"))?;
             instance.messenger = Some((functions, messenger));
         }
+        instance.entry = Some(entry);
         Ok(instance)
+    }
+
+    /// An instance that the program made itself, with these extensions or without.
+    pub(super) fn adopted(raw: ash::Instance, labels: bool, surfaces: bool) -> Instance {
+        Instance { raw, labels, surfaces, validation: None, messenger: None, entry: None }
     }
 }
 
@@ -121,6 +127,9 @@ fn create(
 
 impl Drop for Instance {
     fn drop(&mut self) {
+        if self.entry.is_none() {
+            return;
+        }
         // SAFETY: everything made from this instance holds it; the messenger goes before the instance.
         unsafe {
             if let Some((functions, messenger)) = self.messenger.take() {

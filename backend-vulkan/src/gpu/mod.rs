@@ -1,5 +1,6 @@
 //! The device: instance, validation layer, features, queues, and the handle that everything made from it holds on to.
 
+mod adopted;
 mod cached;
 mod device;
 pub(crate) mod features;
@@ -14,9 +15,10 @@ mod surface;
 mod validation;
 mod words;
 
+pub use adopted::AdoptedDevice;
 pub use cached::SamplerDescriptor;
 pub use device::{Device, DeviceOptions};
-pub use features::minimum_features;
+pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;
 pub use summary::{DeviceChoice, DeviceSummary};
 pub use surface::rotation_of_surface;

@@ -30,12 +30,20 @@ pub(crate) struct QueueFamily {
 impl QueueFamilies {
     /// The families of `physical`; `None` if none does graphics and compute.
     pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Option<QueueFamilies> {
-        // SAFETY: `physical` belongs to `instance`.
-        let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
-        let families: Vec<QueueFamily> = (0..)
-            .zip(families)
-            .map(|(index, it)| QueueFamily { index, flags: it.queue_flags, timestamp_bits: it.timestamp_valid_bits })
-            .collect();
+        QueueFamilies::chosen(families(instance, physical))
+    }
+
+    /// Those among some of its families.
+    pub(super) fn among(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        given: &[u32],
+    ) -> Option<QueueFamilies> {
+        let families = families(instance, physical).into_iter();
+        QueueFamilies::chosen(families.filter(|family| given.contains(&family.index)).collect())
+    }
+
+    fn chosen(families: Vec<QueueFamily>) -> Option<QueueFamilies> {
         let find = |wanted: vk::QueueFlags, unwanted: vk::QueueFlags| {
             families.iter().find(|it| it.flags.contains(wanted) && !it.flags.intersects(unwanted)).copied()
         };
@@ -59,6 +67,16 @@ impl QueueFamilies {
     }
 }
 
+/// All families of `physical`.
+fn families(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<QueueFamily> {
+    // SAFETY: `physical` belongs to `instance`.
+    let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
+    (0..)
+        .zip(families)
+        .map(|(index, it)| QueueFamily { index, flags: it.queue_flags, timestamp_bits: it.timestamp_valid_bits })
+        .collect()
+}
+
 /// The opened queues: one of each family.
 pub(crate) struct Queues {
     pub(crate) families: QueueFamilies,
@@ -66,12 +84,9 @@ pub(crate) struct Queues {
 }
 
 impl Queues {
-    /// The queues of a device that was created with one of each family.
-    pub(crate) fn new(device: &ash::Device, families: QueueFamilies) -> Queues {
-        // SAFETY: the device was created with one queue of each of these families.
-        let queue = |family: &u32| (*family, unsafe { device.get_device_queue(*family, 0) });
-        let by_family = Mutex::new(families.indices.iter().map(queue).collect());
-        Queues { families, by_family }
+    /// Queues of these families, at least one of each.
+    pub(crate) fn new(families: QueueFamilies, by_family: Vec<(u32, vk::Queue)>) -> Queues {
+        Queues { families, by_family: Mutex::new(by_family) }
     }
 
     /// All queues, for one thread at a time.

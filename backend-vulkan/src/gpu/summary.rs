@@ -56,7 +56,8 @@ pub(super) fn devices(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, De
     Ok((0..).zip(found).map(|(index, physical)| (physical, summary(instance, index, physical))).collect())
 }
 
-fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> DeviceSummary {
+/// The summary of a device, whose number is `index`.
+pub(super) fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> DeviceSummary {
     // SAFETY: `physical` belongs to the instance.
     let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
     let mut driver = vk::PhysicalDeviceDriverProperties::default();

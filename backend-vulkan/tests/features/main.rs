@@ -5,6 +5,7 @@ mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
 
+mod adopted;
 mod allocations;
 mod blending;
 mod compute;

@@ -5,6 +5,7 @@ mod agreement;
 mod both_eyes;
 mod both_eyes_drawn;
 mod device;
+mod examples;
 mod executor;
 mod lifetimes;
 mod poison;

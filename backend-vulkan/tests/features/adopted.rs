@@ -1,0 +1,163 @@
+//! Devices that the program made itself: adopted, drawn with, and left to the program (EM-2).
+
+use crate::frames::{Small, Uses, draw, frame, library, on_each_driver, planned, texels};
+use framewright_graph::compile::Options;
+use framewright_graph::frame::{Draw, Frame};
+use framewright_graph::vulkan::{Format, Subresources};
+use framewright_vulkan::ash::{self, vk};
+use framewright_vulkan::{AdoptedDevice, Device, Error, Executor, ExecutorOptions};
+
+/// The features that the program switches on: by the structures of Vulkan's versions.
+#[derive(Default)]
+struct ByVersion {
+    core: vk::PhysicalDeviceFeatures,
+    v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
+    v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
+}
+
+fn core() -> vk::PhysicalDeviceFeatures {
+    vk::PhysicalDeviceFeatures::default()
+        .robust_buffer_access(true)
+        .independent_blend(true)
+        .fragment_stores_and_atomics(true)
+        .sample_rate_shading(true)
+}
+
+impl ByVersion {
+    fn all() -> ByVersion {
+        ByVersion {
+            core: core(),
+            v1_2: vk::PhysicalDeviceVulkan12Features::default()
+                .timeline_semaphore(true)
+                .host_query_reset(true)
+                .separate_depth_stencil_layouts(true),
+            v1_3: vk::PhysicalDeviceVulkan13Features::default()
+                .dynamic_rendering(true)
+                .synchronization2(true)
+                .maintenance4(true)
+                .shader_demote_to_helper_invocation(true)
+                .shader_terminate_invocation(true),
+        }
+    }
+
+    fn chain(&mut self) -> vk::PhysicalDeviceFeatures2<'_> {
+        vk::PhysicalDeviceFeatures2::default().features(self.core).push_next(&mut self.v1_2).push_next(&mut self.v1_3)
+    }
+}
+
+/// A device of the same instance, made as a program would: with one queue of the first family, which draws and computes.
+fn made(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) -> ash::Device {
+    let (instance, physical) = like.raw_physical();
+    let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(0).queue_priorities(&[1.0])];
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(features);
+    // SAFETY: the physical device belongs to the instance, and has these features, which are chained.
+    unsafe { instance.create_device(physical, &info, None) }.expect("a device")
+}
+
+/// Adopts a device of the instance of `like`.
+fn adopted(
+    like: &Device,
+    raw: &ash::Device,
+    features: &vk::PhysicalDeviceFeatures2<'_>,
+    families: &[u32],
+) -> Result<Device, Error> {
+    let (instance, physical) = like.raw_physical();
+    // SAFETY: the device was made with a queue of this family.
+    let queue = |family: &u32| (*family, unsafe { raw.get_device_queue(*family, 0) });
+    let queues: Vec<(u32, vk::Queue)> = families.iter().map(queue).collect();
+    let program = AdoptedDevice {
+        instance,
+        instance_extensions: &[ash::ext::debug_utils::NAME],
+        physical,
+        device: raw,
+        device_extensions: &[],
+        features,
+        queues: &queues,
+    };
+    // SAFETY: all of it belongs together, and lives until the test is over.
+    unsafe { Device::adopt(&program, None) }
+}
+
+/// Draws a number into each texel.
+fn numbers() -> Frame {
+    let mut small = Small::default();
+    let numbers = small.image("numbers", Format::R32_UINT, [2, 2]);
+    small.pass(draw("number", Draw::FullScreen).draws(numbers, Subresources::WHOLE, None));
+    small.image_output(numbers);
+    small.frame
+}
+
+/// Draws with a device that the program made, which then destroys it: the layer would say if anything were left.
+fn draws_with(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) {
+    let raw = made(like, features);
+    let device = adopted(like, &raw, features, &[0]).expect("it has all that is needed");
+    let plan = planned(&device, &numbers(), &Options::default());
+    let mut executor =
+        Executor::new(&device, &plan, &mut library(&[]), &ExecutorOptions::default()).expect("an executor");
+    for _ in 0..3 {
+        frame(&mut executor);
+    }
+    assert_eq!(texels(&mut executor, "numbers", 0), [0, 1, 10, 11]);
+    drop((device, executor));
+    // SAFETY: the device is the program's again, and nothing made from it is left.
+    unsafe {
+        raw.device_wait_idle().expect("it lives");
+        raw.destroy_device(None);
+    }
+}
+
+#[test]
+fn a_device_of_the_program_draws_and_stays_the_programs() {
+    on_each_driver(|like| {
+        let mut features = ByVersion::all();
+        draws_with(like, &mut features.chain());
+        // The same by the structures of the extensions that the features come from.
+        let mut timeline = vk::PhysicalDeviceTimelineSemaphoreFeatures::default().timeline_semaphore(true);
+        let mut queries = vk::PhysicalDeviceHostQueryResetFeatures::default().host_query_reset(true);
+        let mut layouts = vk::PhysicalDeviceSeparateDepthStencilLayoutsFeatures::default();
+        layouts = layouts.separate_depth_stencil_layouts(true);
+        let mut rendering = vk::PhysicalDeviceDynamicRenderingFeatures::default().dynamic_rendering(true);
+        let mut barriers = vk::PhysicalDeviceSynchronization2Features::default().synchronization2(true);
+        let mut needs = vk::PhysicalDeviceMaintenance4Features::default().maintenance4(true);
+        let mut demote = vk::PhysicalDeviceShaderDemoteToHelperInvocationFeatures::default();
+        demote = demote.shader_demote_to_helper_invocation(true);
+        let mut terminate = vk::PhysicalDeviceShaderTerminateInvocationFeatures::default();
+        terminate = terminate.shader_terminate_invocation(true);
+        let features = vk::PhysicalDeviceFeatures2::default().features(core());
+        let features = features.push_next(&mut timeline).push_next(&mut queries).push_next(&mut layouts);
+        let features = features.push_next(&mut rendering).push_next(&mut barriers).push_next(&mut needs);
+        draws_with(like, &mut features.push_next(&mut demote).push_next(&mut terminate));
+    });
+}
+
+#[test]
+fn what_a_device_was_created_without_is_named() {
+    on_each_driver(|like| {
+        let mut all = ByVersion::all();
+        let raw = made(like, &mut all.chain());
+        let missing = |change: fn(&mut ByVersion), families: &[u32]| {
+            let mut features = ByVersion::all();
+            change(&mut features);
+            match adopted(like, &raw, &features.chain(), families) {
+                Err(Error::NotEnabled { missing, .. }) => missing,
+                Err(error) => panic!("{error}"),
+                Ok(_) => panic!("it was adopted"),
+            }
+        };
+        let without = |it: &mut ByVersion| it.v1_3.dynamic_rendering = vk::FALSE;
+        assert_eq!(missing(without, &[0]), ["the feature dynamicRendering"]);
+        let without = |it: &mut ByVersion| {
+            it.v1_2.timeline_semaphore = vk::FALSE;
+            it.core.robust_buffer_access = vk::FALSE;
+        };
+        assert_eq!(missing(without, &[0]), ["the feature timelineSemaphore", "the feature robustBufferAccess"]);
+        assert_eq!(missing(|_| (), &[]), ["a queue for graphics and compute"]);
+        let error = Error::NotEnabled { device: "GPU".to_owned(), missing: missing(|_| (), &[]) };
+        assert_eq!(
+            error.to_string(),
+            "GPU was created without a queue for graphics and compute: add what it lacks where the device is created"
+        );
+        // SAFETY: nothing was made from it.
+        unsafe { raw.destroy_device(None) };
+    });
+}

@@ -1,0 +1,26 @@
+//! The examples of this crate draw what they say (EM-2, EM-12).
+
+use crate::testing;
+use std::process::Command;
+
+/// The picture is that of a device which Framewright opened itself: `cli` holds the shipped pipelines to their pictures.
+#[test]
+fn the_example_with_a_device_of_its_own_draws_the_scene() {
+    if testing::open().is_none() {
+        return;
+    }
+    let tests = std::env::current_exe().expect("a path");
+    let built = tests.parent().and_then(|deps| deps.parent()).expect("a folder").join("examples/embed_own_device");
+    assert!(built.exists(), "{} isn't built: cargo build --examples -p framewright-vulkan", built.display());
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = Command::new(built).current_dir(folder.path()).output().expect("it runs");
+    let said = String::from_utf8_lossy(&out.stdout);
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(said.contains("with the program's own device; out/own_device.png"), "{said}");
+    let picture = image::open(folder.path().join("out/own_device.png")).expect("a picture").into_rgb8();
+    assert_eq!(picture.dimensions(), (320, 180));
+    let mut shades: Vec<_> = picture.pixels().map(|pixel| pixel.0).collect();
+    shades.sort_unstable();
+    shades.dedup();
+    assert!(shades.len() > 2000, "{} colours: a sky, spheres and cubes have more", shades.len());
+}

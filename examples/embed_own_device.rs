@@ -1,0 +1,109 @@
+//! Framewright on a device that the program made itself: an engine keeps its own instance, device and queues.
+//!
+//! `cargo run --package framewright-vulkan --example embed_own_device` writes `out/own_device.png`.
+
+use framewright_graph::base::{self, Root, Sources};
+use framewright_graph::vulkan::Rotation;
+use framewright_graph::{compile, expand, frame, language};
+use framewright_passes::draw::{self, SceneDrawSource};
+use framewright_passes::{scene, shipped};
+use framewright_vulkan::ash::{self, vk};
+use framewright_vulkan::{AdoptedDevice, Device, Executor, ExecutorOptions, MINIMUM_VERSION, ShaderLibrary};
+use std::error::Error;
+use std::path::Path;
+use std::sync::Arc;
+
+const EXTENT: [u32; 2] = [320, 180];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // The engine's own Vulkan: an instance, a device with the features that `minimum_features` lists, and a queue.
+    // SAFETY: the system's loader is trusted.
+    let entry = unsafe { ash::Entry::load()? };
+    let application = vk::ApplicationInfo::default().api_version(MINIMUM_VERSION);
+    // SAFETY: what the structure points to outlives the call.
+    let instance =
+        unsafe { entry.create_instance(&vk::InstanceCreateInfo::default().application_info(&application), None)? };
+    // SAFETY: the instance lives.
+    let physical = unsafe { instance.enumerate_physical_devices()? }.into_iter().next().ok_or("no device")?;
+    // SAFETY: the physical device belongs to the instance.
+    let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
+    let draws = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    let family = (0..).zip(&families).find(|(_, family)| family.queue_flags.contains(draws)).ok_or("no queue")?.0;
+    let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default()
+        .timeline_semaphore(true)
+        .host_query_reset(true)
+        .separate_depth_stencil_layouts(true);
+    let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default()
+        .dynamic_rendering(true)
+        .synchronization2(true)
+        .maintenance4(true)
+        .shader_demote_to_helper_invocation(true)
+        .shader_terminate_invocation(true);
+    let core = vk::PhysicalDeviceFeatures::default()
+        .robust_buffer_access(true)
+        .independent_blend(true)
+        .fragment_stores_and_atomics(true)
+        .sample_rate_shading(true);
+    let mut features = vk::PhysicalDeviceFeatures2::default().features(core).push_next(&mut v1_2).push_next(&mut v1_3);
+    let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&[1.0])];
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
+    // SAFETY: the physical device has the family; a feature that it lacks is an error.
+    let raw = unsafe { instance.create_device(physical, &info, None)? };
+    // SAFETY: the device was created with a queue of this family.
+    let queue = unsafe { raw.get_device_queue(family, 0) };
+
+    let program = AdoptedDevice {
+        instance: &instance,
+        instance_extensions: &[],
+        physical,
+        device: &raw,
+        device_extensions: &[],
+        features: &features,
+        queues: &[(family, queue)],
+    };
+    // SAFETY: all of it belongs together, and is destroyed below, after everything that was made from the adopted device.
+    let device = unsafe { Device::adopt(&program, None)? };
+    draw(&device)?;
+    drop(device);
+    // SAFETY: nothing made from the device or the instance is left.
+    unsafe {
+        raw.destroy_device(None);
+        instance.destroy_instance(None);
+    }
+    Ok(())
+}
+
+/// Draws a scene with a shipped pipeline, as `embed.rs` does.
+fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let scene = scene::load(&examples.join("scenes/spheres_and_cubes.ron"))?;
+    let file = examples.join("pipelines/forward.ron");
+    let mut sources = Sources::default();
+    let text = std::fs::read_to_string(&file)?;
+    let pipeline = language::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
+    let sources = Arc::new(sources);
+    let mut shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
+    let profile = device.profile();
+    let inputs = expand::Inputs {
+        set: &[("msaa".to_owned(), "4".to_owned())],
+        facts: scene.facts(),
+        facts_known: true,
+        output_extent: EXTENT,
+        rotation: Rotation::Identity,
+        dump: &[],
+        device: Some(&profile),
+        stereo: frame::Stereo::Off,
+    };
+    let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
+    let plan = compile::compile(&frame, &profile, &mut device.memory(), &compile::Options::default())
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
+    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    executor.frame(&mut SceneDrawSource::new(device, &scene, EXTENT)?)?;
+    let texels = executor.read(0)?;
+    std::fs::create_dir_all("out")?;
+    image::save_buffer("out/own_device.png", &texels.bytes, EXTENT[0], EXTENT[1], image::ExtendedColorType::Rgba8)?;
+    println!("drawn by {} with the program's own device; out/own_device.png", device.summary().name);
+    Ok(())
+}
