@@ -17,7 +17,10 @@ pub(crate) struct CompareArguments {
     /// Metric to print; without this all are. Repeatable.
     #[arg(long, value_name = "METRIC", value_enum)]
     pub(crate) metric: Vec<Metric>,
-    #[command(flatten, next_help_heading = "Limits; beyond one, or if a pixel isn't finite, the command ends with 1")]
+    #[command(
+        flatten,
+        next_help_heading = "Limits; beyond one, or with one if a pixel isn't finite, the command ends with 1"
+    )]
     pub(crate) limits: ErrorLimits,
     /// File for a picture of FLIP: black where no difference is seen, bright where much is.
     #[arg(long, value_name = "FILE.png", value_parser = png)]

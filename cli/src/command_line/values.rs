@@ -214,12 +214,18 @@ fn range(low: &str, high: &str, steps: &str) -> Result<Vec<String>, String> {
         let value = low + (high - low) * f64::from(at) / f64::from(last);
         match value.is_finite() {
             _ if at == last => high,
-            true => value,
+            true => shortest(value, (high - low) / f64::from(last)),
             // The distance is beyond all numbers, and neither part of this sum is.
             false => low * (1.0 - share) + high * share,
         }
     };
     Ok((0..steps).map(|at| value(at).to_string()).collect())
+}
+
+/// A value without the noise of its last digits, where that is nothing beside the distance of two values.
+fn shortest(value: f64, distance: f64) -> f64 {
+    let short = format!("{value:.11e}").parse().unwrap_or(value);
+    if (short - value).abs() < 1e-6 * distance { short } else { value }
 }
 
 /// Reads the name of a PNG file.
@@ -286,6 +292,7 @@ mod tests {
         let values = |text: &str| sweep(text).map(|sweep| sweep.values);
         assert_eq!(values("msaa=1,4"), Ok(vec!["1".to_owned(), "4".to_owned()]));
         assert_eq!(values("s=0.5..2:4").expect("a range"), ["0.5", "1", "1.5", "2"]);
+        assert_eq!(values("s=0.3..0.9:3").expect("a range"), ["0.3", "0.6", "0.9"]);
         for wrong in ["msaa", "=1", "msaa=", "msaa=1,,2", "s=1..2", "s=1..2:1", "s=2..1:3", "s=a..b:3", "s=0..1:1001"] {
             assert!(sweep(wrong).is_err(), "{wrong}");
         }

@@ -83,12 +83,14 @@ pub(super) fn difference(a: &Subject, b: &Subject) -> Option<(&'static str, [Str
     let fields = |subject: &Subject| {
         let Subject { framewright, shipped_shaders, pipeline, pipeline_digest, device, driver, .. } = subject;
         let Subject { frames, flicker_frames, reference, baseline, .. } = subject;
-        let baseline: Vec<String> = baseline.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        let other = |name: &String, value: &String| [a, b].iter().any(|it| it.baseline.get(name) != Some(value));
+        let baseline = baseline.iter().filter(|(name, value)| other(name, value));
+        let baseline: Vec<String> = baseline.map(|(name, value)| format!("{name}={value}")).collect();
         [
             ("framewright", format!("`{framewright}`")),
             ("shipped_shaders", format!("`{shipped_shaders}`")),
-            ("pipeline_digest", format!("`{pipeline_digest}`")),
             ("pipeline", format!("`{pipeline}`")),
+            ("pipeline_digest", format!("`{pipeline_digest}`")),
             ("device", format!("`{device}`")),
             ("driver", format!("`{driver}`")),
             ("frames", frames.to_string()),

@@ -50,6 +50,10 @@ impl Bench<'_> {
         }
         self.tell_of_light(&reference.picture, &shown);
         let errors = Errors::between(&reference.picture, &shown, PIXELS_PER_DEGREE);
+        if errors.of_nothing {
+            let reference = PathBuf::from(measured.reference.unwrap_or_default());
+            return Err(Error::NothingFinite { reference, picture: PathBuf::from(name("pictures", ending)) });
+        }
         let size = shown.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
         let heat_map = |image: &str, values: &[f64]| {
             let map = metric::heat_map(values, size);

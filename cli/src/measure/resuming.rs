@@ -71,7 +71,8 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     store::write_views(&arguments.output, &results)?;
     ended?;
     text::print(&table(&results)).map_err(Error::Print)?;
-    Ok(Exit::Fine)
+    let any = results.rows.is_empty() || results.rows.iter().any(|row| matches!(row.outcome, Outcome::Measured(_)));
+    Ok(if any { Exit::Fine } else { Exit::Found })
 }
 
 /// What a choice and its row are found by.

@@ -145,11 +145,11 @@ impl Bench<'_> {
 /// Why an image has fewer samples than was chosen, if the device lacks them: such a choice is another one's, and not measured.
 fn fewer_samples(planned: &Planned) -> Option<String> {
     let Planned { frame, plan } = planned;
-    let notes = plan.notes.iter().filter(|note| note.stage == Stage::Fit);
-    notes.into_iter().find_map(|note| {
+    let mut notes = plan.notes.iter().filter(|note| note.stage == Stage::Fit && note.text.contains("sample"));
+    notes.find_map(|note| {
         let wanted = frame.images.iter().find(|image| image.name == note.subject)?.samples;
         let has = plan.images.iter().find(|image| image.name == note.subject)?.samples;
-        (1 < has && has < wanted).then(|| format!("`{}`: {}", note.subject, note.text))
+        (has < wanted).then(|| format!("`{}`: {}", note.subject, note.text))
     })
 }
 

@@ -188,6 +188,13 @@ fn what_is_measured_is_what_run_draws() {
     };
     let said = beside("light.exr", "light");
     assert!(said.contains("note: FLIP is HDR-FLIP here: light.exr holds light without an upper end"), "{said}");
+    // A reference without any finite pixel says nothing of a picture.
+    let light = exr::prelude::SpecificChannels::rgb(|_| (f32::NAN, f32::INFINITY, f32::NAN));
+    let light = exr::prelude::Image::from_channels((96, 54), light);
+    exr::prelude::WritableImage::write(&light).to_file(place.path("nothing.exr")).expect("written");
+    let beside_nothing = ["--sweep", "msaa=1", "--reference", "nothing.exr", "-o", "nothing"];
+    let out = measure(&place, &beside_nothing).expect("lavapipe").exits(1).out;
+    assert!(out.contains("failed: no pixel is finite in both"), "{out}");
     assert!(!beside("run.png", "shown").contains("HDR-FLIP"));
 }
 
@@ -222,9 +229,9 @@ fn references_are_read_back_unless_they_are_damaged() {
         std::fs::metadata(&file).and_then(|data| data.modified()).expect("a time")
     });
     let first = made();
-    sweep("msaa=1,2");
+    sweep("msaa=1,4");
     assert_eq!(made(), first, "it was drawn again");
-    assert_eq!(row(&results(&place, "swept"), &[("msaa", "2")])["reference_errors"], own);
+    assert_eq!(row(&results(&place, "swept"), &[("msaa", "4")])["reference_errors"], own);
     let mut damaged = drawn.clone();
     *damaged.last_mut().expect("bytes") ^= 1;
     for wrong in [&damaged, &drawn[..drawn.len() / 2]] {
@@ -416,12 +423,17 @@ fn bars_flicker_less_with_temporal_anti_aliasing() {
 #[test]
 fn samples_that_the_device_lacks_are_not_measured() {
     let place = Place::new();
-    let Some(out) = measure(&place, &["--sweep", "msaa=4,8", "--reference", "none", "-o", "swept"]) else { return };
+    let Some(out) = measure(&place, &["--sweep", "msaa=2,4,8", "--reference", "none", "-o", "swept"]) else { return };
     out.exits(0);
     let results = results(&place, "swept");
     assert!(number(&row(&results, &[("msaa", "4")])["cost"]["moved_bytes"]) > 0.0);
-    let why = results["rows"][1]["outcome"]["failed"].as_str().expect("an error");
-    assert!(why.starts_with("`color`: 4 samples instead of 8"), "{why}");
+    for (at, expected) in [(0, "`color`: 1 sample instead of 2"), (2, "`color`: 4 samples instead of 8")] {
+        let why = results["rows"][at]["outcome"]["failed"].as_str().expect("an error");
+        assert!(why.starts_with(expected), "{why}");
+    }
+    // Nothing that was asked for could be measured.
+    let none = ["--sweep", "msaa=8", "--reference", "none", "-o", "none"];
+    measure(&place, &none).expect("lavapipe").exits(1);
 }
 
 #[test]

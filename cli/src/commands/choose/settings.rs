@@ -36,7 +36,7 @@ pub(super) fn file(results: &Results, settings: &BTreeMap<String, String>, read:
     if let Err(mistakes) = document.read_settings(&mut sources, "settings.ron", "settings.ron", contents.clone()) {
         let first = mistakes.first().map_or_else(String::new, |mistake| mistake.message.clone());
         text::say(&format!(
-            "note: `{}` as it is here refuses these settings: {}; if they need an extension, `--extend` applies it",
+            "note: `{}` as it is here refuses these settings: {}; if they need an extension, `run --extend` applies it",
             text::escape(pipeline),
             text::escape(&first)
         ));
