@@ -61,15 +61,14 @@ impl Instance {
                 raw = create(&entry, labels, surfaces, Some(validation), &known)?;
             }
         }
-        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, entry: None };
-        if let Some(validation) = &instance.validation {
-            let functions = ext::debug_utils::Instance::new(&entry, &instance.raw);
+        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, entry: Some(entry) };
+        if let (Some(validation), Some(entry)) = (&instance.validation, &instance.entry) {
+            let functions = ext::debug_utils::Instance::new(entry, &instance.raw);
             // SAFETY: the messages live as long as the instance, which destroys the messenger first.
             let messenger = unsafe { functions.create_debug_utils_messenger(&validation.messages.messenger(), None) }
                 .map_err(Error::vulkan("creating a debug messenger"))?;
             instance.messenger = Some((functions, messenger));
         }
-        instance.entry = Some(entry);
         Ok(instance)
     }
 

@@ -3,7 +3,8 @@
 use crate::testing;
 use std::process::Command;
 
-/// The picture is that of a device which Framewright opened itself: `cli` holds the shipped pipelines to their pictures.
+/// The picture has as many colours as the scene, and not those of a clear alone. The command's tests compare pictures of shipped
+/// pipelines.
 #[test]
 fn the_example_with_a_device_of_its_own_draws_the_scene() {
     if testing::open().is_none() {

@@ -58,7 +58,7 @@ impl Converging {
         if self.averages.is_empty() { 0 } else { frames }
     }
 
-    /// Its Plan where light is averaged over so many frames.
+    /// The frame with light averaged over `frames` frames, and its Plan.
     ///
     /// # Errors
     /// Those of the compiler.

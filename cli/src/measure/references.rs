@@ -115,7 +115,7 @@ impl References {
     }
 }
 
-/// A picture as an output of so many steps shows it.
+/// A picture in the steps of the tested output; `None`: as it is.
 fn shown(picture: Light, steps: Option<u16>) -> Light {
     match steps {
         Some(steps) => picture.in_steps(steps),

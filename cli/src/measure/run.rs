@@ -12,8 +12,8 @@ use crate::system::counted::Progress;
 use crate::system::{Exit, interrupt};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
-use framewright_graph::frame::Stereo;
-use framewright_graph::plan::{Plan, Stage};
+use framewright_graph::frame::{Draw, Pass, Stereo, Work};
+use framewright_graph::plan::{Note, Plan, Stage};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
@@ -142,14 +142,18 @@ impl Bench<'_> {
     }
 }
 
-/// Why an image has fewer samples than was chosen, if the device lacks them: such a choice is another one's, and not measured.
+/// Why an image that objects are drawn into has fewer samples than were chosen: the device lacks them. What would be drawn is another
+/// choice, so this one isn't measured.
 fn fewer_samples(planned: &Planned) -> Option<String> {
     let Planned { frame, plan } = planned;
-    let mut notes = plan.notes.iter().filter(|note| note.stage == Stage::Fit && note.text.contains("sample"));
-    notes.find_map(|note| {
-        let wanted = frame.images.iter().find(|image| image.name == note.subject)?.samples;
-        let has = plan.images.iter().find(|image| image.name == note.subject)?.samples;
-        (has < wanted).then(|| format!("`{}`: {}", note.subject, note.text))
+    let draws = |pass: &&Pass| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. });
+    let mut targets = frame.passes.iter().filter(draws).flat_map(|pass| &pass.color);
+    targets.find_map(|target| {
+        let wanted = frame.images.get(target.image.0 as usize)?;
+        let has = plan.images.iter().find(|image| image.name == wanted.name)?.samples;
+        let noted = |note: &&Note| note.stage == Stage::Fit && note.subject == wanted.name;
+        let why = plan.notes.iter().find(noted).map_or("the device has no more samples", |note| &*note.text);
+        (has < wanted.samples).then(|| format!("`{}`: {why}", wanted.name))
     })
 }
 

@@ -61,7 +61,7 @@ impl Light {
         }
     }
 
-    /// Rounded to so many steps from black to white in the curve of sRGB, as a file of integers holds it.
+    /// The picture rounded to the nearest of `steps` steps from black to white, in the curve of sRGB: as a file of integers holds it.
     #[must_use]
     pub(crate) fn in_steps(mut self, steps: u16) -> Light {
         let steps = f64::from(steps);

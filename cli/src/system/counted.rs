@@ -37,7 +37,7 @@ struct Work {
     done: AtomicUsize,
     /// Steps that are done, of all things.
     steps_done: AtomicUsize,
-    /// Thousandths of the thing that is worked on, where things take turns as a whole.
+    /// Thousandths of the present thing that are done, where one thing is worked on at a time.
     thousandths: AtomicUsize,
 }
 
@@ -60,7 +60,7 @@ impl Progress {
         self.work.steps_done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// So much of the thing that is worked on is done: `part` of `of`.
+    /// Tells how far the present thing is: `part` of `of`.
     pub(crate) fn within(&self, part: usize, of: usize) {
         self.work.thousandths.store(1000 * part / of.max(1), Ordering::Relaxed);
     }
