@@ -52,7 +52,7 @@ pub mod shaders;
 pub use ash;
 pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
-pub use execute::{Executor, ExecutorOptions};
+pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
 pub use gpu::{
     AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
     SamplerDescriptor, Severity, layer, minimum_features, optional_features, rotation_of_surface,

@@ -152,13 +152,31 @@ impl Executor {
     /// as the executor or until another one is imported, and be in the Plan's state `before` whenever a frame begins:
     /// synchronised with the queue of the first step that touches it, and after each frame brought from the state `after`.
     pub unsafe fn import_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
+        // SAFETY: the caller's promise.
+        unsafe { self.import_images(name, &[image]) }
+    }
+
+    /// Takes several images of the program's own for the external image `name`, as those of a swapchain. Each frame uses the one that
+    /// [`Submission::images`](crate::Submission) chooses, the first ones the first. What a frame needs is made once for each image:
+    /// another choice costs nothing later. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::import_image`]; [`Error::BadResource`] if there are no images.
+    ///
+    /// # Safety
+    /// That of [`Executor::import_image`], for each image in the frames that use it.
+    pub unsafe fn import_images(&mut self, name: &str, images: &[vk::Image]) -> Result<(), Error> {
         let id = self.image_named(name)?;
         self.may_import(&self.plan.image(id).role, name)?;
+        if images.is_empty() {
+            return Err(Error::BadResource { what: format!("no images were given for `{name}`") });
+        }
         self.frames.wait_for_all()?;
+        let descriptor = descriptor(self.plan.image(id));
         // SAFETY: the caller's promise.
-        let image = unsafe { Image::foreign(&self.gpu, &descriptor(self.plan.image(id)), image) };
+        let images: Vec<_> = images.iter().map(|raw| unsafe { Image::foreign(&self.gpu, &descriptor, *raw) }).collect();
         self.prepared.forget();
-        self.prepared.physical.replace_image(id, image);
+        self.prepared.physical.replace_images(id, images);
         Ok(())
     }
 
@@ -178,7 +196,7 @@ impl Executor {
         // SAFETY: the caller's promise.
         let buffer = unsafe { RawBuffer::foreign(&self.gpu, &buffer_descriptor(plan), buffer) };
         self.prepared.forget();
-        self.prepared.physical.replace_buffer(id, buffer);
+        self.prepared.physical.replace_buffers(id, [buffer]);
         Ok(())
     }
 

@@ -1,14 +1,17 @@
 //! Executing a Plan, frame by frame.
 
-use super::frames::{FrameExtras, Frames};
+use super::frame_slot::FrameExtras;
+use super::frames::Frames;
 use super::import::Import;
 use super::initial_contents::initialise;
 use super::output_readback::OutputReadback;
+use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
 use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport};
 use crate::shaders::ShaderLibrary;
+use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -58,7 +61,7 @@ pub struct Executor {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) plan: Plan,
     options: ExecutorOptions,
-    imports: Vec<Import>,
+    pub(super) imports: Vec<Import>,
     readbacks: Vec<OutputReadback>,
     pub(crate) uses: ResourceUses,
     /// Before what it uses: dropping it waits for every frame.
@@ -164,14 +167,75 @@ impl Executor {
     /// The errors of `source`, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`], [`Error::DeviceLost`],
     /// [`Error::Timeout`].
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
+        let number = self.next_frame(&[])?;
+        let (frames, frame, prepared, extras) = self.parts(number);
+        frames.submit(&frame, prepared, source, &extras, &Submission::default())?;
+        Ok(number)
+    }
+
+    /// Like [`Executor::submit`], among the program's own work: the frame waits for semaphores of the program's, signals others,
+    /// and uses the images that are chosen for it. The device is never waited for, except for the oldest frame on its way.
+    ///
+    /// # Errors
+    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such image. After an error nothing was waited for and
+    /// nothing will be signalled, unless the device is lost.
+    ///
+    /// # Safety
+    /// The semaphores must be of this executor's device, be in the state that Vulkan demands of what is waited for or signalled,
+    /// and live until the frame was waited for. The images must be in the state `before` of [`Executor::external_states`] when
+    /// the waits are over. After the frame they are in the state `after`.
+    pub unsafe fn submit_with(&mut self, source: &mut dyn DrawSource, among: &Submission<'_>) -> Result<u64, Error> {
+        let number = self.next_frame(among.images)?;
+        let (frames, frame, prepared, extras) = self.parts(number);
+        frames.submit(&frame, prepared, source, &extras, among)?;
+        Ok(number)
+    }
+
+    /// Records a frame into a command buffer of the program's, which the program submits itself, and returns the frame's number.
+    /// `images` are those of [`Submission::images`]. `done` is a timeline semaphore and the value that the program has it signalled
+    /// with when the commands are done: [`Executor::wait`] waits for that, and so do later frames that take this one's place.
+    ///
+    /// The commands find and leave external images and buffers in their [`Executor::external_states`]. They change all state of
+    /// the command buffer (pipelines, descriptor sets, dynamic state). Before the first frame, contents that the Plan begins with
+    /// are made by a submission to the graphics queue, which is waited for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::submit_with`]; [`Error::BadPlan`] if the Plan uses another queue than the one for graphics. After an
+    /// error the command buffer must not be submitted.
+    ///
+    /// # Safety
+    /// The command buffer must be of this executor's device, of the family of its graphics queue, primary, recording, and outside
+    /// of a rendering scope. It must be submitted once, to the graphics queue, after the frames before this one, and `done` must
+    /// then be signalled. Semaphore and command buffer must live until the frame was waited for. The promises on images are those
+    /// of [`Executor::submit_with`].
+    pub unsafe fn record_into(
+        &mut self,
+        commands: vk::CommandBuffer,
+        done: SemaphorePoint,
+        images: &[(&str, usize)],
+        source: &mut dyn DrawSource,
+    ) -> Result<u64, Error> {
+        let number = self.next_frame(images)?;
+        let (frames, frame, prepared, extras) = self.parts(number);
+        frames.record_into((commands, done), &frame, prepared, source, &extras)?;
+        Ok(number)
+    }
+
+    /// Makes ready for the next frame, which uses these images of the program's, and returns its number.
+    fn next_frame(&mut self, images: &[(&str, usize)]) -> Result<u64, Error> {
         self.frames.make_room()?;
+        self.choose_images(images)?;
         self.ready()?;
         let number = self.frames.next();
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
+        Ok(number)
+    }
+
+    /// What recording a frame takes.
+    fn parts(&mut self, number: u64) -> (&mut Frames, Frame<'_>, &PreparedPlan, FrameExtras<'_>) {
         let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
-        self.frames.submit(&frame, &self.prepared, source, &extras)?;
-        Ok(number)
+        (&mut self.frames, frame, &self.prepared, extras)
     }
 
     /// Waits until the device is done with a frame.

@@ -1,17 +1,18 @@
 //! Frames on their way: recorded, submitted to their queues, and waited for.
 
 use super::executor::ExecutorOptions;
+use super::frame_slot::{FrameEnd, FrameExtras, FrameSlot};
 use super::import::Import;
-use super::output_readback::OutputReadback;
+use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
-use crate::commands::{CommandPool, Readback, Timeline, record};
+use crate::commands::{Readback, Timeline};
 use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, Frame, PreparedPlan, batches};
-use crate::record::{CommandState, DrawSource, FragmentCounts, FrameReport, Recorded, Recording, Timing, report};
+use crate::record::{DrawSource, FrameReport, report};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The name in messages of the wait for a frame.
 const DRAWING: &str = "drawing a frame";
@@ -23,36 +24,20 @@ pub(crate) struct Frames {
     batches: Vec<Batch>,
     /// One for each of the Plan's queues that it uses.
     timelines: Vec<(Queue, Timeline)>,
+    /// Where the Plan uses no queue or several, the order of a frame and the program's semaphores: twice the frame's number and 1 when
+    /// it may begin, and one more when it has ended.
+    outer: Option<Timeline>,
     /// A frame's steps, and its end.
     values_per_frame: u64,
     slots: Vec<FrameSlot>,
     submitted: u64,
-    /// Memory for the waits of a batch.
+    /// Memory for the waits of a batch, and for what it signals.
     waits: Vec<vk::SemaphoreSubmitInfo<'static>>,
+    signals: Vec<vk::SemaphoreSubmitInfo<'static>>,
     /// The values that every timeline is waited for to reach: those of [`Frames::expect`].
     pending: PendingWork,
-}
-
-/// The objects of one frame in flight.
-struct FrameSlot {
-    /// By batch.
-    commands: Vec<(CommandPool, vk::CommandBuffer)>,
-    /// If frames are timed.
-    timing: Option<Timing>,
-    /// If their fragments are counted.
-    fragments: Option<FragmentCounts>,
-    recorded: Recorded,
-    /// By output, if they are kept.
-    outputs: Vec<Readback>,
-    frame: Option<u64>,
-    finished: bool,
-}
-
-/// The imports and readbacks of a frame, which the Plan doesn't hold.
-pub(crate) struct FrameExtras<'b> {
-    pub(crate) imports: &'b [Import],
-    /// By output, if they are kept.
-    pub(crate) readbacks: &'b [OutputReadback],
+    /// The same of a timeline of the program's.
+    given: PendingWork,
 }
 
 impl Frames {
@@ -69,7 +54,9 @@ impl Frames {
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
         }
-        let semaphores: Vec<_> = timelines.iter().map(|(_, timeline)| timeline.raw).collect();
+        let outer = (timelines.len() != 1).then(|| Timeline::new(gpu)).transpose()?;
+        let own = timelines.iter().map(|(_, timeline)| timeline);
+        let semaphores: Vec<_> = own.chain(&outer).map(|timeline| timeline.raw).collect();
         let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
         let slots = 0..options.frames_in_flight.max(1);
         let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options));
@@ -77,12 +64,15 @@ impl Frames {
             gpu: gpu.clone(),
             timeout: options.timeout,
             timelines,
+            outer,
             values_per_frame: plan.steps.len() as u64 + 1,
             slots: slots.collect::<Result<_, _>>()?,
             batches,
             submitted: 0,
             waits: Vec::new(),
+            signals: Vec::new(),
             pending,
+            given: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
         })
     }
 
@@ -95,7 +85,7 @@ impl Frames {
     pub(crate) fn make_room(&mut self) -> Result<(), Error> {
         let slot = self.slot_of(self.submitted);
         match self.slots[slot].frame {
-            Some(frame) => self.wait(frame),
+            Some((frame, _)) => self.wait(frame),
             None => Ok(()),
         }
     }
@@ -107,7 +97,59 @@ impl Frames {
         prepared: &PreparedPlan,
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
+        among: &Submission<'_>,
     ) -> Result<(), Error> {
+        let at = self.begin(frame, extras)?;
+        self.slots[at].record(&self.batches, frame, prepared, source, extras)?;
+        let mut outer = 0;
+        // The program's waits, the batches, and the program's signals.
+        let parts = self.batches.len() + 2;
+        for part in 0..parts {
+            let submitted = match part.checked_sub(1) {
+                None => self.submit_outer_begin(frame.number, among, &mut outer),
+                Some(batch) if batch < self.batches.len() => self.submit_batch(at, batch, frame.number, among),
+                Some(_) => self.submit_outer_end(frame.number, among, &mut outer),
+            };
+            if let Err((result, counts)) = submitted {
+                if part > 1 || outer > 0 || counts {
+                    // Part of the frame is on its way and the rest will never come.
+                    self.expect(part.saturating_sub(1).min(self.batches.len()), frame.number, outer);
+                    self.gpu.abandon(&self.pending);
+                }
+                return Err(Error::vulkan(DRAWING)(result));
+            }
+        }
+        self.end(at, frame.number, FrameEnd::Own { outer });
+        Ok(())
+    }
+
+    /// Records the next frame into a command buffer of the program's, which tells by `done` when the device is done with it. Else as
+    /// [`Frames::submit`].
+    pub(crate) fn record_into(
+        &mut self,
+        (commands, done): (vk::CommandBuffer, SemaphorePoint),
+        frame: &Frame<'_>,
+        prepared: &PreparedPlan,
+        source: &mut dyn DrawSource,
+        extras: &FrameExtras<'_>,
+    ) -> Result<(), Error> {
+        let at = self.begin(frame, extras)?;
+        match self.batches.as_slice() {
+            [batch] if batch.queue == Queue::Graphics => {
+                self.slots[at].record_into(commands, batch, frame, prepared, source, extras)?;
+            }
+            [] => {}
+            _ => {
+                let what = "it uses other queues than the one for graphics, and one command buffer goes to one queue";
+                return Err(Error::BadPlan { what: what.to_owned() });
+            }
+        }
+        self.end(at, frame.number, FrameEnd::Given(done));
+        Ok(())
+    }
+
+    /// Takes the next frame's place, which must be free.
+    fn begin(&mut self, frame: &Frame<'_>, extras: &FrameExtras<'_>) -> Result<usize, Error> {
         let at = self.slot_of(frame.number);
         let slot = &mut self.slots[at];
         // Resources of the slot's frame before are no longer in use.
@@ -116,27 +158,26 @@ impl Frames {
         if slot.outputs.len() < extras.readbacks.len() {
             slot.outputs = extras.readbacks.iter().map(|it| it.make(frame)).collect::<Result<_, _>>()?;
         }
-        slot.record(&self.batches, frame, prepared, source, extras)?;
-        for number in 0..self.batches.len() {
-            if let Err((result, submitted)) = self.submit_batch(at, number, frame.number) {
-                if number > 0 || submitted {
-                    // Part of the frame is on its way and the rest will never come.
-                    self.expect(number, frame.number);
-                    self.gpu.abandon(&self.pending);
-                }
-                return Err(Error::vulkan(DRAWING)(result));
-            }
-        }
+        Ok(at)
+    }
+
+    /// Notes that a frame is on its way.
+    fn end(&mut self, at: usize, frame: u64, end: FrameEnd) {
         let slot = &mut self.slots[at];
-        (slot.frame, slot.finished) = (Some(frame.number), false);
+        (slot.frame, slot.finished) = (Some((frame, end)), false);
         self.submitted += 1;
-        Ok(())
     }
 
     /// Submits one batch. Where that fails: whether it counts as submitted all the same.
-    fn submit_batch(&mut self, slot: usize, number: usize, frame: u64) -> Result<(), (vk::Result, bool)> {
+    fn submit_batch(
+        &mut self,
+        slot: usize,
+        number: usize,
+        frame: u64,
+        among: &Submission<'_>,
+    ) -> Result<(), (vk::Result, bool)> {
         let batch = &self.batches[number];
-        let mut waits = std::mem::take(&mut self.waits);
+        let (mut waits, mut signals) = (std::mem::take(&mut self.waits), std::mem::take(&mut self.signals));
         waits.clear();
         for wait in &batch.waits {
             // Before the first frame nothing is waited for.
@@ -144,31 +185,90 @@ impl Frames {
             let awaited = self.batches.iter().find(|batch| batch.steps.contains(&(wait.step.0 as usize)));
             let Some(awaited) = awaited else { continue };
             let value = self.step_value(of, wait.step.0.into());
-            waits.push(self.point(awaited.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
+            waits.push(self.point(awaited.queue, value));
         }
-        let signal = self
-            .signalled(batch, frame)
-            .map(|value| self.point(batch.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.slots[slot].commands[number].1)];
+        signals.clear();
+        signals.extend(self.signalled(batch, frame).map(|value| self.point(batch.queue, value)));
+        match &self.outer {
+            // The first batch of each queue.
+            Some(outer) if !among.waits.is_empty() => {
+                if self.batches[..number].iter().all(|before| before.queue != batch.queue) {
+                    waits.push(point(outer, outer_begin(frame)));
+                }
+            }
+            Some(_) => {}
+            None => {
+                waits.extend(among.waits.iter().filter(|_| number == 0).map(SemaphorePoint::info));
+                signals.extend(among.signals.iter().filter(|_| batch.last).map(SemaphorePoint::info));
+            }
+        }
+        let submitted = self.queue_submit(batch.queue, &waits, Some(self.slots[slot].commands[number].1), &signals);
+        (self.waits, self.signals) = (waits, signals);
+        submitted
+    }
+
+    /// Waits for the program's semaphores on behalf of all queues of the Plan, if there isn't just one.
+    fn submit_outer_begin(
+        &mut self,
+        frame: u64,
+        among: &Submission<'_>,
+        reached: &mut u64,
+    ) -> Result<(), (vk::Result, bool)> {
+        let Some(outer) = self.outer.as_ref().filter(|_| !among.waits.is_empty()) else { return Ok(()) };
+        let begin = [point(outer, outer_begin(frame))];
+        self.waits.clear();
+        self.waits.extend(among.waits.iter().map(SemaphorePoint::info));
+        self.queue_submit(Queue::Graphics, &self.waits, None, &begin)?;
+        *reached = outer_begin(frame);
+        Ok(())
+    }
+
+    /// Signals the program's semaphores when all queues of the Plan are done, if there isn't just one.
+    fn submit_outer_end(
+        &mut self,
+        frame: u64,
+        among: &Submission<'_>,
+        reached: &mut u64,
+    ) -> Result<(), (vk::Result, bool)> {
+        let Some(outer) = self.outer.as_ref().filter(|_| !among.signals.is_empty()) else { return Ok(()) };
+        let (end, last) = ((frame + 1) * self.values_per_frame, outer_begin(frame) + 1);
+        self.waits.clear();
+        self.waits.extend(self.timelines.iter().map(|(_, timeline)| point(timeline, end)));
+        self.waits.extend((*reached > 0).then(|| point(outer, *reached)));
+        self.signals.clear();
+        self.signals.extend(among.signals.iter().map(SemaphorePoint::info));
+        self.signals.push(point(outer, last));
+        self.queue_submit(Queue::Graphics, &self.waits, None, &self.signals)?;
+        *reached = last;
+        Ok(())
+    }
+
+    /// One submission to a queue of the Plan. Where that fails: whether it counts as submitted all the same.
+    fn queue_submit(
+        &self,
+        queue: Queue,
+        waits: &[vk::SemaphoreSubmitInfo<'_>],
+        commands: Option<vk::CommandBuffer>,
+        signals: &[vk::SemaphoreSubmitInfo<'_>],
+    ) -> Result<(), (vk::Result, bool)> {
+        let commands = commands.map(|commands| vk::CommandBufferSubmitInfo::default().command_buffer(commands));
         let submits = [vk::SubmitInfo2::default()
-            .wait_semaphore_infos(&waits)
-            .command_buffer_infos(&buffers)
-            .signal_semaphore_infos(signal.as_slice())];
+            .wait_semaphore_infos(waits)
+            .command_buffer_infos(commands.as_slice())
+            .signal_semaphore_infos(signals)];
         let queues = self.gpu.queues.lock();
         let queue =
-            queues.of(self.gpu.queues.families.family(batch.queue)).map_err(|_| (vk::Result::ERROR_UNKNOWN, false))?;
+            queues.of(self.gpu.queues.families.family(queue)).map_err(|_| (vk::Result::ERROR_UNKNOWN, false))?;
         // SAFETY: the commands are recorded, and what they use is kept until the frame was waited for; after a wait that
-        // fails nothing is freed any more.
+        // fails nothing is freed any more. The program has promised that its semaphores live and are in the right state.
         let submitted = unsafe { self.gpu.raw.queue_submit2(queue, &submits, vk::Fence::null()) };
-        drop(queues);
-        self.waits = waits;
         submitted.map_err(|result| (result, result == vk::Result::ERROR_DEVICE_LOST))
     }
 
     /// A point on a queue's timeline.
     fn point(&self, queue: Queue, value: u64) -> vk::SemaphoreSubmitInfo<'static> {
-        let timeline = self.timelines.iter().find(|(of, _)| *of == queue).map(|(_, timeline)| timeline.raw);
-        vk::SemaphoreSubmitInfo::default().semaphore(timeline.unwrap_or_default()).value(value)
+        let timeline = self.timelines.iter().find(|(of, _)| *of == queue);
+        timeline.map_or_else(vk::SemaphoreSubmitInfo::default, |(_, timeline)| point(timeline, value))
     }
 
     /// The value that a timeline has when a step is done.
@@ -184,40 +284,51 @@ impl Frames {
         batch.awaited.then(|| self.step_value(frame, batch.steps.end as u64 - 1))
     }
 
-    /// Notes as pending what the timelines reach when the first `batches` batches of `frame` are done.
-    fn expect(&mut self, batches: usize, frame: u64) {
+    /// Notes as pending what the timelines reach when the first `batches` batches of `frame` are done, and what `outer` does.
+    fn expect(&mut self, batches: usize, frame: u64, outer: u64) {
         for number in 0..self.timelines.len() {
             let queue = self.timelines[number].0;
             let own = self.batches[..batches].iter().filter(|batch| batch.queue == queue);
             let value = own.filter_map(|batch| self.signalled(batch, frame)).max();
             self.pending.values[number] = value.unwrap_or(frame * self.values_per_frame);
         }
+        if self.outer.is_some() {
+            self.pending.values[self.timelines.len()] = outer;
+        }
     }
 
     /// Waits until a frame that was submitted is done.
     pub(crate) fn wait(&mut self, frame: u64) -> Result<(), Error> {
-        let slot = self.slot_of(frame);
-        if !self.holds(frame) || self.slots[slot].finished {
-            return Ok(());
-        }
+        let at = self.slot_of(frame);
+        let end = match self.slots[at].frame {
+            Some((there, end)) if there == frame && !self.slots[at].finished => end,
+            _ => return Ok(()),
+        };
         if self.gpu.is_abandoned() {
             return Err(Error::DeviceLost { doing: DRAWING });
         }
-        self.expect(self.batches.len(), frame);
-        self.gpu.wait_for(DRAWING, &self.pending, self.timeout)?;
-        self.slots[slot].finished = true;
+        match end {
+            FrameEnd::Own { outer } => {
+                self.expect(self.batches.len(), frame, outer);
+                self.gpu.wait_for(DRAWING, &self.pending, self.timeout)?;
+            }
+            FrameEnd::Given(SemaphorePoint { semaphore, value, .. }) => {
+                (self.given.semaphores[0], self.given.values[0]) = (semaphore, value);
+                self.gpu.wait_for(DRAWING, &self.given, self.timeout)?;
+            }
+        }
+        self.slots[at].finished = true;
         Ok(())
     }
 
     /// Waits for every frame that was submitted.
     pub(crate) fn wait_for_all(&mut self) -> Result<(), Error> {
-        let frames: Vec<u64> = self.slots.iter().filter_map(|slot| slot.frame).collect();
-        frames.into_iter().try_for_each(|frame| self.wait(frame))
+        (0..self.slots.len()).try_for_each(|slot| self.slots[slot].frame.map_or(Ok(()), |(frame, _)| self.wait(frame)))
     }
 
     /// Whether a frame was submitted, and no later one has taken its place.
     pub(crate) fn holds(&self, frame: u64) -> bool {
-        self.slots[self.slot_of(frame)].frame == Some(frame)
+        self.slots[self.slot_of(frame)].frame.is_some_and(|(there, _)| there == frame)
     }
 
     /// The report of a frame that was waited for, and whose place no later one has taken.
@@ -229,7 +340,7 @@ impl Frames {
     /// The kept contents of an output of a frame that was waited for.
     pub(crate) fn readback(&self, frame: u64, output: usize) -> Option<&Readback> {
         let slot = &self.slots[self.slot_of(frame)];
-        if slot.frame == Some(frame) { slot.outputs.get(output) } else { None }
+        if self.holds(frame) { slot.outputs.get(output) } else { None }
     }
 
     fn slot_of(&self, frame: u64) -> usize {
@@ -244,68 +355,13 @@ impl Drop for Frames {
     }
 }
 
-impl FrameSlot {
-    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch], options: &ExecutorOptions) -> Result<FrameSlot, Error> {
-        let commands = batches.iter().map(|batch| {
-            let pool = CommandPool::new(gpu, batch.queue)?;
-            let buffer = pool.buffer()?;
-            Ok::<_, Error>((pool, buffer))
-        });
-        Ok(FrameSlot {
-            commands: commands.collect::<Result<_, _>>()?,
-            timing: options.timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
-            fragments: match options.fragment_counts {
-                true => FragmentCounts::new(gpu, plan, batches.len())?,
-                false => None,
-            },
-            recorded: Recorded::default(),
-            outputs: Vec::new(),
-            frame: None,
-            finished: false,
-        })
-    }
+/// A point on a timeline, for all stages.
+fn point(timeline: &Timeline, value: u64) -> vk::SemaphoreSubmitInfo<'static> {
+    let stages = vk::PipelineStageFlags2::ALL_COMMANDS;
+    vk::SemaphoreSubmitInfo::default().semaphore(timeline.raw).value(value).stage_mask(stages)
+}
 
-    /// Records all batches of a frame.
-    fn record(
-        &mut self,
-        batches: &[Batch],
-        frame: &Frame<'_>,
-        prepared: &PreparedPlan,
-        source: &mut dyn DrawSource,
-        extras: &FrameExtras<'_>,
-    ) -> Result<(), Error> {
-        let begun = Instant::now();
-        for (pool, _) in &self.commands {
-            pool.reset()?;
-        }
-        if let Some(timing) = &mut self.timing {
-            timing.begin_frame();
-        }
-        if let Some(fragments) = &mut self.fragments {
-            fragments.begin_frame();
-        }
-        let (timing, fragments) = (self.timing.as_mut(), self.fragments.as_mut());
-        let recorded = &mut self.recorded;
-        let mut recording =
-            Recording { frame, prepared, source, timing, fragments, recorded, state: CommandState::default() };
-        for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
-            record(frame.gpu, *buffer, |commands| {
-                recording.begin_batch(commands, batch.queue);
-                for step in batch.steps.clone() {
-                    for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
-                        import.record(frame, commands);
-                    }
-                    recording.step(commands, step)?;
-                    let readbacks = extras.readbacks.iter().zip(&self.outputs);
-                    for (readback, into) in readbacks.filter(|(it, _)| it.after.0 as usize == step) {
-                        readback.record(frame, commands, into);
-                    }
-                }
-                recording.end_batch(commands);
-                Ok(())
-            })?;
-        }
-        self.recorded.end(begun.elapsed());
-        Ok(())
-    }
+/// The value of the outer timeline when a frame may begin.
+fn outer_begin(frame: u64) -> u64 {
+    2 * frame + 1
 }

@@ -10,7 +10,7 @@ use framewright_graph::vulkan::{Layout, Stages, State, Subresources};
 /// One external image or buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Import {
-    resource: Resource,
+    pub(super) resource: Resource,
     before: State,
     after: State,
     /// The first step that touches it.

@@ -91,6 +91,13 @@ impl Device {
         (&self.gpu.instance.raw, self.gpu.physical)
     }
 
+    /// The index of the queue family that frames are submitted to, of which the queue number 0 is used. Command buffers for
+    /// [`Executor::record_into`](crate::Executor::record_into) are of this family.
+    #[must_use]
+    pub fn graphics_queue_family(&self) -> u32 {
+        self.gpu.queues.families.graphics.index
+    }
+
     /// Has every wait for this device end with [`Error::Cancelled`] soon after `asked` becomes true.
     /// It is asked about 20 times a second. Only the first call for a device counts.
     ///

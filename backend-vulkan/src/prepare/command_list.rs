@@ -2,7 +2,7 @@
 //! in a list of its kind. So recording a frame looks at little memory, and almost only forwards.
 
 use super::draw_target::DrawTarget;
-use super::history::RingCache;
+use super::rings::{Period, RingCache, Turn};
 use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
 use crate::gpu::{Gpu, LocalRead};
@@ -18,8 +18,10 @@ pub(crate) struct CommandList {
     pub(crate) targets: Vec<DrawTarget>,
     /// Push constants: which parts of images are in use.
     pub(crate) parts: Vec<u8>,
-    /// After how many frames, one after the other, everything is made.
+    /// After how many frames, one after the other, everything is made that depends on no choice of the program's.
     pub(super) period: u64,
+    /// The steps that depend on such a choice.
+    pub(super) chosen: Vec<usize>,
     /// By step: its commands in each frame until it records the same again.
     made: Vec<RingCache<Run>>,
 }
@@ -152,11 +154,12 @@ impl Run {
 }
 
 impl CommandList {
-    /// A list without commands, for steps that repeat their commands after a period of frames: `periods` has one period for each step.
-    pub(super) fn new(periods: impl Iterator<Item = u64>) -> CommandList {
-        let mut longest = 1;
-        let made = periods.map(|period| {
-            longest = longest.max(period);
+    /// A list without commands, for steps that repeat their commands after a period: `periods` has one for each step.
+    pub(super) fn new(periods: impl Iterator<Item = Period>) -> CommandList {
+        let (mut longest, mut chosen) = (1, Vec::new());
+        let made = periods.enumerate().map(|(step, period)| {
+            longest = longest.max(period.frames());
+            chosen.extend(period.is_chosen().then_some(step));
             RingCache::new(period)
         });
         let made = made.collect();
@@ -168,29 +171,30 @@ impl CommandList {
             targets: Vec::new(),
             parts: Vec::new(),
             period: longest,
+            chosen,
             made,
         }
     }
 
-    /// The commands of a step in a frame, if they are made.
-    pub(crate) fn step(&self, step: usize, frame: u64) -> Option<&[Command]> {
-        self.made[step].at(frame).map(|run| run.of(&self.commands))
+    /// The commands of a step in a turn, if they are made.
+    pub(crate) fn step(&self, step: usize, turn: Turn<'_>) -> Option<&[Command]> {
+        self.made[step].at(turn).map(|run| run.of(&self.commands))
     }
 
-    /// Makes the commands of a step in a frame, unless they are there.
+    /// Makes the commands of a step in a turn, unless they are there.
     pub(super) fn prepare(
         &mut self,
         step: usize,
-        frame: u64,
+        turn: Turn<'_>,
         make: impl FnOnce(&mut CommandList) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        if self.made[step].at(frame).is_some() {
+        if self.made[step].at(turn).is_some() {
             return Ok(());
         }
         let first = number(self.commands.len());
         make(self)?;
         let run = Run { first, end: number(self.commands.len()) };
-        self.made[step].prepare(frame, || Ok(run)).map(drop)
+        self.made[step].prepare(turn, || Ok(run)).map(drop)
     }
 
     /// Forgets all commands, and keeps the memory of the lists.
@@ -264,21 +268,23 @@ fn number(index: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::prepare::rings::ResourceRings;
 
     #[test]
     fn a_step_that_never_records_the_same_again_takes_memory_only_for_its_frames() {
-        let mut list = CommandList::new([1, u64::MAX].into_iter());
-        for frame in 0..3 {
+        let rings = ResourceRings::default();
+        let mut list = CommandList::new([1, u64::MAX].into_iter().map(Period::every));
+        for turn in (0..3).map(|frame| rings.turn(frame)) {
             let make = |list: &mut CommandList| {
                 list.push(Command::Custom);
                 Ok(())
             };
-            assert!(list.step(1, frame).is_none());
-            list.prepare(1, frame, make).expect("nothing fails");
-            assert_eq!(list.step(1, frame).map(<[Command]>::len), Some(1));
+            assert!(list.step(1, turn).is_none());
+            list.prepare(1, turn, make).expect("nothing fails");
+            assert_eq!(list.step(1, turn).map(<[Command]>::len), Some(1));
         }
         assert_eq!(list.commands.len(), 3);
         list.forget();
-        assert!(list.step(1, 2).is_none() && list.commands.is_empty());
+        assert!(list.step(1, rings.turn(2)).is_none() && list.commands.is_empty());
     }
 }

@@ -2,6 +2,7 @@
 
 use super::descriptions::part;
 use super::physical::PhysicalResources;
+use super::rings::Turn;
 use crate::base::convert;
 use crate::commands::{ImageSide, TransferSide};
 use crate::gpu::Gpu;
@@ -30,6 +31,11 @@ impl Frame<'_> {
     /// The buffer on the device that stands for a Plan's buffer.
     pub(crate) fn buffer(&self, buffer: BufferId) -> &Arc<RawBuffer> {
         self.physical.buffer(buffer, self.number)
+    }
+
+    /// What stands for what.
+    pub(crate) fn turn(&self) -> Turn<'_> {
+        self.physical.turn(self.number)
     }
 
     /// A barrier of the Plan.

@@ -2,7 +2,7 @@
 
 use super::descriptions::part;
 use super::frame::Frame;
-use super::history::RingCache;
+use super::rings::{Period, RingCache};
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
@@ -78,7 +78,7 @@ impl PassSets {
 
     /// Sets without bindings.
     pub(crate) fn empty(gpu: &Gpu) -> Result<PassSets, Error> {
-        let (layout, made) = (gpu.set_layout(Vec::new())?, RingCache::new(1));
+        let (layout, made) = (gpu.set_layout(Vec::new())?, RingCache::new(Period::every(1)));
         Ok(PassSets { layout, bindings: Vec::new(), params: None, made })
     }
 
@@ -106,7 +106,7 @@ impl PassSets {
             return Ok(None);
         }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
-        self.made.prepare(frame.number, || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
+        self.made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
     }
 }
 

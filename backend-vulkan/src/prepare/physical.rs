@@ -1,7 +1,7 @@
 //! A Plan's images and buffers on a device.
 
 use super::descriptions::{buffer_descriptor, descriptor};
-use super::history::HistoryRings;
+use super::rings::{Period, ResourceRings, Turn};
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryBlock, MemoryUse, RawBuffer};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub(crate) struct PhysicalResources {
     images: Vec<Arc<Image>>,
     buffers: Vec<Arc<RawBuffer>>,
-    rings: HistoryRings,
+    rings: ResourceRings,
     /// Images and buffers that were taken over from another Plan's executor.
     migrated: HashSet<Resource>,
 }
@@ -24,7 +24,7 @@ pub(crate) struct PhysicalResources {
 impl PhysicalResources {
     /// Makes the heaps with what is placed in them, and all else with memory of its own.
     pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan) -> Result<PhysicalResources, Error> {
-        let rings = HistoryRings::new(plan);
+        let rings = ResourceRings::new(plan);
         let heaps = heaps(gpu, plan)?;
         let heap = |place: &Placement| heaps[place.heap as usize].clone();
         let images = plan.images.iter().map(|image| {
@@ -63,9 +63,19 @@ impl PhysicalResources {
         &self.buffers[self.rings.buffer(buffer.0, frame)]
     }
 
-    /// After how many frames the same stand for all of these again.
-    pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> u64 {
+    /// When the same stand for all of these again.
+    pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> Period {
         self.rings.period(resources)
+    }
+
+    /// What stands for what in a frame, as the program has chosen last.
+    pub(crate) fn turn(&self, frame: u64) -> Turn<'_> {
+        self.rings.turn(frame)
+    }
+
+    /// Chooses among what the program handed in for an external image or buffer. Returns whether there is such a one.
+    pub(crate) fn choose(&mut self, resource: Resource, choice: usize) -> bool {
+        self.rings.choose(resource, choice)
     }
 
     /// Takes the contents of another Plan's image for the first frame.
@@ -85,15 +95,40 @@ impl PhysicalResources {
         self.migrated.contains(&resource)
     }
 
-    /// Takes another image for an external one, which never changes round.
-    pub(crate) fn replace_image(&mut self, image: ImageId, by: Image) {
-        self.images[image.0 as usize] = Arc::new(by);
+    /// Takes other images for an external one, at least one, of which the first is chosen. Nothing that was made for those before may
+    /// be left.
+    pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) {
+        let resource = Resource::Image(image);
+        let (members, count) = replace(&mut self.images, self.rings.members(resource), by);
+        self.rings.set_members(resource, members, count);
     }
 
-    /// Takes another buffer for an external one, which never changes round.
-    pub(crate) fn replace_buffer(&mut self, buffer: BufferId, by: RawBuffer) {
-        self.buffers[buffer.0 as usize] = Arc::new(by);
+    /// Takes other buffers for an external one, as [`PhysicalResources::replace_images`] does.
+    pub(crate) fn replace_buffers(&mut self, buffer: BufferId, by: impl IntoIterator<Item = RawBuffer>) {
+        let resource = Resource::Buffer(buffer);
+        let (members, count) = replace(&mut self.buffers, self.rings.members(resource), by);
+        self.rings.set_members(resource, members, count);
     }
+}
+
+/// Puts these in the places `before` of a list, and more at its end. Returns their places, then those that aren't needed any more,
+/// which hold the first of these, and the number of these.
+fn replace<T>(list: &mut Vec<Arc<T>>, before: &[usize], by: impl IntoIterator<Item = T>) -> (Vec<usize>, usize) {
+    let (mut places, mut count) = (before.to_vec(), 0);
+    for one in by {
+        match places.get(count) {
+            Some(place) => list[*place] = Arc::new(one),
+            None => {
+                places.push(list.len());
+                list.push(Arc::new(one));
+            }
+        }
+        count += 1;
+    }
+    for place in &places[count..] {
+        list[*place] = list[places[0]].clone();
+    }
+    (places, count)
 }
 
 impl Gpu {

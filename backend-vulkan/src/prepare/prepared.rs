@@ -44,15 +44,17 @@ impl PreparedPlan {
     /// Makes what frame `number` needs and no frame before it needed. Frames follow each other without gaps.
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
-        if number - first >= self.list.period {
-            return Ok(());
+        let repeats = number - first >= self.list.period;
+        let (frame, poison) = (Frame { gpu, plan, physical: &self.physical, number }, self.poison);
+        let (list, steps) = (&mut self.list, &mut self.steps);
+        let mut prepare = |list: &mut CommandList, index: usize| {
+            let (step, made) = (&plan.steps[index], &mut steps[index]);
+            list.prepare(index, frame.turn(), |list| made.push_commands(list, &frame, (index, step), poison))
+        };
+        if repeats {
+            return (0..list.chosen.len()).try_for_each(|number| prepare(list, list.chosen[number]));
         }
-        let frame = Frame { gpu, plan, physical: &self.physical, number };
-        let (list, poison) = (&mut self.list, self.poison);
-        let mut steps = plan.steps.iter().zip(&mut self.steps).enumerate();
-        steps.try_for_each(|(index, (step, made))| {
-            list.prepare(index, number, |list| made.push_commands(list, &frame, (index, step), poison))
-        })
+        (0..plan.steps.len()).try_for_each(|index| prepare(list, index))
     }
 
     /// Forgets all sets and commands, since another image or buffer was imported. Nothing may be in flight.

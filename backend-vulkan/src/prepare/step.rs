@@ -6,6 +6,7 @@ use super::frame::Frame;
 use super::pass::{PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
 use super::poison::push_poisoned_barriers;
+use super::rings::Period;
 use super::scope::{prepare_scope, push_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
@@ -87,8 +88,8 @@ impl PreparedStep {
     }
 }
 
-/// After how many frames a step records the same again.
-pub(super) fn period(frame: &Frame<'_>, step: &Step) -> u64 {
+/// When a step records the same again.
+pub(super) fn period(frame: &Frame<'_>, step: &Step) -> Period {
     let mut resources = Vec::new();
     touched(step, &mut |resource| resources.push(resource));
     frame.physical.period(resources)

@@ -75,7 +75,7 @@ impl Recording<'_> {
     pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
         let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
-        for command in list.step(step, self.frame.number).ok_or_else(unprepared)? {
+        for command in list.step(step, self.frame.turn()).ok_or_else(unprepared)? {
             match command {
                 Command::BeginLabel(label) => gpu.begin_label(commands, label),
                 Command::EndLabel => gpu.end_label(commands),

@@ -1,5 +1,6 @@
 //! The embedding program's own resources: imported before the frame, found after it, in the states that the frame says.
 
+use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image};
 use crate::frames::{
     Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,
 };
@@ -155,75 +156,6 @@ fn executor_with(device: &Device, frame: &Frame, options: &ExecutorOptions) -> E
 fn two_frames(executor: &mut Executor) {
     for _ in 0..2 {
         executor.submit(&mut Nothing).expect("a frame");
-    }
-}
-
-/// Memory of the first type that will do, for an image or buffer that needs it.
-fn memory(device: &Device, needs: vk::MemoryRequirements) -> vk::DeviceMemory {
-    let info = vk::MemoryAllocateInfo::default()
-        .allocation_size(needs.size)
-        .memory_type_index(needs.memory_type_bits.trailing_zeros());
-    // SAFETY: the device lives and has such a type; the test frees the memory after what is bound to it.
-    unsafe { device.raw().allocate_memory(&info, None) }.expect("memory")
-}
-
-/// The program's own image, as the Plans above describe it.
-fn own_image(device: &Device) -> (vk::Image, vk::DeviceMemory) {
-    let info = vk::ImageCreateInfo::default()
-        .image_type(vk::ImageType::TYPE_2D)
-        .format(vk::Format::R32_UINT)
-        .extent(vk::Extent3D { width: 2, height: 2, depth: 1 })
-        .mip_levels(1)
-        .array_layers(1)
-        .samples(vk::SampleCountFlags::TYPE_1)
-        .usage(
-            vk::ImageUsageFlags::COLOR_ATTACHMENT
-                | vk::ImageUsageFlags::SAMPLED
-                | vk::ImageUsageFlags::TRANSFER_SRC
-                | vk::ImageUsageFlags::TRANSFER_DST,
-        );
-    let raw = device.raw();
-    // SAFETY: the device lives, and the image is new.
-    unsafe {
-        let image = raw.create_image(&info, None).expect("an image");
-        let memory = memory(device, raw.get_image_memory_requirements(image));
-        raw.bind_image_memory(image, memory, 0).expect("it fits");
-        (image, memory)
-    }
-}
-
-/// # Safety
-/// Nothing may use the image any more.
-unsafe fn destroy_image(device: &Device, (image, memory): (vk::Image, vk::DeviceMemory)) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        device.raw().destroy_image(image, None);
-        device.raw().free_memory(memory, None);
-    }
-}
-
-/// The program's own buffer of three words.
-fn own_buffer(device: &Device) -> (vk::Buffer, vk::DeviceMemory) {
-    let usage =
-        vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
-    let info = vk::BufferCreateInfo::default().size(12).usage(usage);
-    let raw = device.raw();
-    // SAFETY: the device lives, and the buffer is new.
-    unsafe {
-        let buffer = raw.create_buffer(&info, None).expect("a buffer");
-        let memory = memory(device, raw.get_buffer_memory_requirements(buffer));
-        raw.bind_buffer_memory(buffer, memory, 0).expect("it fits");
-        (buffer, memory)
-    }
-}
-
-/// # Safety
-/// Nothing may use the buffer any more.
-unsafe fn destroy_buffer(device: &Device, (buffer, memory): (vk::Buffer, vk::DeviceMemory)) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        device.raw().destroy_buffer(buffer, None);
-        device.raw().free_memory(memory, None);
     }
 }
 

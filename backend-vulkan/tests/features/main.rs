@@ -1,6 +1,7 @@
 //! Features of frames, one by one: small frames compiled and executed on each software driver under the validation layer, and
 //! exactly what they leave.
 
+mod foreign;
 mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
@@ -19,6 +20,7 @@ mod local_reads;
 mod outlasting;
 mod queues;
 mod state;
+mod submitting;
 mod subresources;
 mod textures;
 mod transfers;

@@ -122,21 +122,30 @@ fn beside() -> Frame {
     small.frame
 }
 
+/// An executor of [`beside`], compiled for a device that shares between its three queues.
+pub(crate) fn executor_beside(device: &Device, frames_in_flight: u32) -> Executor {
+    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
+    let profile = Profile { queues, ..device.profile() };
+    let plan = compile(&beside(), &profile, &mut device.memory(), &Options::default());
+    let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
+    assert!(plan.steps.iter().any(|step| step.queue == Queue::Compute), "{}", plan.tree());
+    let options = ExecutorOptions { frames_in_flight, ..ExecutorOptions::default() };
+    Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor")
+}
+
+/// The texels of its image `shown`.
+pub(crate) fn drawn_beside() -> Vec<u32> {
+    (0..16).map(|at| at % 4 + 100 * (at / 4) + 1 + 60).collect()
+}
+
 #[test]
 fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_shares_between_three() {
     on_each_driver(|device| {
-        let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
-        let profile = Profile { queues, ..device.profile() };
-        let plan = compile(&beside(), &profile, &mut device.memory(), &Options::default());
-        let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
-        assert!(plan.steps.iter().any(|step| step.queue == Queue::Compute), "{}", plan.tree());
-        let options = ExecutorOptions { frames_in_flight: 2, ..ExecutorOptions::default() };
-        let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+        let mut executor = executor_beside(device, 2);
         for _ in 0..4 {
             executor.submit(&mut Nothing).expect("a frame");
         }
-        let expected: Vec<u32> = (0..16).map(|at| at % 4 + 100 * (at / 4) + 1 + 60).collect();
-        assert_eq!(texels(&mut executor, "shown", 0), expected);
+        assert_eq!(texels(&mut executor, "shown", 0), drawn_beside());
     });
 }
 

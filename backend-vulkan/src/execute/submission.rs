@@ -1,0 +1,109 @@
+//! A frame among the program's own work: the semaphores that it waits for and signals, which of the program's images it uses, and
+//! the states in which it finds and leaves them.
+
+use super::executor::Executor;
+use crate::base::{Error, convert};
+use crate::prepare::name_and_role;
+use ash::vk;
+use framewright_graph::plan::{Resource, Role};
+use framewright_graph::vulkan::State;
+
+/// A semaphore of the program's, and stages that wait for it or that it waits for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SemaphorePoint {
+    /// A binary semaphore or a timeline semaphore.
+    pub semaphore: vk::Semaphore,
+    /// The value of a timeline semaphore. It means nothing for a binary one.
+    pub value: u64,
+    /// The stages of the frame that wait, or that must be over before it is signalled.
+    pub stages: vk::PipelineStageFlags2,
+}
+
+/// What a frame has to do with the program's own work. The default: nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Submission<'s> {
+    /// For external images by name: which of those that [`Executor::import_images`] took the frame uses. An image that isn't listed
+    /// is the one of the frame before.
+    pub images: &'s [(&'s str, usize)],
+    /// What the frame waits for before it begins.
+    pub waits: &'s [SemaphorePoint],
+    /// What it signals at its end.
+    pub signals: &'s [SemaphorePoint],
+}
+
+/// The states of an external image or buffer, in Vulkan's words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExternalStates {
+    /// The state in which each frame finds it.
+    pub before: ResourceState,
+    /// The state in which each frame leaves it.
+    pub after: ResourceState,
+}
+
+/// The state of an image or buffer: the stages and accesses that used it last, or that use it next, and the layout of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ResourceState {
+    /// Stages; none: no command before, or none after without a semaphore between.
+    pub stages: vk::PipelineStageFlags2,
+    /// Accesses.
+    pub accesses: vk::AccessFlags2,
+    /// The layout of an image; `UNDEFINED` for a buffer, and for an image whose contents the frame doesn't need.
+    pub layout: vk::ImageLayout,
+}
+
+impl SemaphorePoint {
+    /// A binary semaphore, for all stages.
+    #[must_use]
+    pub fn binary(semaphore: vk::Semaphore) -> SemaphorePoint {
+        SemaphorePoint::timeline(semaphore, 0)
+    }
+
+    /// A timeline semaphore at a value, for all stages.
+    #[must_use]
+    pub fn timeline(semaphore: vk::Semaphore, value: u64) -> SemaphorePoint {
+        SemaphorePoint { semaphore, value, stages: vk::PipelineStageFlags2::ALL_COMMANDS }
+    }
+
+    pub(super) fn info(&self) -> vk::SemaphoreSubmitInfo<'static> {
+        let SemaphorePoint { semaphore, value, stages } = *self;
+        vk::SemaphoreSubmitInfo::default().semaphore(semaphore).value(value).stage_mask(stages)
+    }
+}
+
+impl ResourceState {
+    fn of(state: State) -> ResourceState {
+        ResourceState {
+            stages: convert::stages(state.stages),
+            accesses: convert::accesses(state.accesses),
+            layout: convert::layout(state.layout),
+        }
+    }
+}
+
+impl Executor {
+    /// The states of the external image or buffer `name`: an output, or one that is imported. `None` if the Plan has no such one.
+    #[must_use]
+    pub fn external_states(&self, name: &str) -> Option<ExternalStates> {
+        let resource = self.external(name)?;
+        let Role::External { before, after } = name_and_role(&self.plan, resource).1 else { return None };
+        Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
+    }
+
+    /// Chooses among the program's images for the next frame.
+    pub(super) fn choose_images(&mut self, images: &[(&str, usize)]) -> Result<(), Error> {
+        for (name, choice) in images {
+            let chosen = self.external(name).is_some_and(|it| self.prepared.physical.choose(it, *choice));
+            if !chosen {
+                let what = format!("`{name}` has no image {choice} of the program's");
+                return Err(Error::BadResource { what });
+            }
+        }
+        Ok(())
+    }
+
+    /// The external image or buffer of this name.
+    fn external(&self, name: &str) -> Option<Resource> {
+        let mut all = self.imports.iter().map(|import| import.resource);
+        all.find(|it| name_and_role(&self.plan, *it).0 == name)
+    }
+}
