@@ -42,6 +42,7 @@ pub mod helper;
 mod memory;
 mod pipeline;
 mod prepare;
+mod present;
 mod probe;
 mod process;
 mod record;
@@ -59,7 +60,10 @@ pub use gpu::{
 };
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
+pub use present::{PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
 pub use probe::Canary;
+/// The handles of windows and displays, for programs that show pictures.
+pub use raw_window_handle;
 pub use record::{
     CullMode, CustomImage, CustomRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
     StepReport,

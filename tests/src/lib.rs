@@ -13,6 +13,7 @@
 //! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: compares it with the GPU's picture.
 //! - [`drivers`]: the software drivers and validation layers of this machine.
+//! - [`x_server`]: an X server that nobody sees.
 
 pub mod agreement;
 pub mod drivers;
@@ -29,3 +30,4 @@ pub mod render;
 pub mod shapes;
 pub mod shipped;
 pub mod sweep;
+pub mod x_server;

@@ -121,6 +121,20 @@ pub enum Error {
         /// The operation that was under way.
         doing: &'static str,
     },
+    /// Nothing can be shown in a window, or in this one.
+    #[error("{} can't show anything in this window: {why}", escape(device))]
+    CantPresent {
+        /// The device.
+        device: String,
+        /// Why.
+        why: &'static str,
+    },
+    /// The window's surface is lost: the window is gone, or the window system has let go of it.
+    #[error("the surface of the window was lost while {doing}: make another one")]
+    SurfaceLost {
+        /// The operation that was under way.
+        doing: &'static str,
+    },
     /// There is not enough memory, or none of the right kind.
     #[error("no memory for {}, {}{}: {reason}", escape(what), amount::bytes(*bytes), among(parts))]
     OutOfMemory {
@@ -238,6 +252,8 @@ impl Error {
             | Error::CantWrite { .. }
             | Error::Vulkan { .. }
             | Error::DeviceLost { .. }
+            | Error::CantPresent { .. }
+            | Error::SurfaceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,
             Error::Shader { .. }

@@ -9,6 +9,7 @@ use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
 use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
+use crate::present::SwapchainHandle;
 use crate::record::{DrawSource, FrameReport};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
@@ -67,6 +68,8 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: PreparedPlan,
+    /// The swapchains whose images are in use, by the output that is shown. Dropped after the frames, and the views of the images.
+    pub(crate) shown: Vec<(String, Arc<SwapchainHandle>)>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -140,6 +143,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
+            shown: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             options: options.clone(),
@@ -219,6 +223,17 @@ impl Executor {
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.record_into((commands, done), &frame, prepared, source, &extras)?;
         Ok(number)
+    }
+
+    /// Waits for the oldest frame on its way, if as many are as may be.
+    pub(crate) fn make_room(&mut self) -> Result<(), Error> {
+        self.frames.make_room()
+    }
+
+    /// The Plan that it executes.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number.

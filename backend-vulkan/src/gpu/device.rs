@@ -8,6 +8,7 @@ use crate::base::Error;
 use crate::process::Helper;
 use ash::vk;
 use framewright_graph::device::Profile;
+use raw_window_handle::RawDisplayHandle;
 use std::sync::{Arc, OnceLock};
 
 /// How to open a device.
@@ -20,6 +21,8 @@ pub struct DeviceOptions {
     /// Where it is tested; `None`: in this process. In a helper process a driver that crashes in a test ends no more than that,
     /// and what the tests find is kept for this version of the driver.
     pub helper: Option<Helper>,
+    /// The display whose windows pictures are shown in, for [`Device::surface`]; `None`: nothing is shown.
+    pub display: Option<RawDisplayHandle>,
 }
 
 /// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
@@ -46,7 +49,7 @@ impl Device {
     /// # Errors
     /// [`Error::NoLoader`], or [`Error::NoDevice`] if there is none.
     pub fn list() -> Result<Vec<DeviceSummary>, Error> {
-        let instance = Instance::new(false)?;
+        let instance = Instance::new(false, None)?;
         Ok(devices(&instance)?.into_iter().map(|(_, summary)| summary).collect())
     }
 
@@ -55,7 +58,7 @@ impl Device {
     /// # Errors
     /// No loader, no device, none of that name, less than the minimum, no validation layer.
     pub fn open(options: &DeviceOptions) -> Result<Device, Error> {
-        let instance = Instance::new(options.validation)?;
+        let instance = Instance::new(options.validation, options.display)?;
         let (physical, summary) = choose(devices(&instance)?, &options.choice)?;
         if !summary.missing.is_empty() {
             return Err(Error::Lacking { device: summary.name, missing: summary.missing });

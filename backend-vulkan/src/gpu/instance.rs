@@ -5,6 +5,7 @@ use super::validation::{FEATURES, LAYER, Layer, Messages, SETTINGS, Setting, kno
 use super::{layer, words};
 use crate::base::Error;
 use ash::{ext, khr, vk};
+use raw_window_handle::RawDisplayHandle;
 use std::ffi::CStr;
 
 /// An instance.
@@ -29,10 +30,9 @@ pub(crate) struct Validation {
 }
 
 impl Instance {
-    /// Loads the loader and creates an instance.
-    pub(crate) fn new(validate: bool) -> Result<Instance, Error> {
-        // SAFETY: the system's Vulkan loader is trusted to initialise itself soundly.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader { reason: error.to_string() })?;
+    /// Loads the loader and creates an instance, which can show pictures on `display`.
+    pub(crate) fn new(validate: bool, display: Option<RawDisplayHandle>) -> Result<Instance, Error> {
+        let entry = load()?;
         // SAFETY: the loader is loaded.
         let version = unsafe { entry.try_enumerate_instance_version() }.ok().flatten().unwrap_or(vk::API_VERSION_1_0);
         if version < MINIMUM_VERSION {
@@ -50,15 +50,20 @@ impl Instance {
         // SAFETY: the loader is loaded.
         let available = unsafe { entry.enumerate_instance_extension_properties(None) }.unwrap_or_default();
         let has = |name| available.iter().any(|it| it.extension_name_as_c_str() == Ok(name));
-        let (labels, surfaces) = (validate || has(ext::debug_utils::NAME), has(khr::surface::NAME));
-        let mut raw = create(&entry, labels, surfaces, validation.as_ref(), &SETTINGS)?;
+        let labels = validate || has(ext::debug_utils::NAME);
+        let surfaces = has(khr::surface::NAME);
+        let mut extensions: Vec<&CStr> = Vec::new();
+        extensions.extend(labels.then_some(ext::debug_utils::NAME));
+        extensions.extend(surfaces.then_some(khr::surface::NAME));
+        extensions.extend(window_system(display)?.into_iter().filter(|name| *name != khr::surface::NAME));
+        let mut raw = create(&entry, &extensions, validation.as_ref(), &SETTINGS)?;
         if let Some(validation) = &mut validation {
             let known = known_settings(&validation.messages.list());
             if known.len() < SETTINGS.len() {
                 // SAFETY: nothing was made from the instance, and its messages live until the next line.
                 unsafe { raw.destroy_instance(None) };
                 validation.messages = Messages::default();
-                raw = create(&entry, labels, surfaces, Some(validation), &known)?;
+                raw = create(&entry, &extensions, Some(validation), &known)?;
             }
         }
         let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, entry: Some(entry) };
@@ -76,24 +81,40 @@ impl Instance {
     pub(super) fn adopted(raw: ash::Instance, labels: bool, surfaces: bool) -> Instance {
         Instance { raw, labels, surfaces, validation: None, messenger: None, entry: None }
     }
+
+    /// The loader.
+    pub(crate) fn entry(&self) -> Result<ash::Entry, Error> {
+        match &self.entry {
+            Some(entry) => Ok(entry.clone()),
+            None => load(),
+        }
+    }
+}
+
+/// The extensions that surfaces of a display need.
+fn window_system(display: Option<RawDisplayHandle>) -> Result<Vec<&'static CStr>, Error> {
+    let Some(display) = display else { return Ok(Vec::new()) };
+    let names = ash_window::enumerate_required_extensions(display)
+        .map_err(Error::vulkan("looking for surfaces of this window system"))?;
+    // SAFETY: they are literals with an end.
+    Ok(names.iter().map(|name| unsafe { CStr::from_ptr(*name) }).collect())
+}
+
+/// The system's Vulkan loader.
+fn load() -> Result<ash::Entry, Error> {
+    // SAFETY: it is trusted to initialise itself soundly.
+    unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader { reason: error.to_string() })
 }
 
 fn create(
     entry: &ash::Entry,
-    labels: bool,
-    surfaces: bool,
+    extensions: &[&CStr],
     validation: Option<&Validation>,
     settings: &[Setting],
 ) -> Result<ash::Instance, Error> {
     let application = vk::ApplicationInfo::default().application_name(c"framewright").api_version(MINIMUM_VERSION);
-    let mut extensions: Vec<&CStr> = Vec::new();
+    let mut extensions = extensions.to_vec();
     let mut layers: Vec<&CStr> = Vec::new();
-    if labels {
-        extensions.push(ext::debug_utils::NAME);
-    }
-    if surfaces {
-        extensions.push(khr::surface::NAME);
-    }
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
     let settings = layer_settings(settings);
     let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);

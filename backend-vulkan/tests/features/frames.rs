@@ -12,6 +12,7 @@ use framewright_graph::shader::DrawInterface;
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Aspects, Format, Stages, Subresources};
 use framewright_tests::drivers::Driver;
+use framewright_vulkan::raw_window_handle::RawDisplayHandle;
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,
     ShaderLibrary,
@@ -72,11 +73,17 @@ pub(crate) fn on_each_driver(test: impl Fn(&Device)) {
 
 /// The same for tests that look at the layer's findings themselves.
 pub(crate) fn on_each_driver_with(test: impl Fn(Device)) {
+    on_each_driver_for(None, test);
+}
+
+/// The same for tests that show pictures on a display.
+pub(crate) fn on_each_driver_for(display: Option<RawDisplayHandle>, test: impl Fn(Device)) {
     find_drivers();
     for name in drivers() {
         let device = match Device::open(&DeviceOptions {
             choice: DeviceChoice::Name(name),
             validation: true,
+            display,
             ..DeviceOptions::default()
         }) {
             Ok(device) => device,

@@ -18,6 +18,7 @@ mod held;
 mod imports;
 mod local_reads;
 mod outlasting;
+mod presenting;
 mod queues;
 mod state;
 mod submitting;

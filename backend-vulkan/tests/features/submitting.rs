@@ -314,10 +314,23 @@ impl Commands<'_> {
     /// # Safety
     /// The command buffer must have been recorded and not submitted.
     unsafe fn submit(&self, buffer: usize, done: SemaphorePoint) {
+        // SAFETY: the caller's promise.
+        unsafe { self.submit_behind(buffer, &[], done) };
+    }
+
+    /// # Safety
+    /// That of [`Commands::submit`].
+    unsafe fn submit_behind(&self, buffer: usize, waits: &[SemaphorePoint], done: SemaphorePoint) {
+        let info = |it: &SemaphorePoint| {
+            vk::SemaphoreSubmitInfo::default().semaphore(it.semaphore).value(it.value).stage_mask(it.stages)
+        };
+        let waits: Vec<_> = waits.iter().map(info).collect();
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.buffers[buffer])];
-        let signals =
-            [vk::SemaphoreSubmitInfo::default().semaphore(done.semaphore).value(done.value).stage_mask(done.stages)];
-        let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals)];
+        let signals = [info(&done)];
+        let submits = [vk::SubmitInfo2::default()
+            .wait_semaphore_infos(&waits)
+            .command_buffer_infos(&buffers)
+            .signal_semaphore_infos(&signals)];
         // SAFETY: the caller's promise.
         unsafe { self.device.raw().queue_submit2(self.queue, &submits, vk::Fence::null()) }.expect("submitted");
     }
@@ -368,6 +381,29 @@ fn frames_are_recorded_into_command_buffers_that_the_program_submits() {
                 unsafe { destroy_image(device, image) };
             }
         }
+    });
+}
+
+#[test]
+fn a_frame_that_the_program_submits_is_over_when_its_semaphore_says_so() {
+    on_each_driver(|device| {
+        let [gate, done] = [Semaphore::timeline(device), Semaphore::timeline(device)];
+        let commands = Commands::new(device, 1);
+        let mut executor = executor(device, &planned(device, &counting(), &Options::default()), 1);
+        // SAFETY: the command buffer is submitted once.
+        unsafe {
+            let record = |commands| executor.record_into(commands, done.at(1), &[], &mut Nothing);
+            commands.record(0, record).expect("a frame");
+            commands.submit_behind(0, &[gate.at(1)], done.at(1));
+        }
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                std::thread::sleep(Duration::from_millis(50));
+                gate.signal(1);
+            });
+            executor.wait(0).expect("it ends");
+            assert_eq!(done.value(), 1);
+        });
     });
 }
 

@@ -66,7 +66,7 @@ fn save(arguments: &DevicesArguments, file: &Path) -> Result<Exit, Error> {
     outputs::prepare(std::iter::once(file), &read)?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;
     let helper = Some(helper::usual(arguments.caching)?);
-    let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
+    let device = Device::open(&DeviceOptions { choice, validation: false, helper, ..DeviceOptions::default() })?;
     let profile = device.profile().with_usual_needs(&mut device.memory());
     let text = profile.to_ron().map_err(|problem| Error::Unwritable(problem.to_string()))?;
     outputs::write(&[(file, text.as_bytes())], &read)?;
@@ -97,7 +97,12 @@ fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
         return Ok(Vec::new());
     }
     let choice = DeviceChoice::Index(device.index);
-    match Device::open(&DeviceOptions { choice, validation: false, helper: Some(helper.clone()) }) {
+    match Device::open(&DeviceOptions {
+        choice,
+        validation: false,
+        helper: Some(helper.clone()),
+        ..DeviceOptions::default()
+    }) {
         Ok(device) => Ok(device.used_without()),
         Err(problem) => Err(problem.to_string()),
     }

@@ -89,7 +89,7 @@ fn open(pipeline: &Loaded) -> Result<Device, Error> {
     interrupt::watch();
     let helper = Some(pipeline.assets.helper.clone());
     let choice = device::to_draw_on(None)?;
-    let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
+    let device = Device::open(&DeviceOptions { choice, validation: false, helper, ..DeviceOptions::default() })?;
     device.cancel_when(interrupt::asked);
     Ok(device)
 }

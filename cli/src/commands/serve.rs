@@ -30,7 +30,12 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     let (publish, shown) = watch::channel(serving::Published::default());
     let (send, choices) = mpsc::channel();
     let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
-    let device = Device::open(&DeviceOptions { choice, validation: false, helper: Some(helper.clone()) })?;
+    let device = Device::open(&DeviceOptions {
+        choice,
+        validation: false,
+        helper: Some(helper.clone()),
+        ..DeviceOptions::default()
+    })?;
     device.cancel_when(interrupt::asked);
     let mut session = Session::new(arguments, &device, helper);
     text::print(&format!("http://{address}/ shows the page; Ctrl-C ends it\n")).map_err(Error::Print)?;

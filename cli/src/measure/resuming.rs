@@ -53,7 +53,8 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let _held = store::hold(&arguments.output)?;
     interrupt::watch();
     let helper = Some(pipeline.assets.helper.clone());
-    let device = Device::open(&DeviceOptions { choice: chosen, validation: false, helper })?;
+    let device =
+        Device::open(&DeviceOptions { choice: chosen, validation: false, helper, ..DeviceOptions::default() })?;
     device.cancel_when(interrupt::asked);
     let set = pipeline.set.clone();
     let mut references = References::of(arguments.output.clone());

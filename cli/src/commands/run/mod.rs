@@ -53,7 +53,8 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     interrupt::watch();
 
     let helper = Some(subject.assets().helper.clone());
-    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate, helper })?;
+    let device =
+        Device::open(&DeviceOptions { choice, validation: arguments.validate, helper, ..DeviceOptions::default() })?;
     device.cancel_when(interrupt::asked);
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let (plan, frame) = subject.planned(arguments, &scene, &device)?;

@@ -1,0 +1,11 @@
+//! Windows: surfaces, their swapchains, and frames that are shown in them.
+
+mod presentation;
+mod surface;
+mod swapchain;
+
+pub use presentation::Presentation;
+pub use surface::Surface;
+pub use swapchain::{PresentMode, Swapchain, SwapchainOptions};
+
+pub(crate) use swapchain::SwapchainHandle;

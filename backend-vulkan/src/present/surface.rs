@@ -1,0 +1,118 @@
+//! Surfaces: what a window system shows pictures in.
+
+use crate::base::Error;
+use crate::gpu::{Device, Gpu};
+use ash::{khr, vk};
+use raw_window_handle::{RawDisplayHandle, RawWindowHandle};
+use std::sync::Arc;
+
+/// The surface of a window. Clones share it; it is destroyed when the last clone and the last
+/// swapchain made for it are gone.
+#[derive(Clone)]
+pub struct Surface {
+    pub(super) handle: Arc<SurfaceHandle>,
+}
+
+/// Vulkan's surface.
+pub(super) struct SurfaceHandle {
+    pub(super) gpu: Arc<Gpu>,
+    pub(super) functions: khr::surface::Instance,
+    pub(super) raw: vk::SurfaceKHR,
+}
+
+impl Device {
+    /// The surface of a window, by the handles of the window system (`winit` and others give them). The device must have been opened
+    /// for the display ([`DeviceOptions::display`](crate::DeviceOptions::display)).
+    ///
+    /// # Errors
+    /// [`Error::CantPresent`] if driver or device can't show anything in such a window.
+    ///
+    /// # Safety
+    /// The handles must be valid, the display be the one that the device was opened for, and window and display outlive the surface.
+    pub unsafe fn surface(&self, display: RawDisplayHandle, window: RawWindowHandle) -> Result<Surface, Error> {
+        self.surface_by(|entry, instance| {
+            // SAFETY: the caller's promise. The extensions for the display are on.
+            unsafe { ash_window::create_surface(entry, instance, display, window, None) }
+        })
+    }
+
+    /// A surface that the program made itself, from this device's instance. It is destroyed here.
+    ///
+    /// # Errors
+    /// Those of [`Device::surface`]. The surface is destroyed all the same, unless the device can't present at all.
+    ///
+    /// # Safety
+    /// The surface must be of the same instance as the device, live, and be used by nobody else. Its window outlives it.
+    pub unsafe fn adopt_surface(&self, surface: vk::SurfaceKHR) -> Result<Surface, Error> {
+        self.surface_by(|_, _| Ok(surface))
+    }
+
+    fn surface_by(
+        &self,
+        create: impl FnOnce(&ash::Entry, &ash::Instance) -> Result<vk::SurfaceKHR, vk::Result>,
+    ) -> Result<Surface, Error> {
+        let gpu = &self.gpu;
+        if !gpu.presents {
+            return Err(self.cant_present("it has no VK_KHR_swapchain, or the instance no VK_KHR_surface"));
+        }
+        let entry = gpu.instance.entry()?;
+        let raw = create(&entry, &gpu.instance.raw).map_err(|result| match result {
+            vk::Result::ERROR_EXTENSION_NOT_PRESENT => self.cant_present("it knows no surfaces of this window system"),
+            result => Error::Vulkan { doing: "making a surface", result },
+        })?;
+        let functions = khr::surface::Instance::new(&entry, &gpu.instance.raw);
+        let surface = Surface { handle: Arc::new(SurfaceHandle { gpu: gpu.clone(), functions, raw }) };
+        let family = gpu.queues.families.graphics.index;
+        // SAFETY: the surface is of the same instance as the device, which has the queue family.
+        let supported =
+            unsafe { surface.handle.functions.get_physical_device_surface_support(gpu.physical, family, raw) };
+        match supported {
+            Ok(true) => Ok(surface),
+            _ => Err(self.cant_present("its graphics queue can't present to this surface")),
+        }
+    }
+
+    fn cant_present(&self, why: &'static str) -> Error {
+        Error::CantPresent { device: self.summary().name.clone(), why }
+    }
+}
+
+impl SurfaceHandle {
+    /// What swapchains for it can be.
+    pub(super) fn capabilities(&self) -> Result<vk::SurfaceCapabilitiesKHR, Error> {
+        // SAFETY: the surface lives, and is of the same instance as the device.
+        unsafe { self.functions.get_physical_device_surface_capabilities(self.gpu.physical, self.raw) }
+            .map_err(presenting("asking for the surface's size"))
+    }
+
+    /// Its formats.
+    pub(super) fn formats(&self) -> Result<Vec<vk::SurfaceFormatKHR>, Error> {
+        // SAFETY: as above.
+        unsafe { self.functions.get_physical_device_surface_formats(self.gpu.physical, self.raw) }
+            .map_err(presenting("asking for the surface's formats"))
+    }
+
+    /// Its present modes.
+    pub(super) fn present_modes(&self) -> Result<Vec<vk::PresentModeKHR>, Error> {
+        // SAFETY: as above.
+        unsafe { self.functions.get_physical_device_surface_present_modes(self.gpu.physical, self.raw) }
+            .map_err(presenting("asking for the surface's present modes"))
+    }
+}
+
+impl Drop for SurfaceHandle {
+    fn drop(&mut self) {
+        if !self.gpu.is_abandoned() {
+            // SAFETY: swapchains for it hold on to it, and are gone.
+            unsafe { self.functions.destroy_surface(self.raw, None) };
+        }
+    }
+}
+
+/// A failed call of a surface or swapchain, for `map_err`.
+pub(super) fn presenting(doing: &'static str) -> impl FnOnce(vk::Result) -> Error {
+    move |result| match result {
+        vk::Result::ERROR_SURFACE_LOST_KHR => Error::SurfaceLost { doing },
+        result => Error::vulkan(doing)(result),
+    }
+}

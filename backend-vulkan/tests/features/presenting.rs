@@ -1,0 +1,303 @@
+//! Frames that are shown in windows of an X server that nobody sees.
+
+use crate::frames::{Small, Uses, dispatch, draw, library, on_each_driver_for, planned, transfer, words};
+use crate::testing::{Nothing, findings};
+use framewright_graph::base::Span;
+use framewright_graph::compile::Options;
+use framewright_graph::frame::{Buffer, BufferIndex, Draw, Frame, Groups, Image, Lifetime, Output, Resource, Work};
+use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
+use framewright_tests::x_server::XServer;
+use framewright_vulkan::raw_window_handle::{RawDisplayHandle, XcbDisplayHandle, XcbWindowHandle};
+use framewright_vulkan::{
+    CustomRecorder, Device, DrawSource, Error, Executor, ExecutorOptions, PresentMode, Presentation, Recorder, Surface,
+    Swapchain, SwapchainOptions,
+};
+use std::ffi::CString;
+use std::num::NonZeroU32;
+use std::ptr::NonNull;
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConfigureWindowAux, ConnectionExt, CreateWindowAux, ImageFormat, WindowClass};
+use x11rb::xcb_ffi::XCBConnection;
+use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "count.comp",
+        "#version 460
+        layout(local_size_x = 1) in;
+        layout(set = 0, binding = 0) buffer Words { uint word[]; };
+        void main() { word[0] += 1; }",
+    ),
+    (
+        "counted.frag",
+        "#version 460
+        layout(set = 0, binding = 0) readonly buffer Words { uint word[]; };
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(word[0] / 255.0, floor(gl_FragCoord.x) / 255.0, 0.0, 1.0); }",
+    ),
+];
+
+const PRESENTED: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr };
+
+/// Counts its frames, and draws the count into the output `screen`.
+fn counting(format: Format, [width, height]: [u32; 2], after: Option<State>) -> Frame {
+    let mut small = Small::default();
+    let lifetime = Lifetime::Persistent { initial: FillValue::Bits([0; 4]) };
+    let count = small.buffer_with("count", 1, lifetime);
+    let screen = small.image_like(Image::new("screen", format, width, height));
+    small.pass(dispatch("count", Groups::Count([1, 1, 1])).block("Words", count, (true, true)));
+    let pass = draw("counted", Draw::FullScreen).block("Words", count, (true, false));
+    small.pass(pass.draws(screen, Subresources::WHOLE, None));
+    small.frame.outputs.push(Output { after, ..Resource::Image(screen).into() });
+    small.frame
+}
+
+fn executor(device: &Device, plan: &Plan) -> Executor {
+    let options = ExecutorOptions { frames_in_flight: 2, ..ExecutorOptions::default() };
+    Executor::new(device, plan, &mut library(SHADERS), &options).expect("an executor")
+}
+
+/// An executor for the images of a swapchain.
+fn executor_for(device: &Device, swapchain: &Swapchain) -> Executor {
+    let (format, extent) = (swapchain.format().expect("an area"), swapchain.extent().expect("an area"));
+    executor(device, &planned(device, &counting(format, extent, Some(PRESENTED)), &Options::default()))
+}
+
+/// UNORM formats, so that texels are what the shader says.
+fn options(extent: [u32; 2]) -> SwapchainOptions {
+    let formats = vec![Format::R8G8B8A8_UNORM, Format::B8G8R8A8_UNORM];
+    SwapchainOptions { extent, formats, ..SwapchainOptions::default() }
+}
+
+/// A window of an X server.
+struct Window {
+    connection: XCBConnection,
+    screen: usize,
+    window: u32,
+}
+
+impl Window {
+    fn new(server: &XServer, [width, height]: [u16; 2]) -> Window {
+        let (connection, screen) =
+            XCBConnection::connect(Some(&CString::new(server.display()).expect("a name"))).expect("the server listens");
+        let window = connection.generate_id().expect("a number");
+        let root = connection.setup().roots[screen].root;
+        let (depth, class, visual) = (COPY_DEPTH_FROM_PARENT, WindowClass::INPUT_OUTPUT, COPY_FROM_PARENT);
+        let more = CreateWindowAux::new();
+        let created = connection.create_window(depth, window, root, 0, 0, width, height, 0, class, visual, &more);
+        created.expect("sent").check().expect("a window");
+        connection.map_window(window).expect("sent").check().expect("it is shown");
+        Window { connection, screen, window }
+    }
+
+    fn resize(&self, [width, height]: [u32; 2]) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.connection.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
+    }
+
+    fn display(&self) -> RawDisplayHandle {
+        let connection = NonNull::new(self.connection.get_raw_xcb_connection());
+        XcbDisplayHandle::new(connection, i32::try_from(self.screen).expect("few")).into()
+    }
+
+    fn surface(&self, device: &Device) -> Result<Surface, Error> {
+        let window = XcbWindowHandle::new(NonZeroU32::new(self.window).expect("a number"));
+        // SAFETY: the window outlives the surface, and the device was opened for its display.
+        unsafe { device.surface(self.display(), window.into()) }
+    }
+
+    /// Waits until the window shows the picture of this size with this count.
+    fn shows(&self, extent: [u32; 2], count: u32) {
+        let expected = [count, extent[0] - 1].map(|component| u8::try_from(component).expect("small"));
+        let begun = Instant::now();
+        while self.edge(extent) != expected {
+            assert!(
+                begun.elapsed() < Duration::from_secs(10),
+                "{:?} is shown, and not {expected:?}",
+                self.edge(extent)
+            );
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Red and green of the pixel at the right end of the first row, as the server shows it.
+    fn edge(&self, [width, _]: [u32; 2]) -> [u8; 2] {
+        let x = i16::try_from(width - 1).expect("small");
+        let image = self.connection.get_image(ImageFormat::Z_PIXMAP, self.window, x, 0, 1, 1, u32::MAX);
+        let pixel = image.expect("sent").reply().expect("a pixel").data;
+        [pixel[2], pixel[1]]
+    }
+}
+
+/// Runs a test with a window of 64 by 48 pixels on each driver that has surfaces of X.
+fn in_windows(test: impl Fn(&Device, &Window, &Surface)) {
+    let server = match XServer::start() {
+        Ok(server) => server,
+        Err(missing) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {missing}");
+            return eprintln!("SKIPPED: {missing}");
+        }
+    };
+    let window = Window::new(&server, [64, 48]);
+    on_each_driver_for(Some(window.display()), |device| {
+        let (name, messages) = (device.summary().name.clone(), device.messages());
+        let surface = window.surface(&device).expect("a surface");
+        window.resize([64, 48]);
+        test(&device, &window, &surface);
+        drop((surface, device));
+        assert_eq!(findings(&messages), [], "{name}");
+    });
+}
+
+#[test]
+fn frames_are_shown_one_after_the_other() {
+    in_windows(|device, window, surface| {
+        let extent = [64, 48];
+        let mut swapchain = Swapchain::new(surface, &options(extent)).expect("a swapchain");
+        assert_eq!(swapchain.extent(), Some(extent));
+        let mut executor = executor_for(device, &swapchain);
+        for frame in 0..20 {
+            let shown = executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+            assert_eq!(shown, Presentation::Shown(frame));
+        }
+        assert_eq!(words(&mut executor, "count"), [20]);
+        window.shows(extent, 20);
+    });
+}
+
+#[test]
+fn a_window_is_resized_a_hundred_times_and_each_picture_is_right() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([32, 32])).expect("a swapchain");
+        let mut before: Option<Executor> = None;
+        let live = device.memory_in_use();
+        for step in 0..100 {
+            let extent = [20 + step % 40, 30 + step % 7];
+            window.resize(extent);
+            assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+            assert_eq!(swapchain.extent(), Some(extent));
+            let mut executor = executor_for(device, &swapchain);
+            if let Some(before) = before.take() {
+                executor.migrate_from(before).expect("the count goes on");
+            }
+            for _ in 0..2 {
+                let shown = executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+                assert!(matches!(shown, Presentation::Shown(_)), "{shown:?}");
+            }
+            assert_eq!(words(&mut executor, "count"), [2 * (step + 1)]);
+            window.shows(extent, 2 * (step + 1));
+            before = Some(executor);
+        }
+        drop(before);
+        assert_eq!(device.memory_in_use(), live);
+    });
+}
+
+#[test]
+fn a_window_that_was_resized_says_so_and_a_new_picture_fits_it() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        window.resize([80, 48]);
+        let said = (0..100).find_map(|_| match executor.present(&mut Nothing, &mut swapchain, "screen") {
+            Ok(Presentation::Shown(_)) => None,
+            said => Some(said),
+        });
+        assert!(matches!(said, Some(Ok(Presentation::OutOfDate | Presentation::Suboptimal(_)))), "{said:?}");
+        assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+        assert_eq!(swapchain.extent(), Some([80, 48]));
+        let refused = executor.present(&mut Nothing, &mut swapchain, "screen").expect_err("it is smaller");
+        assert!(refused.to_string().contains("it has 64x48 texels"), "{refused}");
+        let mut executor = executor_for(device, &swapchain);
+        executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+        window.shows([80, 48], 1);
+    });
+}
+
+/// Gives up a custom pass, or fills its buffer.
+struct GivesUp(bool);
+
+impl DrawSource for GivesUp {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
+        Ok(0)
+    }
+
+    fn custom(&mut self, _: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
+        if self.0 {
+            return Err(Error::DrawSource { what: "it gives up".to_owned() });
+        }
+        recorder.copy("count", "copied");
+        Ok(())
+    }
+}
+
+#[test]
+fn an_image_of_a_frame_that_failed_is_given_up_and_new_ones_are_shown() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let mut frame = counting(swapchain.format().expect("an area"), [64, 48], Some(PRESENTED));
+        frame.buffers.push(Buffer { name: "copied".into(), span: Span::NONE, bytes: 4, lifetime: Lifetime::Transient });
+        let [count, copied] = [0, 1].map(|index| Resource::Buffer(BufferIndex(index)));
+        let sides = [(count, Subresources::WHOLE, false), (copied, Subresources::WHOLE, true)];
+        frame.passes.push(transfer("by hand", Work::Custom { callback: "by_hand".into() }, &sides));
+        frame.outputs.push(copied.into());
+        let mut executor = executor(device, &planned(device, &frame, &Options::default()));
+        for _ in 0..10 {
+            let failed = executor.present(&mut GivesUp(true), &mut swapchain, "screen").expect_err("it gives up");
+            assert_eq!(failed.to_string(), "it gives up");
+            let shown = executor.present(&mut GivesUp(false), &mut swapchain, "screen").expect("no other error");
+            assert_eq!(shown, Presentation::OutOfDate);
+            assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+        }
+        let shown = executor.present(&mut GivesUp(false), &mut swapchain, "screen").expect("shown");
+        assert_eq!(shown, Presentation::Shown(0));
+        window.shows([64, 48], 1);
+    });
+}
+
+#[test]
+fn images_that_do_not_fit_are_refused_by_what_does_not_fit() {
+    in_windows(|device, _, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let format = swapchain.format().expect("an area");
+        let other = Format::R16G16B16A16_SFLOAT;
+        for (frame, name, expected) in [
+            (
+                counting(format, [64, 50], Some(PRESENTED)),
+                "screen",
+                "it has 64x50 texels, and those of the window have 64x48",
+            ),
+            (
+                counting(other, [64, 48], Some(PRESENTED)),
+                "screen",
+                "it is R16G16B16A16_SFLOAT, and those of the window are",
+            ),
+            (counting(format, [64, 48], None), "screen", "the frame doesn't leave it as `Present`"),
+            (counting(format, [64, 48], Some(PRESENTED)), "picture", "the Plan has no such image"),
+        ] {
+            let mut executor = executor(device, &planned(device, &frame, &Options::default()));
+            let refused = executor.present(&mut Nothing, &mut swapchain, name).expect_err("it doesn't fit").to_string();
+            let expected = format!("`{name}` can't be shown: {expected}");
+            assert!(refused.starts_with(&expected), "{refused}");
+        }
+        let mut executor = executor_for(device, &swapchain);
+        let shown = executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+        assert_eq!(shown, Presentation::Shown(0), "what was refused has taken no image");
+    });
+}
+
+#[test]
+fn a_surface_says_which_formats_it_has() {
+    in_windows(|_, _, surface| {
+        let wanted = SwapchainOptions { formats: vec![Format::R32_UINT], ..options([8, 8]) };
+        let refused = Swapchain::new(surface, &wanted).map(drop).expect_err("no such format").to_string();
+        assert!(refused.starts_with("the window has none of the formats R32_UINT; it has "), "{refused}");
+        let modes = [PresentMode::Mailbox, PresentMode::Immediate, PresentMode::FifoRelaxed];
+        for mode in modes {
+            // A mode that isn't there is the one that is always there.
+            assert!(Swapchain::new(surface, &SwapchainOptions { mode, ..options([8, 8]) }).is_ok());
+        }
+    });
+}

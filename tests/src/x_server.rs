@@ -1,0 +1,68 @@
+//! An X server that nobody sees, for tests that show windows.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+
+/// A running X server, and perhaps a window manager. They end with it.
+pub struct XServer {
+    server: Child,
+    manager: Option<Child>,
+    display: String,
+}
+
+impl XServer {
+    /// Starts one with a screen of 1280 by 1024 pixels.
+    ///
+    /// # Errors
+    /// What is missing, in words.
+    pub fn start() -> Result<XServer, String> {
+        let missing = |error: std::io::Error| format!("no Xvfb ({error}); mend it with: apt-get install xvfb openbox");
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .map_err(missing)?;
+        let mut number = String::new();
+        let read = server.stdout.take().map(|out| BufReader::new(out).read_line(&mut number));
+        let started = XServer { server, manager: None, display: format!(":{}", number.trim()) };
+        match read {
+            Some(Ok(bytes)) if bytes > 0 => Ok(started),
+            _ => Err("Xvfb doesn't start".to_owned()),
+        }
+    }
+
+    /// Starts one with a window manager, which can move, resize and minimise windows.
+    ///
+    /// # Errors
+    /// Those of [`XServer::start`].
+    pub fn with_manager() -> Result<XServer, String> {
+        let mut started = XServer::start()?;
+        let manager = Command::new("openbox")
+            .args(["--sm-disable"])
+            .env("DISPLAY", &started.display)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn();
+        started.manager =
+            Some(manager.map_err(|error| format!("no openbox ({error}); mend it with: apt-get install openbox"))?);
+        Ok(started)
+    }
+
+    /// The value of `DISPLAY` for programs that show windows on it.
+    #[must_use]
+    pub fn display(&self) -> &str {
+        &self.display
+    }
+}
+
+impl Drop for XServer {
+    fn drop(&mut self) {
+        for child in self.manager.iter_mut().chain([&mut self.server]) {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
