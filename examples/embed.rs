@@ -44,6 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         dump: &[],
         device: None,
         stereo: frame::Stereo::Off,
+        window: None,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
         .map_err(|mistakes| base::render(&sources, &mistakes))?;

@@ -94,6 +94,7 @@ fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
         dump: &[],
         device: Some(&profile),
         stereo: frame::Stereo::Off,
+        window: None,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
         .map_err(|mistakes| base::render(&sources, &mistakes))?;

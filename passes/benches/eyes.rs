@@ -88,6 +88,7 @@ impl Drawn {
             rotation: Rotation::Identity,
             dump: &[],
             device: Some(&profile),
+            window: None,
             stereo: way.stereo,
         };
         let frame = expand::expand(&document, Arc::new(sources), &inputs, &mut shaders).expect("a frame");

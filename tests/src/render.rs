@@ -117,6 +117,7 @@ pub fn plan_for(
         dump: &[],
         device: profile.as_ref(),
         rotation,
+        window: None,
         stereo,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;

@@ -88,6 +88,7 @@ fn make(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
                 device: None,
                 rotation: Rotation::Identity,
                 stereo: Stereo::Off,
+                window: None,
             };
             let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
                 .unwrap_or_else(|wrong| panic!("{}", base::render(&sources, &wrong)));

@@ -9,7 +9,7 @@ use super::queues::QueueFamilies;
 use super::summary::summary;
 use crate::base::Error;
 use crate::process::Helper;
-use ash::{ext, khr, vk};
+use ash::{khr, vk};
 use std::ffi::CStr;
 use std::sync::Arc;
 
@@ -50,11 +50,7 @@ impl Device {
     /// - While this crate draws, uploads or reads back, no other thread submits to these queues.
     pub unsafe fn adopt(program: &AdoptedDevice<'_>, helper: Option<Helper>) -> Result<Device, Error> {
         let on = |extensions: &[&CStr], name: &CStr| extensions.contains(&name);
-        let instance = Instance::adopted(
-            program.instance.clone(),
-            on(program.instance_extensions, ext::debug_utils::NAME),
-            on(program.instance_extensions, khr::surface::NAME),
-        );
+        let instance = Instance::adopted(program.instance.clone(), program.instance_extensions);
         let summary = summary(&instance, 0, program.physical);
         let lacks = missing(&instance.raw, program.physical);
         if !lacks.is_empty() {

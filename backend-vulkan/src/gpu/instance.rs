@@ -6,7 +6,7 @@ use super::{layer, words};
 use crate::base::Error;
 use ash::{ext, khr, vk};
 use raw_window_handle::RawDisplayHandle;
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 
 /// An instance.
 pub(crate) struct Instance {
@@ -16,6 +16,8 @@ pub(crate) struct Instance {
     pub(crate) labels: bool,
     /// Whether `VK_KHR_surface` is on, which devices that present need.
     pub(crate) surfaces: bool,
+    /// All extensions that are on.
+    extensions: Vec<CString>,
     /// The validation layer, if it is on.
     pub(crate) validation: Option<Validation>,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
@@ -66,7 +68,15 @@ impl Instance {
                 raw = create(&entry, &extensions, Some(validation), &known)?;
             }
         }
-        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, entry: Some(entry) };
+        let mut instance = Instance {
+            raw,
+            labels,
+            surfaces,
+            extensions: extensions.iter().map(|name| (*name).to_owned()).collect(),
+            validation,
+            messenger: None,
+            entry: Some(entry),
+        };
         if let (Some(validation), Some(entry)) = (&instance.validation, &instance.entry) {
             let functions = ext::debug_utils::Instance::new(entry, &instance.raw);
             // SAFETY: the messages live as long as the instance, which destroys the messenger first.
@@ -77,9 +87,23 @@ impl Instance {
         Ok(instance)
     }
 
-    /// An instance that the program made itself, with these extensions or without.
-    pub(super) fn adopted(raw: ash::Instance, labels: bool, surfaces: bool) -> Instance {
-        Instance { raw, labels, surfaces, validation: None, messenger: None, entry: None }
+    /// An instance that the program made itself, with these extensions.
+    pub(super) fn adopted(raw: ash::Instance, extensions: &[&CStr]) -> Instance {
+        Instance {
+            raw,
+            labels: extensions.contains(&ext::debug_utils::NAME),
+            surfaces: extensions.contains(&khr::surface::NAME),
+            extensions: extensions.iter().map(|name| (*name).to_owned()).collect(),
+            validation: None,
+            messenger: None,
+            entry: None,
+        }
+    }
+
+    /// Whether the extensions that surfaces of a display need are on.
+    pub(crate) fn has_surfaces_of(&self, display: RawDisplayHandle) -> bool {
+        let is_on = |name: &CStr| self.extensions.iter().any(|it| **it == *name);
+        window_system(Some(display)).is_ok_and(|names| names.into_iter().all(is_on))
     }
 
     /// The loader.

@@ -3,7 +3,8 @@
 use crate::base::Error;
 use crate::gpu::{Device, Gpu};
 use ash::{khr, vk};
-use raw_window_handle::{RawDisplayHandle, RawWindowHandle};
+use raw_window_handle::{HasDisplayHandle, HasWindowHandle, RawDisplayHandle, RawWindowHandle};
+use std::any::Any;
 use std::sync::Arc;
 
 /// The surface of a window. Clones share it; it is destroyed when the last clone and the last
@@ -18,19 +19,55 @@ pub(super) struct SurfaceHandle {
     pub(super) gpu: Arc<Gpu>,
     pub(super) functions: khr::surface::Instance,
     pub(super) raw: vk::SurfaceKHR,
+    /// Outlives the surface.
+    _window: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 impl Device {
-    /// The surface of a window, by the handles of the window system (`winit` and others give them). The device must have been opened
-    /// for the display ([`DeviceOptions::display`](crate::DeviceOptions::display)).
+    /// The surface of a window, which is kept as long as the surface (`winit` and others have such windows). The device must have been
+    /// opened for its display ([`DeviceOptions::display`](crate::DeviceOptions::display)).
     ///
     /// # Errors
-    /// [`Error::CantPresent`] if driver or device can't show anything in such a window.
+    /// [`Error::CantPresent`] if driver or device can't show anything in such a window, or the window is gone.
+    pub fn surface<W>(&self, window: Arc<W>) -> Result<Surface, Error>
+    where
+        W: HasDisplayHandle + HasWindowHandle + Send + Sync + 'static,
+    {
+        let gone = |_| self.cant_present("the window has no handles any more");
+        let display = window.display_handle().map_err(gone)?.as_raw();
+        let handle = window.window_handle().map_err(gone)?.as_raw();
+        // SAFETY: the handles are valid as long as the window, which the surface keeps.
+        unsafe { self.surface_of(display, handle, Some(window.clone())) }
+    }
+
+    /// The surface of a window, by the handles of the window system.
+    ///
+    /// # Errors
+    /// Those of [`Device::surface`].
     ///
     /// # Safety
-    /// The handles must be valid, the display be the one that the device was opened for, and window and display outlive the surface.
-    pub unsafe fn surface(&self, display: RawDisplayHandle, window: RawWindowHandle) -> Result<Surface, Error> {
-        self.surface_by(|entry, instance| {
+    /// The handles must be valid, and window and display outlive the surface.
+    pub unsafe fn surface_from_raw(
+        &self,
+        display: RawDisplayHandle,
+        window: RawWindowHandle,
+    ) -> Result<Surface, Error> {
+        // SAFETY: the caller's promise.
+        unsafe { self.surface_of(display, window, None) }
+    }
+
+    /// # Safety
+    /// The handles must be valid as long as `owner` lives, or the surface.
+    unsafe fn surface_of(
+        &self,
+        display: RawDisplayHandle,
+        window: RawWindowHandle,
+        owner: Option<Arc<dyn Any + Send + Sync>>,
+    ) -> Result<Surface, Error> {
+        if !self.gpu.instance.has_surfaces_of(display) {
+            return Err(self.cant_present("the device was opened for another display, or for none"));
+        }
+        self.surface_by(owner, |entry, instance| {
             // SAFETY: the caller's promise. The extensions for the display are on.
             unsafe { ash_window::create_surface(entry, instance, display, window, None) }
         })
@@ -44,11 +81,12 @@ impl Device {
     /// # Safety
     /// The surface must be of the same instance as the device, live, and be used by nobody else. Its window outlives it.
     pub unsafe fn adopt_surface(&self, surface: vk::SurfaceKHR) -> Result<Surface, Error> {
-        self.surface_by(|_, _| Ok(surface))
+        self.surface_by(None, |_, _| Ok(surface))
     }
 
     fn surface_by(
         &self,
+        owner: Option<Arc<dyn Any + Send + Sync>>,
         create: impl FnOnce(&ash::Entry, &ash::Instance) -> Result<vk::SurfaceKHR, vk::Result>,
     ) -> Result<Surface, Error> {
         let gpu = &self.gpu;
@@ -61,7 +99,7 @@ impl Device {
             result => Error::Vulkan { doing: "making a surface", result },
         })?;
         let functions = khr::surface::Instance::new(&entry, &gpu.instance.raw);
-        let surface = Surface { handle: Arc::new(SurfaceHandle { gpu: gpu.clone(), functions, raw }) };
+        let surface = Surface { handle: Arc::new(SurfaceHandle { gpu: gpu.clone(), functions, raw, _window: owner }) };
         let family = gpu.queues.families.graphics.index;
         // SAFETY: the surface is of the same instance as the device, which has the queue family.
         let supported =

@@ -15,7 +15,8 @@ use std::time::{Duration, Instant};
 pub struct SwapchainOptions {
     /// Width and height of the pictures, where the surface leaves them to the program: X11 and Windows don't.
     pub extent: [u32; 2],
-    /// Formats that will do, the best first. Each is taken as sRGB's colour space.
+    /// Formats that will do, the best first; those of sRGB by default. Each is taken in sRGB's colour space: of UNORM formats the
+    /// pipeline encodes the values itself.
     pub formats: Vec<Format>,
     /// When a picture is shown. A surface that lacks the mode waits for the screen ([`PresentMode::Fifo`]), which each one has.
     pub mode: PresentMode,
@@ -32,7 +33,7 @@ impl Default for SwapchainOptions {
     fn default() -> SwapchainOptions {
         SwapchainOptions {
             extent: [1280, 720],
-            formats: vec![Format::R8G8B8A8_SRGB, Format::B8G8R8A8_SRGB, Format::R8G8B8A8_UNORM, Format::B8G8R8A8_UNORM],
+            formats: vec![Format::R8G8B8A8_SRGB, Format::B8G8R8A8_SRGB],
             mode: PresentMode::Fifo,
             images: 3,
             turned: false,

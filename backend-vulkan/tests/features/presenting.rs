@@ -1,6 +1,8 @@
 //! Frames that are shown in windows of an X server that nobody sees.
 
-use crate::frames::{Small, Uses, dispatch, draw, library, on_each_driver_for, planned, transfer, words};
+use crate::frames::{
+    Small, Uses, dispatch, draw, library, on_each_driver_for, on_each_driver_with, planned, transfer, words,
+};
 use crate::testing::{Nothing, findings};
 use framewright_graph::base::Span;
 use framewright_graph::compile::Options;
@@ -105,7 +107,7 @@ impl Window {
     fn surface(&self, device: &Device) -> Result<Surface, Error> {
         let window = XcbWindowHandle::new(NonZeroU32::new(self.window).expect("a number"));
         // SAFETY: the window outlives the surface, and the device was opened for its display.
-        unsafe { device.surface(self.display(), window.into()) }
+        unsafe { device.surface_from_raw(self.display(), window.into()) }
     }
 
     /// Waits until the window shows the picture of this size with this count.
@@ -285,6 +287,17 @@ fn images_that_do_not_fit_are_refused_by_what_does_not_fit() {
         let mut executor = executor_for(device, &swapchain);
         let shown = executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
         assert_eq!(shown, Presentation::Shown(0), "what was refused has taken no image");
+    });
+}
+
+#[test]
+fn a_device_that_was_opened_for_no_display_shows_nothing() {
+    in_windows(|_, window, _| {
+        on_each_driver_with(|device| {
+            let refused = window.surface(&device).map(drop).expect_err("it wasn't opened for it").to_string();
+            let expected = "can't show anything in this window: the device was opened for another display, or for none";
+            assert!(refused.ends_with(expected), "{refused}");
+        });
     });
 }
 

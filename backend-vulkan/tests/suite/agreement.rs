@@ -44,6 +44,7 @@ fn planned(device: &Device, interfaces: DrawInterfaces) -> Result<Plan, String> 
         dump: &[],
         device: Some(&profile),
         stereo: Stereo::Off,
+        window: None,
     };
     expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders(interfaces))
         .and_then(|frame| compile::compile(&frame, &profile, &mut device.memory(), &Options::default()))

@@ -250,6 +250,7 @@ pub(crate) fn inputs<'a>(
         facts_known: view.facts.is_some(),
         output_extent: [view.size.width, view.size.height],
         rotation: view.rotation,
+        window: None,
         dump: view.dump,
         device,
         stereo,

@@ -59,6 +59,7 @@ pub(crate) fn frame(text: String) -> Frame {
         dump: &[],
         device: None,
         stereo: Stereo::Off,
+        window: None,
         rotation: Rotation::Identity,
     };
     expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")

@@ -80,7 +80,7 @@ fn expand_so(
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
     let mut said = once::Said::default();
-    let mut resources = Resources::resolve(&pipeline, inputs.output_extent, &mut errors);
+    let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
     said.each_once(&mut errors, 0);
 
     let mut checked = shader::Checked::new(shaders, &sources);

@@ -15,11 +15,20 @@ pub(super) struct FrameImage {
     pub(super) samples_because: Option<Arc<str>>,
 }
 
-/// Every image of the pipeline in a frame of this size; `None` where a mistake was reported.
-pub(super) fn resolve(pipeline: &Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Vec<Option<FrameImage>> {
+/// Every image of the pipeline in a frame of this size, whose outputs for a screen have the format `output`; `None` where a mistake
+/// was reported.
+pub(super) fn resolve(
+    pipeline: &Pipeline,
+    extent: [u32; 2],
+    output: Format,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<Option<FrameImage>> {
     let images = &pipeline.images;
-    let formats =
-        follow_all(images, |image| image.format.value.follows().map(index), |image, followed| format(image, followed));
+    let formats = follow_all(
+        images,
+        |image| image.format.value.follows().map(index),
+        |image, followed| format(image, output, followed),
+    );
     let areas = follow_all(
         images,
         |image| image.size.value.follows().map(index),
@@ -80,10 +89,11 @@ pub(super) fn index(of: ImageRef) -> usize {
     of.index.0 as usize
 }
 
-fn format(image: &language::Image, followed: Option<Format>) -> Option<Format> {
+fn format(image: &language::Image, output: Format, followed: Option<Format>) -> Option<Format> {
     match image.format.value {
         Described::Color { hdr: true, .. } => Some(Format::R16G16B16A16_SFLOAT),
-        Described::Color { hdr: false, .. } | Described::Output => Some(Format::R8G8B8A8_SRGB),
+        Described::Color { hdr: false, .. } => Some(Format::R8G8B8A8_SRGB),
+        Described::Output => Some(output),
         Described::Depth => Some(Format::D32_SFLOAT),
         Described::DepthStencil => Some(Format::D32_SFLOAT_S8_UINT),
         Described::Named(format) => Some(format),

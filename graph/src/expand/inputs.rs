@@ -6,7 +6,7 @@ use crate::base::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Allowances, Stereo};
 use crate::language::{Document, Facts, LARGEST_SIZE, Reads, Surroundings};
-use crate::vulkan::Rotation;
+use crate::vulkan::{Format, Rotation};
 
 /// The inputs that a pipeline is expanded with, beside its file.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +25,10 @@ pub struct Inputs<'a> {
     /// The rotation of outputs for a screen: those whose image has `format: Output`, or that leave the frame as
     /// `Hdr10`. Sizes are those of the upright picture.
     pub rotation: Rotation,
+    /// The format of the window's images that the outputs for a screen are drawn into, as [`Inputs::rotation`] says which those are:
+    /// images with `format: Output` have it, and such an output is left as `Present` unless the pipeline says otherwise. `None`: the
+    /// frame isn't shown in a window, and `Output` is `R8G8B8A8_SRGB`.
+    pub window: Option<Format>,
     /// Names of further images that leave the frame.
     pub dump: &'a [String],
     /// How the frame is drawn for two eyes.

@@ -4,7 +4,7 @@ use super::inputs::Inputs;
 use super::resources::Resources;
 use crate::base::{Diagnostic, Span, suggestion};
 use crate::frame::{Eye, ImageIndex, Output, Resource};
-use crate::language::{self, Pipeline};
+use crate::language::{self, Pipeline, State, StateWord};
 use crate::ron::Spanned;
 use crate::vulkan::{Encoding, Rotation};
 
@@ -15,10 +15,13 @@ pub(super) fn outputs(resources: &Resources<'_>, inputs: &Inputs<'_>, errors: &m
     let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
     for output in &pipeline.outputs {
         let language::ResourceRef { resource, span } = output.resource;
-        let after = output.after.and_then(|after| resources.left(resource, after, errors));
         let encoding = output.encoding.filter(|encoding| encoded(resources, resource, *encoding, errors));
         let encoding = encoding.map(|encoding| encoding.value);
-        let rotation = if shown(resources, resource, encoding) { inputs.rotation } else { Rotation::Identity };
+        let shown = shown(resources, resource, encoding);
+        let rotation = if shown { inputs.rotation } else { Rotation::Identity };
+        let presented = Spanned { value: State::Word(StateWord::Present), span };
+        let after = output.after.or((shown && inputs.window.is_some()).then_some(presented));
+        let after = after.and_then(|after| resources.left(resource, after, errors));
         outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });
     }
     if inputs.rotation.turns() && !outputs.iter().any(|output| output.rotation.turns()) {

@@ -1,13 +1,14 @@
 //! Images and buffers of the frame, each from its declaration and the image or buffer that it follows.
 
 use super::follow::{follow, follow_all};
+use super::inputs::Inputs;
 use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Pipeline};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::State;
 use crate::vulkan::states::{Subject, When};
+use crate::vulkan::{Format, State};
 use std::sync::Arc;
 
 /// The pipeline at hand, with everything that passes name; `None` where a mistake was reported.
@@ -18,9 +19,10 @@ pub(super) struct Resources<'a> {
 }
 
 impl<'a> Resources<'a> {
-    /// Resolves all of them, in a frame of this size.
-    pub(super) fn resolve(pipeline: &'a Pipeline, extent: [u32; 2], errors: &mut Vec<Diagnostic>) -> Resources<'a> {
-        let mut images = images::resolve(pipeline, extent, errors);
+    /// Resolves all of them, for a frame with these inputs.
+    pub(super) fn resolve(pipeline: &'a Pipeline, inputs: &Inputs<'_>, errors: &mut Vec<Diagnostic>) -> Resources<'a> {
+        let output = inputs.window.unwrap_or(Format::R8G8B8A8_SRGB);
+        let mut images = images::resolve(pipeline, inputs.output_extent, output, errors);
         let lifetimes = lifetimes(pipeline);
         let (of_images, of_buffers) = lifetimes.split_at(images.len());
         for ((image, described), kept) in images.iter_mut().zip(&pipeline.images).zip(of_images) {

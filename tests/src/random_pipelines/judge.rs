@@ -186,6 +186,7 @@ impl Judge {
             dump: &[],
             device: None,
             stereo: Stereo::Off,
+            window: None,
         };
         expand::expand(&described, sources.clone(), &inputs, &mut self.shaders).map_err(refused)
     }

@@ -4,7 +4,7 @@ use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Blend, Face, Image, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::language::Facts;
-use framewright_graph::vulkan::{CompareOp, Filter, Format};
+use framewright_graph::vulkan::{CompareOp, Filter, Format, Layout};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
 fn pipeline(settings: &str, images: &str, passes: &str) -> String {
@@ -95,6 +95,26 @@ fn a_chain_as_long_as_a_file_is_followed() {
     let images = chain + r#"(name: "i20000", format: R32_UINT, size: Fixed(3, 4))"#;
     let frame = right(&pipeline("", &images, ""), &INPUTS);
     assert_eq!((frame.images[1].format, frame.images[1].extent), (Format::R32_UINT, [3, 4, 1]));
+}
+
+#[test]
+fn outputs_for_a_screen_have_the_window_s_format_and_are_left_to_be_presented() {
+    let image = r#"(name: "image", format: Output, size: Output), (name: "like", format: Like("image"), size: Output),
+                   (name: "color", format: Color, size: Output)"#;
+    let text = pipeline("", image, "");
+    let of = |window| {
+        let frame = right(&text, &Inputs { window, ..INPUTS });
+        let layouts: Vec<_> = frame.outputs.iter().map(|output| output.after.map(|after| after.layout)).collect();
+        (frame.images.iter().map(|image| image.format).collect::<Vec<_>>(), layouts)
+    };
+    let (formats, layouts) = of(None);
+    assert_eq!((&formats[1..], layouts), (&[Format::R8G8B8A8_SRGB; 3][..], vec![None]));
+    let window = Format::B8G8R8A8_SRGB;
+    let (formats, layouts) = of(Some(window));
+    assert_eq!(
+        (&formats[1..], layouts),
+        (&[window, window, Format::R8G8B8A8_SRGB][..], vec![Some(Layout::PresentSrcKhr)])
+    );
 }
 
 #[test]

@@ -17,6 +17,7 @@ pub(crate) const INPUTS: Inputs<'static> = Inputs {
     dump: &[],
     device: None,
     stereo: Stereo::Off,
+    window: None,
     rotation: Rotation::Identity,
 };
 

@@ -55,6 +55,7 @@ fn planned(device: &Device, text: &str, rotation: Rotation) -> Result<Plan, Stri
         device: None,
         rotation: Rotation::Identity,
         stereo: Stereo::Off,
+        window: None,
     };
     let mut frame: Frame = expand(&read.map_err(shown)?, sources.clone(), &inputs, &mut library()).map_err(shown)?;
     frame.outputs.iter_mut().for_each(|output| output.rotation = rotation);
