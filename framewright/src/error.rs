@@ -3,11 +3,13 @@
 use framewright_graph::base::{self, Diagnostic, Sources, amount, escape};
 use framewright_graph::verify::Violation;
 use framewright_passes::scene::SceneError;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// An error of this crate. Its text shows mistakes in files with their lines; [`Error::diagnostics`] has them as data.
-#[derive(Debug, thiserror::Error)]
+/// An error of this crate. Its text shows mistakes in files with their lines; [`Error::diagnostics`] has them as data. `{:?}` is the same
+/// text, which a `main` that returns an error prints.
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A file is missing, and nothing shipped has its name.
@@ -96,6 +98,12 @@ pub struct Mistakes {
     pub diagnostics: Vec<Diagnostic>,
     /// Whether a file is there and the user has no right to read it: then nothing is wrong with the files.
     pub denied: bool,
+}
+
+impl fmt::Debug for Error {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "{self}")
+    }
 }
 
 impl Error {

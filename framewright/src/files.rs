@@ -69,7 +69,10 @@ impl PipelineFile {
                 let found = |relative| Found { shown: file.to_owned(), relative, bytes: text.as_bytes().to_vec() };
                 if options.extensions.is_empty() {
                     let files = PipelineFiles::shipped(shipped::PIPELINES);
-                    return Ok(PipelineFile { shipped: true, ..PipelineFile::of(found(file.into()), files, None, read) });
+                    return Ok(PipelineFile {
+                        shipped: true,
+                        ..PipelineFile::of(found(file.into()), files, None, read)
+                    });
                 }
                 // Extensions of the user's own bring files of their own: the working directory takes the place of the folder.
                 let root = limited(path, Root::new(".".into()), &options.reach)?;

@@ -8,7 +8,7 @@
 //! let scene = load_scene("spheres_and_cubes")?;
 //! let mut renderer = Renderer::open(&device, "forward", RendererOptions::default())?;
 //! renderer.set("msaa", 4)?;
-//! renderer.set_scene(&scene)?;
+//! renderer.set_scene(&scene);
 //! renderer.set_extent([640, 360])?;
 //! let mut objects = SceneDrawSource::for_plan(&device, &scene, [640, 360], renderer.prepare()?.plan)?;
 //! renderer.frame(&mut objects)?;
@@ -46,7 +46,8 @@ pub use framewright_graph::vulkan::Rotation;
 pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
-    CustomRecorder, Device, DeviceOptions, DrawSource, Executor, ExecutorOptions, Helper, Recorder, ShaderLibrary, Texels,
+    CustomRecorder, Device, DeviceOptions, DrawSource, Executor, ExecutorOptions, Helper, Recorder, ShaderLibrary,
+    Texels,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, shaders, textures};

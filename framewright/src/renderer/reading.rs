@@ -24,8 +24,7 @@ impl Reading {
     /// Reads the pipeline `path`. All files that are read, now or later, are recorded in `read`.
     pub(super) fn begin(path: &Path, options: &RendererOptions, read: &ReadFiles) -> Result<Reading, Error> {
         let file = PipelineFile::find(path, &options.files, read)?;
-        let shaders =
-            shaders(file.root(), &options.shaders, options.draws.clone(), options.helper.as_ref(), read);
+        let shaders = shaders(file.root(), &options.shaders, options.draws.clone(), options.helper.as_ref(), read);
         let mut pipeline = file.read()?;
         let settings = pipeline.read_settings(&options.settings, read)?;
         let mut reading = Reading { pipeline, settings, shaders };
