@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws a scene with a shipped pipeline, as `embed.rs` does.
+/// Draws a scene with a shipped pipeline, layer by layer; `Renderer` does all of it in one.
 fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let scene = scene::load(&examples.join("scenes/spheres_and_cubes.ron"))?;

@@ -1,4 +1,4 @@
-//! `cargo bench --profile dev -p framewright --bench instructions`: the instructions that checking all variants of `forward`
+//! `cargo bench --profile dev -p framewright-cli --bench instructions`: the instructions that checking all variants of `forward`
 //! takes, beside the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It
 //! needs valgrind. The profile `dev` counts what tests build anyway.
 //!
@@ -14,7 +14,7 @@ use counts::{Code, Guard};
 use std::error::Error;
 use std::process::{Command, ExitCode};
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --profile dev -p framewright --bench instructions";
+const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --profile dev -p framewright-cli --bench instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

@@ -1,4 +1,4 @@
-//! `cargo bench --package framewright`: how many variants of `forward` are checked in a second, beside the project's goal.
+//! `cargo bench --package framewright-cli`: how many variants of `forward` are checked in a second, beside the project's goal.
 //!
 //! The measured program is the command as a user runs it, on as many threads as there are processors. Each time is the least of
 //! many runs: other work on the machine only adds. A run is mostly its beginning, in which the shaders are compiled; so the

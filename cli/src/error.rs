@@ -46,6 +46,9 @@ pub(crate) enum Error {
     /// The scene is wrong.
     #[error("{0}")]
     Scene(Box<SceneError>),
+    /// Another error of the library that this command is made of.
+    #[error("{}", text::escape_lines(&.0.to_string()))]
+    Library(Box<framewright::Error>),
     /// A device profile is wrong.
     #[error("{}:{}", text::path(path), text::escape(&problem.to_string()))]
     Profile { path: PathBuf, problem: framewright_graph::device::ProfileError },
@@ -271,6 +274,26 @@ pub(crate) struct Mistakes {
     pub(crate) exit: Exit,
 }
 
+impl From<framewright::Error> for Error {
+    fn from(error: framewright::Error) -> Error {
+        use framewright::Error as Face;
+        match error {
+            Face::Missing { what, path, shipped } => Error::Missing { what, path, shipped },
+            Face::Unreadable { what, path, source } => Error::Read { what, path, source },
+            Face::TooLarge { what, path, limit } => Error::TooLarge { what, path, limit },
+            Face::NotText { what, path, at } => Error::NotText { what, path, at },
+            Face::OutsideRoot { pipeline, root } => Error::OutsideRoot { pipeline, root },
+            Face::Mistakes { mistakes } => {
+                let exit = if mistakes.denied { Exit::Environment } else { Exit::Found };
+                Error::mistakes(mistakes.sources, mistakes.diagnostics, exit)
+            }
+            Face::Scene(problem) => Error::Scene(problem),
+            Face::Vulkan(problem) => Error::Vulkan(problem),
+            other => Error::Library(Box::new(other)),
+        }
+    }
+}
+
 impl Error {
     /// Mistakes of a pipeline, or of what the command line asks of it, with the options that mend them.
     pub(crate) fn mistakes(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
@@ -344,6 +367,7 @@ impl Error {
             | Error::CustomPass { .. }
             | Error::Unwritable(_)
             | Error::Json(_)
+            | Error::Library(_)
             | Error::Plan(_) => Exit::Found,
             // What has no output at all is wrong itself.
             Error::NoOutput { outputs, .. } if outputs.is_empty() => Exit::Found,

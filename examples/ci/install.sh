@@ -33,7 +33,7 @@ fi
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends "${packages[@]}"
 
 if [ $# -eq 2 ]; then
-    cargo install --locked --git "$1" --rev "$2" framewright
+    cargo install --locked --git "$1" --rev "$2" framewright-cli
 else
     cargo install --locked --path "$1/cli"
 fi

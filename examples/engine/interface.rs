@@ -1,5 +1,5 @@
-use framewright_graph::frame::Draw;
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, Supplied, SuppliedKind};
+use framewright::graph::frame::Draw;
+use framewright::graph::shader::{Attribute, DrawInterface, DrawInterfaces, Supplied, SuppliedKind};
 
 /// Everything that the engine's draws bring along, and the custom passes that it records.
 pub(crate) fn interfaces() -> DrawInterfaces {

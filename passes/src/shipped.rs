@@ -1,13 +1,17 @@
-//! The shipped shaders, carried within the binary.
+//! The shipped shaders, pipelines and scenes, carried within the binary.
 
-macro_rules! shaders {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../shaders/", $name)))),*]
+use framewright_graph::language::Shipped;
+use std::path::Path;
+
+macro_rules! carried {
+    ($folder:literal: $($file:literal),* $(,)?) => {
+        &[$(($file, include_str!(concat!("../", $folder, "/", $file)))),*]
     };
 }
 
 /// Name, as a pipeline file or an `#include` says it, and GLSL text of each shipped shader.
-pub const SHADERS: &[(&str, &str)] = shaders![
+pub const SHADERS: Shipped = carried!(
+    "shaders":
     "accumulate.frag",
     "adapt_exposure.comp",
     "ambient_occlusion.frag",
@@ -100,4 +104,57 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "tone_map.frag",
     "tone_map_operator.frag",
     "vignette.frag",
-];
+);
+
+/// The files in `examples/pipelines`: pipelines, and in folders what they are made of.
+pub const PIPELINES: Shipped = carried!(
+    "pipelines":
+    "auto_exposure.ron",
+    "deferred.ron",
+    "deferred_mobile.ron",
+    "dynamic_resolution.ron",
+    "forward.ron",
+    "forward_overlay.ron",
+    "image_quality.ron",
+    "library/ambient_occlusion.ron",
+    "library/bloom.ron",
+    "library/blur.ron",
+    "library/color_grading.ron",
+    "library/depth_of_field.ron",
+    "library/depth_stripes.ron",
+    "library/film.ron",
+    "library/fxaa.ron",
+    "library/motion.ron",
+    "library/over_bright.ron",
+    "library/overlay.ron",
+    "library/resolve.ron",
+    "library/scale.ron",
+    "library/sun_shadow.ron",
+    "library/taa.ron",
+    "library/tone_mapping.ron",
+    "library/upscaler.ron",
+    "post.ron",
+    "shadows.ron",
+    "snow.ron",
+    "soft_focus.ron",
+    "temporal.ron",
+);
+
+/// The scenes in `examples/scenes`.
+pub const SCENES: Shipped = carried!("scenes": "courtyard.ron", "passing.ron", "spheres_and_cubes.ron");
+
+/// Names by which shipped files are asked for: of those in no folder, without their ending.
+pub fn names(files: Shipped) -> impl Iterator<Item = &'static str> {
+    files.iter().filter_map(|(file, _)| name(file))
+}
+
+/// File name and text of the shipped file that `path` asks for: by name or file name, in no folder.
+#[must_use]
+pub fn find(files: Shipped, path: &Path) -> Option<(&'static str, &'static str)> {
+    let called = |file: &str| name(file).is_some_and(|name| path == Path::new(name) || path == Path::new(file));
+    files.iter().find(|(file, _)| called(file)).copied()
+}
+
+fn name(file: &str) -> Option<&str> {
+    file.strip_suffix(".ron").filter(|name| !name.contains('/'))
+}

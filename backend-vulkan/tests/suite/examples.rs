@@ -1,6 +1,8 @@
-//! The examples of this crate draw what they say (EM-2, EM-12).
+//! The examples of this crate draw what they say (EM-2, EM-12), and an example of the page on embedding that is unsafe (EM-1).
 
 use crate::testing;
+use framewright_passes::scene;
+use framewright_tests::render::{self, Setup, in_repository};
 use std::process::Command;
 
 /// The picture has as many colours as the scene, and not those of a clear alone. The command's tests compare pictures of shipped
@@ -24,4 +26,19 @@ fn the_example_with_a_device_of_its_own_draws_the_scene() {
     shades.sort_unstable();
     shades.dedup();
     assert!(shades.len() > 2000, "{} colours: a sky, spheres and cubes have more", shades.len());
+}
+
+#[path = "../../../examples/embedding/imports.rs"]
+mod imports;
+
+#[test]
+fn the_example_of_imports_draws_into_an_image_of_its_own() {
+    let Some(device) = testing::open() else { return };
+    let messages = device.messages();
+    let scene = scene::load(&in_repository("examples/scenes/spheres_and_cubes.ron")).expect("a scene");
+    let drawn = imports::draw(&device, &scene).expect("drawn");
+    let setup = Setup { pipeline: "examples/pipelines/forward.ron", set: &[], scene: &scene, extent: [64, 36] };
+    assert_eq!(drawn, render::render(&device, &setup).expect("drawn")[0]);
+    drop(device);
+    assert_eq!(testing::findings(&messages), []);
 }

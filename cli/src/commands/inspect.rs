@@ -25,7 +25,7 @@ use std::path::Path;
 pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     inputs::expect(&arguments.pipeline, &read);
-    arguments.scene.iter().for_each(|file| read.expect(FileRole::SCENE.recorded, file));
+    arguments.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
     arguments.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;

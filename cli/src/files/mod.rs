@@ -2,5 +2,4 @@
 
 pub(crate) mod inputs;
 pub(crate) mod outputs;
-pub(crate) mod shipped;
 mod stream;

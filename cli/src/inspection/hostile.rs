@@ -68,7 +68,7 @@ fn graphs_with_hostile_names_are_those_that_are_given_to_the_judges() {
             std::fs::write(&path, &text).expect("written");
         }
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        let update = "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright hostile; git diff cli/tests/formats";
+        let update = "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright-cli hostile; git diff cli/tests/formats";
         assert!(kept == text, "{name} differs; see: {update}");
     }
 }

@@ -7,10 +7,9 @@ use crate::system::Exit;
 use framewright_graph::base::{ReadFiles, Root, Sources};
 use framewright_graph::shader::{self, DrawInterfaces};
 use framewright_passes::draw;
-use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::{Helper, ShaderLibrary};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Where the shaders and pictures that a Plan names come from.
 pub(crate) struct Assets {
@@ -33,17 +32,10 @@ impl Assets {
         helper: Helper,
         read: &ReadFiles,
     ) -> Result<Assets, Error> {
-        let recorded = |what| root.map(|root| root.clone().recorded(read, what));
         let draws = arguments.interface.as_deref().map(|path| draws(path, read));
         let draws = draws.unwrap_or_else(|| Ok(draw::interface.into()))?;
-        let folder = recorded("the shader itself").into_iter().collect();
-        Ok(Assets {
-            shaders: ShaderLibrary::new(folder, SHADERS, draws).with_helper(&helper),
-            helper,
-            textures: TextureFiles::new(
-                recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default())),
-            ),
-        })
+        let shaders = framewright::shaders(root, &[], draws, Some(&helper), read);
+        Ok(Assets { shaders, helper, textures: framewright::textures(root, read) })
     }
 }
 

@@ -3,20 +3,19 @@
 use crate::command_line::args;
 use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
-use crate::files::inputs::{self, FileRole, PipelineFile};
-use crate::files::shipped;
+use crate::files::inputs::{self, FileRole};
 use crate::planning::{Assets, helper};
 use crate::system::Exit;
-use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
+use framewright::Pipeline;
+use framewright_graph::base::{Diagnostic, ReadFiles, Sources};
 use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Inputs};
-use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem, Textures};
-use framewright_graph::language::{self, Document, Facts, Files, Found, PipelineFiles, Unread};
+use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language::{self, Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
-use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::Helper;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -64,29 +63,6 @@ pub(crate) struct View<'a> {
     pub(crate) dump: &'a [String],
 }
 
-/// The files that a pipeline names: of its language, and pictures.
-struct NamedFiles {
-    files: PipelineFiles,
-    textures: TextureFiles,
-    /// The paths of pictures that are named.
-    pictures: BTreeSet<Arc<str>>,
-    /// Whether the user has no right to read one of the files.
-    denied: bool,
-}
-
-impl Files for NamedFiles {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
-        let found = self.files.read(from, path);
-        self.denied |= found.as_ref().is_err_and(|unread| unread.denied);
-        found
-    }
-
-    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
-        self.pictures.insert(file.path.clone());
-        self.textures.info(file)
-    }
-}
-
 /// Reads a pipeline file. It and all files that it names, now or later, are recorded in `read`.
 ///
 /// # Errors
@@ -104,29 +80,16 @@ pub(crate) fn load_with(
     read: &ReadFiles,
     helper: Helper,
 ) -> Result<Loaded, Error> {
-    let PipelineFile { shown, path, root, bytes } = inputs::pipeline(arguments, read)?;
-    let mut sources = Sources::default();
-    let fragments = root.clone().map(|root| root.recorded(read, "a fragment of the pipeline"));
-    let mut files = match (fragments, &path) {
-        (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root, name, shipped::PIPELINES),
-        (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root, shipped::PIPELINES),
-        (None, _) => PipelineFiles::shipped(shipped::PIPELINES),
-    };
-    let extensions = arguments.extend.iter().map(|path| inputs::extension(path, &mut files, read));
-    let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
-    let Assets { shaders, helper, textures } = Assets::of(root.as_ref(), arguments, helper, read)?;
-    let mut named = NamedFiles { files, textures, pictures: BTreeSet::new(), denied: false };
-    let own = Found { shown, relative: path, bytes };
-    let mut pipeline = language::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
-        let exit = if named.denied { Exit::Environment } else { Exit::Found };
-        Error::mistakes(sources.clone(), diagnostics, exit)
-    })?;
-    choose(arguments, &mut pipeline, &mut sources, read)?;
+    let file = inputs::pipeline(arguments, read)?;
+    let Assets { shaders, helper, .. } = Assets::of(file.root(), arguments, helper, read)?;
+    let Pipeline { mut document, sources, textures, pictures, .. } = file.read()?;
+    let mut sources = Arc::unwrap_or_clone(sources);
+    choose(arguments, &mut document, &mut sources, read)?;
     Ok(Loaded {
-        pipeline,
+        pipeline: document,
         sources: Arc::new(sources),
-        assets: Assets { shaders, helper, textures: named.textures },
-        pictures: named.pictures,
+        assets: Assets { shaders, helper, textures },
+        pictures,
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         stereo: arguments.stereo.clone(),
     })

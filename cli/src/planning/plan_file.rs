@@ -41,7 +41,7 @@ pub(crate) fn load(arguments: &PipelineArguments, recorded: &ReadFiles) -> Resul
         let problem = format!("`extent`: a side of {side} pixels; a side has 1 to {MAX_SIZE}");
         return Err(Error::NoPlan { path: arguments.file.clone(), problem });
     }
-    let root = inputs::root(arguments)?;
+    let root = framewright::folder_of(&arguments.file, &inputs::options(arguments).reach)?;
     let helper = helper::with(&arguments.limits, arguments.caching)?;
     Ok((plan, Assets::of(Some(&root), arguments, helper, recorded)?))
 }

@@ -64,7 +64,18 @@ fn problem(page: &Path, link: &str) -> Option<&'static str> {
 /// Paths of this repository that stand in pages as code.
 #[test]
 fn every_path_that_is_named_exists() {
-    let folders = ["backend-vulkan/", "cli/", "docs/", "examples/", "graph/", "passes/", "shaders/", "tests/", ".ci/"];
+    let folders = [
+        "backend-vulkan/",
+        "cli/",
+        "docs/",
+        "examples/",
+        "framewright/",
+        "graph/",
+        "passes/",
+        "shaders/",
+        "tests/",
+        ".ci/",
+    ];
     let mut named = 0;
     let mut missing = Vec::new();
     for page in pages() {

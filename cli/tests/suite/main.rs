@@ -1,4 +1,4 @@
-//! The tests of the command. `cargo test -p framewright --test suite stereo::` runs those of one module.
+//! The tests of the command. `cargo test -p framewright-cli --test suite stereo::` runs those of one module.
 
 mod bad_input;
 mod bad_shaders;

@@ -51,7 +51,7 @@ fn shipped_profiles_of_drivers_that_are_here_are_what_they_say_themselves() {
         } else {
             assert_eq!(
                 saved, shipped,
-                "see:    FRAMEWRIGHT_UPDATE=1 cargo test --package framewright --test suite profiles; git diff graph\n\
+                "see:    FRAMEWRIGHT_UPDATE=1 cargo test --package framewright-cli --test suite profiles; git diff graph\n\
                  accept: git add graph/src/device/profiles"
             );
         }

@@ -37,7 +37,7 @@ fn pages_show_what_commands_print() {
         assert!(
             shown == renewed,
             "{} shows other output than the command prints, first {differs:#?}\n\
-             see:    {UPDATE}=1 cargo test --package framewright --test suite readme; git diff\n\
+             see:    {UPDATE}=1 cargo test --package framewright-cli --test suite readme; git diff\n\
              accept: git add README.md docs",
             page.display()
         );

@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// How a changed picture is accepted.
 const ACCEPT: &str =
-    "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright --test suite shipped_pictures; git diff docs/pictures";
+    "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright-cli --test suite shipped_pictures; git diff docs/pictures";
 
 /// How all of them are drawn. After these frames what persists has settled, and snow is falling.
 const HOW: [&str; 4] = ["--size", "320x180", "--frames", "4"];

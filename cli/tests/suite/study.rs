@@ -191,7 +191,7 @@ fn the_study_shows_what_was_measured_and_what_choose_recommends() {
     let differs = page.lines().zip(made.lines()).find(|(there, made)| there != made);
     assert!(
         page == made,
-        "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright study"
+        "docs/trade-offs.md differs, first {differs:#?}; accept: {UPDATE}=1 cargo test -p framewright-cli study"
     );
 }
 

@@ -9,7 +9,7 @@ use crate::drawing::captures::{self, Drawing};
 use crate::drawing::pictures::{EncodedPicture, PictureRequest};
 use crate::drawing::{Prepared, diagnostics, pictures, timings};
 use crate::error::Error;
-use crate::files::inputs::{self, FileRole};
+use crate::files::inputs;
 use crate::files::outputs;
 use crate::picture::FileFormat;
 use crate::planning::{Assets, device, notes};
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Error> {
 fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     Subject::expect(arguments, &read);
-    read.expect(FileRole::SCENE.recorded, &arguments.scene);
+    framewright::expect_scene(&arguments.scene, &read);
     let spare = || outputs::prepare(arguments.written(), &read);
     spare()?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;

@@ -137,7 +137,7 @@ mod tests {
     use framewright_graph::base::Sources;
 
     fn passing() -> Scene {
-        let file = include_str!("../../../../examples/scenes/passing.ron");
+        let file = include_str!("../../../scenes/passing.ron");
         text::read(&mut Sources::default(), "passing.ron", "passing.ron", file.to_owned()).expect("a scene")
     }
 

@@ -1,0 +1,54 @@
+//! From a pipeline file to frames: the crate that programs depend on.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! use framewright::{Device, DeviceOptions, Renderer, RendererOptions, SceneDrawSource, load_scene};
+//!
+//! let device = Device::open(&DeviceOptions::default())?;
+//! let scene = load_scene("spheres_and_cubes")?;
+//! let mut renderer = Renderer::open(&device, "forward", RendererOptions::default())?;
+//! renderer.set("msaa", 4)?;
+//! renderer.set_scene(&scene);
+//! renderer.set_extent([640, 360])?;
+//! let mut objects = SceneDrawSource::for_plan(&device, &scene, [640, 360], renderer.prepare()?.plan)?;
+//! renderer.frame(&mut objects)?;
+//! let texels = renderer.read("screen")?;
+//! # drop(texels);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! - [`Renderer`] reads a pipeline, has it compiled whenever something changed, and draws its frames. All that the command does with a
+//!   pipeline's files works here too: shipped pipelines by name, `extends`, `include`, shaders and pictures of the folder.
+//! - A program that draws objects of its own implements [`DrawSource`] in place of [`SceneDrawSource`].
+//! - Errors are data ([`Error`]). Nothing that a file, a user, a driver or a device decides ends the program.
+//!
+//! The layers below are reachable: [`graph`] reads, compiles and verifies, [`vulkan`] executes Plans, [`passes`] has the scene and the
+//! shipped shaders, pipelines and scenes. [`PipelineFile`] and [`Pipeline`] are the way from a name to a document.
+
+mod error;
+mod files;
+mod options;
+mod pipeline;
+mod renderer;
+
+pub use framewright_graph as graph;
+pub use framewright_passes as passes;
+pub use framewright_vulkan as vulkan;
+
+pub use error::{Error, Mistakes};
+pub use files::{FileOptions, PipelineFile, Reach, expect_scene, find_scene, folder_of, load_scene};
+pub use framewright_graph::base::{Diagnostic, ReadFiles, Root};
+pub use framewright_graph::frame::{Draw, Stereo};
+pub use framewright_graph::plan::Plan;
+pub use framewright_graph::shader::DrawInterfaces;
+pub use framewright_graph::vulkan::Rotation;
+pub use framewright_passes::draw::SceneDrawSource;
+pub use framewright_passes::scene::Scene;
+pub use framewright_vulkan::{
+    CustomRecorder, Device, DeviceOptions, DrawSource, Executor, ExecutorOptions, Helper, Presentation, Recorder,
+    ShaderLibrary, Surface, Swapchain, SwapchainOptions, Texels,
+};
+pub use options::RendererOptions;
+pub use pipeline::{Pipeline, shaders, textures};
+pub use renderer::{Change, Prepared, Renderer};

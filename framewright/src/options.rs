@@ -1,0 +1,46 @@
+//! What a renderer is made with, and keeps.
+
+use crate::files::FileOptions;
+use framewright_graph::base::Root;
+use framewright_graph::compile;
+use framewright_graph::shader::DrawInterfaces;
+use framewright_passes::draw;
+use framewright_vulkan::{ExecutorOptions, Helper};
+use std::path::PathBuf;
+
+/// What a [`Renderer`](crate::Renderer) is made with, and keeps. Begin with the default, and set fields.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct RendererOptions {
+    /// How the files of the pipeline are found.
+    pub files: FileOptions,
+    /// Settings files, of which later ones are stronger.
+    pub settings: Vec<PathBuf>,
+    /// Folders of shaders beside that of the pipeline, which is looked in first.
+    pub shaders: Vec<Root>,
+    /// What the program's draws bring along; by default what [`SceneDrawSource`](crate::SceneDrawSource) does.
+    pub draws: DrawInterfaces,
+    /// The process that compiles shaders; `None`: this one, without limits. See [`crate::vulkan::helper`].
+    pub helper: Option<Helper>,
+    /// Names of images that leave the frame beside its outputs, so that they can be read.
+    pub dump: Vec<String>,
+    /// How Plans are made.
+    pub compile: compile::Options,
+    /// How they are executed.
+    pub executor: ExecutorOptions,
+}
+
+impl Default for RendererOptions {
+    fn default() -> Self {
+        RendererOptions {
+            files: FileOptions::default(),
+            settings: Vec::new(),
+            shaders: Vec::new(),
+            draws: draw::interface.into(),
+            helper: None,
+            dump: Vec::new(),
+            compile: compile::Options::default(),
+            executor: ExecutorOptions::default(),
+        }
+    }
+}

@@ -1,0 +1,382 @@
+//! A pipeline that is drawn frame after frame, while its settings and files change.
+
+mod choices;
+mod reading;
+
+use crate::error::Error;
+use crate::options::RendererOptions;
+use choices::Choices;
+use framewright_graph::base::ReadFiles;
+use framewright_graph::compile::{Compiler, heap_size};
+use framewright_graph::device::Profile;
+use framewright_graph::expand;
+use framewright_graph::frame::Stereo;
+use framewright_graph::language::{Document, Facts};
+use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::Rotation;
+use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Presentation, Swapchain, Texels};
+use reading::Reading;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A pipeline that is drawn frame after frame.
+///
+/// It reads the pipeline, plans it when something has changed since the last frame, and executes the Plan. What is wrong with a choice
+/// or a file is an error of the call that brought it, and leaves the last good Plan drawing.
+pub struct Renderer {
+    device: Device,
+    profile: Arc<Profile>,
+    path: PathBuf,
+    options: RendererOptions,
+    reading: Reading,
+    /// The files that were read last, by a reload that failed too.
+    read: ReadFiles,
+    choices: Choices,
+    compiler: Compiler,
+    /// What is drawn.
+    drawn: Option<Drawn>,
+    /// Whether anything changed since it was planned.
+    changed: bool,
+    /// The number of the next frame.
+    next: u64,
+}
+
+/// The Plan that is drawn, with its executor and the choices that it was made for.
+struct Drawn {
+    plan: Plan,
+    executor: Executor,
+    choices: Choices,
+    /// The number of the executor's first frame.
+    first: u64,
+}
+
+/// The Plan of the next frame.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Prepared<'r> {
+    /// The Plan, verified.
+    pub plan: &'r Plan,
+    /// What became another one since the last call.
+    pub change: Change,
+}
+
+/// What became another one when a frame was prepared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Change {
+    /// Nothing: nothing was planned.
+    Nothing,
+    /// At most values in the Plan: the executor stays. A draw source that goes by the Plan's views follows it with
+    /// [`SceneDrawSource::change`](crate::SceneDrawSource::change).
+    Values,
+    /// The Plan and its executor: what a program imported is to be imported again, and a draw source that goes by the Plan is to be
+    /// made anew.
+    Executor {
+        /// Names of the images and buffers that keep their contents, such as a history; empty for the first Plan.
+        carried_over: Vec<String>,
+    },
+}
+
+impl Renderer {
+    /// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the
+    /// frame has 1280×720 texels, and the scene may hold everything.
+    ///
+    /// # Errors
+    /// If there is neither, or it is wrong in itself.
+    pub fn open(device: &Device, pipeline: impl AsRef<Path>, options: RendererOptions) -> Result<Renderer, Error> {
+        let (path, read) = (pipeline.as_ref().to_owned(), ReadFiles::default());
+        Ok(Renderer {
+            reading: Reading::begin(&path, &options, &read)?,
+            read,
+            device: device.clone(),
+            profile: Arc::new(device.profile()),
+            path,
+            options,
+            choices: Choices::default(),
+            compiler: Compiler::new(),
+            drawn: None,
+            changed: true,
+            next: 0,
+        })
+    }
+
+    /// Gives a setting a value, which is stronger than presets and settings files: what `--set` takes, a number, `true`, `false` or a
+    /// name.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] if the pipeline has no such setting, or it doesn't allow the value. It keeps the one that it had.
+    pub fn set(&mut self, setting: &str, value: impl Display) -> Result<(), Error> {
+        let mut set = self.choices.known(self.document());
+        set.push((setting.to_owned(), value.to_string()));
+        self.check(&self.choices, &set)?;
+        let value = set.pop().map(|(_, value)| value).unwrap_or_default();
+        self.changed |= self.choices.set.get(setting) != Some(&value);
+        self.choices.set.insert(setting.to_owned(), value);
+        Ok(())
+    }
+
+    /// Takes back what [`Renderer::set`] gave a setting.
+    pub fn unset(&mut self, setting: &str) {
+        self.changed |= self.choices.set.remove(setting).is_some();
+    }
+
+    /// Puts a preset in force, in place of the one before; `None`: that of the settings files, if they name one.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] if the pipeline has no such preset. The one before stays in force.
+    pub fn preset(&mut self, name: Option<&str>) -> Result<(), Error> {
+        self.reading.choose(name)?;
+        self.take(|choices| choices.preset = name.map(str::to_owned));
+        Ok(())
+    }
+
+    /// Tells the facts of the scene, as conditions of the pipeline ask for them; `None`: it may hold everything.
+    pub fn set_facts(&mut self, facts: Option<Facts>) {
+        self.take(|choices| choices.facts = facts);
+    }
+
+    /// Tells the facts of `scene`.
+    pub fn set_scene(&mut self, scene: &Scene) {
+        self.set_facts(Some(scene.facts()));
+    }
+
+    /// Sets width and height of the output.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] if no frame has that size. It keeps the one that it had.
+    pub fn set_extent(&mut self, extent: [u32; 2]) -> Result<(), Error> {
+        self.check(&Choices { extent, ..self.choices.clone() }, &self.choices.known(self.document()))?;
+        self.take(|choices| choices.extent = extent);
+        Ok(())
+    }
+
+    /// Says by how much the screen is turned that shows the picture. What is read back is upright.
+    pub fn set_rotation(&mut self, rotation: Rotation) {
+        self.take(|choices| choices.rotation = rotation);
+    }
+
+    /// Says how the frame is drawn for two eyes. [`Stereo::first_fit`] finds a way that the device has.
+    ///
+    /// # Errors
+    /// [`Error::Stereo`] if the device can't draw so. The way stays that it was.
+    pub fn set_stereo(&mut self, stereo: Stereo) -> Result<(), Error> {
+        Stereo::first_fit(&[stereo], &self.profile).map_err(|why| Error::Stereo { why })?;
+        self.take(|choices| choices.stereo = stereo);
+        Ok(())
+    }
+
+    /// Fits the frame to a window: to size, format and rotation of its images. Two eyes beside each other
+    /// ([`Stereo::DoubleWide`], [`Stereo::Instanced`]) have half of its width each. While the window has no area nothing changes.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::set_extent`].
+    pub fn fit(&mut self, window: &Swapchain) -> Result<(), Error> {
+        let (Some([width, height]), format) = (window.extent(), window.format()) else { return Ok(()) };
+        let eyes = if matches!(self.choices.stereo, Stereo::DoubleWide | Stereo::Instanced) { 2 } else { 1 };
+        self.set_extent([(width / eyes).max(1), height])?;
+        let rotation = window.rotation();
+        self.take(|choices| (choices.window, choices.rotation) = (format, rotation));
+        Ok(())
+    }
+
+    /// Makes sure that choices are right by themselves.
+    fn check(&self, choices: &Choices, set: &[(String, String)]) -> Result<(), Error> {
+        let wrong = expand::check_inputs(self.document(), &choices.inputs(set, &[], None));
+        if wrong.is_empty() { Ok(()) } else { Err(self.reading.wrong(wrong)) }
+    }
+
+    fn take(&mut self, choose: impl FnOnce(&mut Choices)) {
+        let mut choices = self.choices.clone();
+        choose(&mut choices);
+        self.changed |= self.choices != choices;
+        self.choices = choices;
+    }
+
+    /// Plans the next frame if anything changed since the last call; every frame begins with it. A Plan that differs in values alone
+    /// goes to the executor that there is. Any other gets a new one, which takes over the contents of what persists in both. A new one
+    /// counts frames from 0 for draw sources.
+    ///
+    /// # Errors
+    /// The mistakes of the pipeline, its shaders and choices, or those of making an executor. The last good Plan stays, with the
+    /// choices that it was made for; if there is none, the next call tries again.
+    pub fn prepare(&mut self) -> Result<Prepared<'_>, Error> {
+        let change = match self.changed {
+            true => self.renew(false).inspect_err(|_| self.go_back())?,
+            false => Change::Nothing,
+        };
+        Ok(Prepared { plan: &self.drawn()?.plan, change })
+    }
+
+    /// Goes back to the choices that the last good Plan was made for.
+    fn go_back(&mut self) {
+        if let Some(drawn) = &self.drawn {
+            self.choices = drawn.choices.clone();
+            // The pipeline has the preset: it was in force before.
+            self.changed = self.reading.choose(self.choices.preset.as_deref()).is_err();
+        }
+    }
+
+    /// Plans, and has an executor of the Plan; a new one if `anew`.
+    fn renew(&mut self, anew: bool) -> Result<Change, Error> {
+        let Renderer { device, profile, options, reading, choices, compiler, drawn, .. } = self;
+        let set = choices.known(reading.document());
+        let frame = Arc::new(reading.expand(&choices.inputs(&set, &options.dump, Some(profile)))?);
+        let plan = compiler.compile(&frame, profile, &mut device.memory(), &options.compile);
+        let plan = plan.map_err(|diagnostics| reading.wrong(diagnostics))?;
+        if let Some(too_large) = heap_size::too_large(plan, &frame, profile) {
+            return Err(reading.wrong(vec![too_large]));
+        }
+        let stays = |drawn: &&mut Drawn| !anew && drawn.plan.differs_beyond_values(plan).is_none();
+        let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
+            drawn.executor.change(plan)?;
+            drawn.plan.clone_from(plan);
+            drawn.choices.clone_from(choices);
+            Change::Values
+        } else {
+            let mut executor = reading.executor(device, plan, &options.executor)?;
+            let before = drawn.take().map(|before| executor.migrate_from(before.executor));
+            let carried_over = before.transpose()?.unwrap_or_default();
+            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone(), first: self.next });
+            Change::Executor { carried_over }
+        };
+        self.changed = false;
+        Ok(change)
+    }
+
+    /// What is drawn. After [`Renderer::prepare`] there is something, unless the device gave up while contents were carried over.
+    fn drawn(&mut self) -> Result<&mut Drawn, Error> {
+        let none = || framewright_vulkan::Error::BadPlan { what: "there is none yet".to_owned() };
+        Ok(self.drawn.as_mut().ok_or_else(none)?)
+    }
+
+    /// Whether a file that was read is another one by now, or is gone, or one that was looked for is there.
+    #[must_use]
+    pub fn files_changed(&self) -> bool {
+        self.read.changed()
+    }
+
+    /// Reads the pipeline, its shaders and pictures anew, and plans. Values of settings that the file no longer has wait until it has
+    /// them again.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
+    pub fn reload(&mut self) -> Result<Change, Error> {
+        self.read = ReadFiles::default();
+        let mut reading = Reading::begin(&self.path, &self.options, &self.read)?;
+        reading.choose(self.choices.preset.as_deref())?;
+        let before = std::mem::replace(&mut self.reading, reading);
+        self.renew(true).inspect_err(|_| self.reading = before)
+    }
+
+    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::prepare`] and [`Executor::frame`].
+    pub fn frame(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
+        let frame = self.submit(source)?;
+        self.wait(frame)?;
+        Ok(frame)
+    }
+
+    /// Records and submits a frame, and returns its number, from 0: see [`Executor::submit`].
+    ///
+    /// # Errors
+    /// Those of [`Renderer::prepare`] and [`Executor::submit`].
+    pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
+        self.prepare()?;
+        let drawn = self.drawn()?;
+        let frame = drawn.first + drawn.executor.submit(source)?;
+        self.next = frame + 1;
+        Ok(frame)
+    }
+
+    /// Draws a frame into the next image of a window that it [fits](Renderer::fit), and has it shown: the first output. See
+    /// [`Executor::present`].
+    ///
+    /// # Errors
+    /// Those of [`Renderer::prepare`] and [`Executor::present`].
+    pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
+        self.prepare()?;
+        let Drawn { plan, executor, first, .. } = self.drawn()?;
+        let name = plan.outputs.first().map_or("", |output| &output.name);
+        let (first, mut shown) = (*first, executor.present(source, window, name)?);
+        if let Presentation::Shown(frame) | Presentation::Suboptimal(frame) = &mut shown {
+            *frame += first;
+            self.next = *frame + 1;
+        }
+        Ok(shown)
+    }
+
+    /// Waits until the device is done with a frame. One of an earlier executor is done.
+    ///
+    /// # Errors
+    /// Those of [`Executor::wait`].
+    pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
+        let drawn = self.drawn()?;
+        match frame.checked_sub(drawn.first) {
+            Some(frame) => Ok(drawn.executor.wait(frame)?),
+            None => Ok(()),
+        }
+    }
+
+    /// The report of a frame of the executor that there is, which is waited for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::report`].
+    pub fn report(&mut self, frame: u64) -> Result<FrameReport, Error> {
+        let drawn = self.drawn()?;
+        let own = frame.checked_sub(drawn.first).unwrap_or(u64::MAX);
+        Ok(drawn.executor.report(own)?)
+    }
+
+    /// The texels of the output `name`, an image, as the last frame left it: see [`Executor::read`].
+    ///
+    /// # Errors
+    /// [`Error::UnknownOutput`], and those of [`Executor::read`].
+    pub fn read(&mut self, name: &str) -> Result<Texels, Error> {
+        let Drawn { plan, executor, .. } = self.drawn()?;
+        match plan.outputs.iter().position(|output| *output.name == *name) {
+            Some(output) => Ok(executor.read(output)?),
+            None => {
+                let known = plan.outputs.iter().map(|output| output.name.to_string()).collect();
+                Err(Error::UnknownOutput { name: name.to_owned(), known })
+            }
+        }
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// The pipeline as it was read last: its settings, presets and changes.
+    #[must_use]
+    pub fn document(&self) -> &Document {
+        self.reading.document()
+    }
+
+    /// The Plan that is drawn; `None` before the first one. [`Renderer::prepare`] makes it.
+    #[must_use]
+    pub fn plan(&self) -> Option<&Plan> {
+        self.drawn.as_ref().map(|drawn| &drawn.plan)
+    }
+
+    /// Its executor.
+    #[must_use]
+    pub fn executor(&self) -> Option<&Executor> {
+        self.drawn.as_ref().map(|drawn| &drawn.executor)
+    }
+
+    /// The executor of the next frame, for all that this type has no method for: imports, contents that are written, frames among the
+    /// program's own work. It must stay with its Plan: [`Executor::change`] is for [`Renderer::prepare`].
+    ///
+    /// # Errors
+    /// Those of [`Renderer::prepare`].
+    pub fn executor_mut(&mut self) -> Result<&mut Executor, Error> {
+        self.prepare()?;
+        Ok(&mut self.drawn()?.executor)
+    }
+}

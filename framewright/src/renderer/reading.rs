@@ -1,0 +1,66 @@
+//! A pipeline's files as they were read, with the shaders that they name.
+
+use crate::error::Error;
+use crate::files::PipelineFile;
+use crate::options::RendererOptions;
+use crate::pipeline::{Pipeline, shaders};
+use framewright_graph::base::{Diagnostic, ReadFiles};
+use framewright_graph::expand::{self, Inputs};
+use framewright_graph::frame::Frame;
+use framewright_graph::language::{Document, SettingsFile};
+use framewright_graph::plan::Plan;
+use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
+use std::path::Path;
+use std::sync::Arc;
+
+/// What was read.
+pub(super) struct Reading {
+    pub(super) pipeline: Pipeline,
+    settings: Vec<SettingsFile>,
+    shaders: ShaderLibrary,
+}
+
+impl Reading {
+    /// Reads the pipeline `path`. All files that are read, now or later, are recorded in `read`.
+    pub(super) fn begin(path: &Path, options: &RendererOptions, read: &ReadFiles) -> Result<Reading, Error> {
+        let file = PipelineFile::find(path, &options.files, read)?;
+        let shaders = shaders(file.root(), &options.shaders, options.draws.clone(), options.helper.as_ref(), read);
+        let mut pipeline = file.read()?;
+        let settings = pipeline.read_settings(&options.settings, read)?;
+        let mut reading = Reading { pipeline, settings, shaders };
+        reading.choose(None)?;
+        Ok(reading)
+    }
+
+    pub(super) fn document(&self) -> &Document {
+        &self.pipeline.document
+    }
+
+    /// Puts a preset in force; `None`: that of the settings files.
+    pub(super) fn choose(&mut self, preset: Option<&str>) -> Result<(), Error> {
+        let chosen = self.pipeline.document.choose(preset, &self.settings);
+        chosen.map_err(|unknown| self.wrong(vec![unknown]))
+    }
+
+    pub(super) fn wrong(&self, diagnostics: Vec<Diagnostic>) -> Error {
+        Error::mistakes(&self.pipeline.sources, diagnostics)
+    }
+
+    /// The frame of these inputs.
+    pub(super) fn expand(&mut self, inputs: &Inputs<'_>) -> Result<Frame, Error> {
+        let Pipeline { document, sources, .. } = &self.pipeline;
+        let frame = expand::expand(document, Arc::clone(sources), inputs, &mut self.shaders);
+        frame.map_err(|diagnostics| self.wrong(diagnostics))
+    }
+
+    /// An executor of `plan`.
+    pub(super) fn executor(
+        &mut self,
+        device: &Device,
+        plan: &Plan,
+        options: &ExecutorOptions,
+    ) -> Result<Executor, Error> {
+        let Reading { pipeline, shaders, .. } = self;
+        Ok(Executor::with_textures(device, plan, shaders, &mut pipeline.textures, options)?)
+    }
+}

@@ -1,0 +1,101 @@
+//! A program finds the files of a pipeline as the command does (EM-1).
+
+use crate::testing::{Place, draw, renderer, renderer_with};
+use framewright::passes::shipped;
+use framewright::{Error, Reach, Renderer, RendererOptions};
+use framewright_tests::render;
+use std::path::PathBuf;
+
+#[test]
+fn every_shipped_pipeline_is_opened_by_its_name() {
+    let Some(device) = render::device() else { return };
+    for name in shipped::names(shipped::PIPELINES) {
+        let mut renderer = renderer(device, name);
+        assert!(renderer.prepare().is_ok_and(|prepared| !prepared.plan.steps.is_empty()), "{name}");
+    }
+}
+
+#[test]
+fn a_pipeline_of_the_program_includes_and_extends_what_is_shipped_and_what_lies_beside_it() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    place.file(
+        "parts/tint.frag",
+        "#version 460\nlayout(set = 0, binding = 0) uniform sampler2D source;\n\
+        layout(location = 0) out vec4 color;\n\
+        void main() { color = vec4(texelFetch(source, ivec2(gl_FragCoord.xy), 0).r, 0.0, 0.0, 1.0); }\n",
+    );
+    place.file(
+        "parts/tint.ron",
+        r#"Fragments(version: 1, fragments: [(name: "tint",
+        parameters: [(name: "source", value: Image), (name: "target", value: Image)],
+        passes: [(name: "tint", draw: FullScreen("tint"), sample: {"source": (image: "source", filter: Nearest)},
+            color: ["target"])])])"#,
+    );
+    let text = r#"Pipeline(version: 1, extends: "forward.ron", include: ["library/bloom.ron", "parts/tint.ron"],
+        images: [(name: "bloomed", format: Like("color"), size: Like("color")),
+            (name: "shown", format: Like("screen"), size: Like("screen"))],
+        changes: [
+            Insert(before: "tone_map", passes: [(use: "bloom", name: "glow",
+                with: {"source": "color", "target": "bloomed", "strength": 0.2})]),
+            Set(pass: "tone_map", to: (sample: {"source": (image: "bloomed", filter: Nearest)}, color: ["shown"],
+                otherwise: Forward(from: "bloomed", to: "shown"))),
+            Insert(after: "tone_map", passes: [(use: "tint", name: "red", with: {"source": "shown", "target": "screen"})]),
+        ])"#;
+    let mut renderer = renderer(device, place.file("mine.ron", text));
+    let (_, picture) = draw(&mut renderer, 1);
+    assert!(picture.as_chunks::<4>().0.iter().all(|texel| texel[1..3] == [0, 0]));
+    assert!(picture.as_chunks::<4>().0.iter().any(|texel| texel[0] > 50));
+    render::silent(device).expect("silent");
+}
+
+#[test]
+fn pictures_beside_a_pipeline_are_its_textures() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    image::RgbaImage::from_pixel(2, 2, image::Rgba([10, 200, 30, 255])).save(place.path("green.png")).expect("written");
+    let text = r#"Pipeline(version: 1,
+        textures: [(name: "green", file: "green.png")],
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "show", draw: FullScreen("copy"), sample: {"source": "green"}, color: ["screen"])],
+        outputs: ["screen"])"#;
+    let mut renderer = renderer(device, place.file("picture.ron", text));
+    assert_eq!(draw(&mut renderer, 1).1[..4], [10, 200, 30, 255]);
+}
+
+#[test]
+fn files_outside_of_the_folder_are_read_only_where_that_is_allowed() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    place.file("base.ron", "Pipeline(version: 1, extends: \"forward.ron\")\n");
+    let inner = place.file("inner/mine.ron", "Pipeline(version: 1, extends: \"../base.ron\")\n");
+    let open = |reach: Reach| {
+        let mut options = RendererOptions::default();
+        options.files.reach = reach;
+        Renderer::open(device, &inner, options).map(drop)
+    };
+    let error = open(Reach::OwnFolder).expect_err("outside");
+    assert!(error.to_string().contains("leads out of"), "{error}");
+    open(Reach::Within(place.path(""))).expect("within");
+    open(Reach::Anywhere).expect("anywhere");
+    place.file("other/file", "");
+    assert!(matches!(open(Reach::Within(place.path("other"))), Err(Error::OutsideRoot { .. })));
+}
+
+#[test]
+fn extensions_settings_files_and_further_images_are_options() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    let mut options = RendererOptions::default();
+    options.files.extensions = vec![place.file("more.ron", r#"Extension(version: 1, changes: [Remove(pass: "sky")])"#)];
+    options.settings = vec![place.file("chosen.ron", r#"Settings(version: 1, set: {"msaa": 2})"#)];
+    options.dump = vec!["depth".to_owned()];
+    let mut renderer = renderer_with(device, "forward", options.clone());
+    let plan = renderer.prepare().expect("planned").plan;
+    assert!(!plan.tree().contains("`sky` draws"), "{}", plan.tree());
+    assert!(plan.settings.iter().any(|(name, value)| **name == *"msaa" && value == "2"), "{:?}", plan.settings);
+    draw(&mut renderer, 1);
+    assert_eq!(renderer.read("depth").expect("it leaves the frame").extent[..2], crate::testing::EXTENT);
+    options.settings = vec![PathBuf::from("none.ron")];
+    assert!(matches!(Renderer::open(device, "forward", options), Err(Error::Unreadable { what: "settings file", .. })));
+}

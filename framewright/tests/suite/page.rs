@@ -1,0 +1,34 @@
+//! The page on embedding holds the examples, word for word (EM-1).
+
+use framewright_tests::render::{self, in_repository};
+
+#[test]
+fn the_page_on_embedding_holds_the_examples() {
+    let text = |path: &str| std::fs::read_to_string(in_repository(path)).expect("a text");
+    let page = text("docs/embedding.md");
+    for example in
+        ["embed_minimal.rs", "embed_changing.rs", "custom_pass.rs", "embedding/settings.rs", "embedding/imports.rs"]
+    {
+        let example = format!("examples/{example}");
+        assert!(page.contains(&format!("```rust\n{}```", text(&example))), "docs/embedding.md doesn't hold {example}");
+    }
+    assert!(page.contains("examples/headless_batch.rs"));
+    for example in
+        ["embed_minimal.rs", "embed_changing.rs", "headless_batch.rs", "custom_pass.rs", "embed_own_device.rs"]
+    {
+        assert!(text(&format!("examples/{example}")).lines().count() < 150, "{example} is long");
+    }
+}
+
+#[path = "../../../examples/embedding/settings.rs"]
+mod settings;
+
+#[test]
+fn the_example_of_settings_draws_what_it_says() {
+    let Some(device) = render::device() else { return };
+    let pictures = settings::draw(device, &crate::testing::scene()).expect("drawn");
+    let light = |at: usize| pictures[at].bytes.iter().map(|byte| u64::from(*byte)).sum::<u64>();
+    assert!(light(1) > light(0), "{} and {}", light(0), light(1));
+    assert_eq!(pictures[2].extent[..2], [32, 32]);
+    render::silent(device).expect("silent");
+}
