@@ -74,6 +74,12 @@ pub(crate) enum Error {
     /// An error of Vulkan, a shader or a draw source.
     #[error("{}{}", text::escape_lines(&.0.to_string()), remedy(.0))]
     Vulkan(#[from] framewright_vulkan::Error),
+    /// No window can be opened.
+    #[error(
+        "no window can be opened: {}\nhelp: `DISPLAY` or `WAYLAND_DISPLAY` names the screen; without one, `xvfb-run framewright window …` shows it to nobody, and `framewright run` writes pictures",
+        text::escape(reason)
+    )]
+    NoWindow { reason: String },
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
     Picture { image: String, problem: EncodingError },
@@ -409,6 +415,7 @@ impl Error {
             Error::Write { .. }
             | Error::NoFolder { .. }
             | Error::Cache { .. }
+            | Error::NoWindow { .. }
             | Error::Port { .. }
             | Error::Print(_)
             | Error::Restart(_)

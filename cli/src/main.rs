@@ -15,6 +15,7 @@ mod planning;
 mod serving;
 mod system;
 mod variants;
+mod window;
 
 use std::process::ExitCode;
 use system::{Exit, interrupt, text};

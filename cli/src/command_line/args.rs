@@ -9,6 +9,7 @@ use crate::command_line::merging::MergeArguments;
 pub(crate) use crate::command_line::pipeline::{CachingArguments, PipelineArguments, PlanningArguments, ShaderLimits};
 use crate::command_line::serving::ServeArguments;
 use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE, Dump, OutputFile, Size, dump, output_file};
+use crate::command_line::windows::WindowArguments;
 use crate::system::text;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
@@ -50,6 +51,9 @@ pub(crate) enum Command {
     /// Show the page of a pipeline, with the scene that it draws, in a browser of this machine. It follows every change to the files
     /// of the pipeline and the scene; settings are turned in the page.
     Serve(ServeArguments),
+    /// Show a scene through a pipeline in a window. It follows every change to the files of the pipeline and the scene; the mouse moves
+    /// the camera, and keys turn settings.
+    Window(WindowArguments),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
     Facts(FactsArguments),
     /// Print the errors of a picture beside a reference: FLIP, RMSE and others. Needs no GPU.

@@ -11,3 +11,4 @@ pub(crate) mod options;
 mod pipeline;
 pub(crate) mod serving;
 pub(crate) mod values;
+pub(crate) mod windows;

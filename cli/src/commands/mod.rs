@@ -19,6 +19,7 @@ use crate::command_line::args::Command;
 use crate::error::Error;
 use crate::measure;
 use crate::system::Exit;
+use crate::window;
 
 /// Does what the command line asks for.
 ///
@@ -32,6 +33,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Serve(arguments) => serve::serve(arguments),
+        Command::Window(arguments) => window::window(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Measure(arguments) => measure::measure(arguments),

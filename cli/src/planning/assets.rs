@@ -9,7 +9,6 @@ use framewright_graph::shader::{self, DrawInterfaces};
 use framewright_passes::draw;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::{Helper, ShaderLibrary};
-use std::path::Path;
 
 /// Where the shaders and pictures that a Plan names come from.
 pub(crate) struct Assets {
@@ -32,15 +31,18 @@ impl Assets {
         helper: Helper,
         read: &ReadFiles,
     ) -> Result<Assets, Error> {
-        let draws = arguments.interface.as_deref().map(|path| draws(path, read));
-        let draws = draws.unwrap_or_else(|| Ok(draw::interface.into()))?;
+        let draws = draws(arguments, read)?;
         let shaders = framewright::shaders(root, &[], draws, Some(&helper), read);
         Ok(Assets { shaders, helper, textures: framewright::textures(root, read) })
     }
 }
 
-/// Reads what the draws of another program bring along.
-fn draws(path: &Path, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
+/// What draws bring along: those of the program whose interface the command line names, or of a scene.
+///
+/// # Errors
+/// If the interface is wrong.
+pub(crate) fn draws(arguments: &PipelineArguments, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
+    let Some(path) = arguments.interface.as_deref() else { return Ok(draw::interface.into()) };
     let text = inputs::text(FileRole::INTERFACE, path, shader::LARGEST_INTERFACE, read)?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let mut sources = Sources::default();

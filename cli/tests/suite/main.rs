@@ -56,4 +56,5 @@ mod textures;
 mod variants;
 mod views;
 mod what_shaders_need;
+mod window;
 mod without_a_program;

@@ -336,14 +336,21 @@ impl Renderer {
     /// # Errors
     /// [`Error::UnknownOutput`], and those of [`Executor::read`].
     pub fn read(&mut self, name: &str) -> Result<Texels, Error> {
-        let Drawn { plan, executor, .. } = self.drawn()?;
-        match plan.outputs.iter().position(|output| *output.name == *name) {
-            Some(output) => Ok(executor.read(output)?),
-            None => {
-                let known = plan.outputs.iter().map(|output| output.name.to_string()).collect();
-                Err(Error::UnknownOutput { name: name.to_owned(), known })
-            }
-        }
+        let drawn = self.drawn()?;
+        let output = drawn.output(name)?;
+        Ok(drawn.executor.read(output)?)
+    }
+
+    /// The texels that a frame left in the output `name`, an image: see [`Executor::read_back_image`]. The executor's options must
+    /// have `readback` set.
+    ///
+    /// # Errors
+    /// [`Error::UnknownOutput`], and those of [`Executor::read_back_image`].
+    pub fn read_back(&mut self, frame: u64, name: &str) -> Result<Texels, Error> {
+        let drawn = self.drawn()?;
+        let output = drawn.output(name)?;
+        let own = frame.checked_sub(drawn.first).unwrap_or(u64::MAX);
+        Ok(drawn.executor.read_back_image(own, output)?)
     }
 
     /// The device.
@@ -378,5 +385,16 @@ impl Renderer {
     pub fn executor_mut(&mut self) -> Result<&mut Executor, Error> {
         self.prepare()?;
         Ok(&mut self.drawn()?.executor)
+    }
+}
+
+impl Drawn {
+    /// The number of an output.
+    fn output(&self, name: &str) -> Result<usize, Error> {
+        let outputs = &self.plan.outputs;
+        outputs.iter().position(|output| *output.name == *name).ok_or_else(|| {
+            let known = outputs.iter().map(|output| output.name.to_string()).collect();
+            Error::UnknownOutput { name: name.to_owned(), known }
+        })
     }
 }

@@ -6,7 +6,7 @@ use super::geometry::Geometry;
 use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::textures::Textures;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
-use crate::scene::{Scene, limits};
+use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
 use framewright_graph::plan::{Plan, View, ViewId, Work};
 use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
@@ -26,6 +26,8 @@ pub struct SceneDrawSource {
     outline: Scene,
     /// The frame that `views` are for.
     frame: u64,
+    /// Whether any of it was drawn.
+    drawn: bool,
     /// Views without those of single eyes, the main one first; at least one.
     views: Vec<(Viewpoint, ViewDraws)>,
     /// For each view of the Plan its place in `views`, and its eye.
@@ -78,6 +80,8 @@ impl SceneDrawSource {
             places.insert(number, views.len());
             views.push(Viewpoint {
                 camera: *camera,
+                moved_from: None,
+                moved: false,
                 eyes: two.then_some(*eyes),
                 at_once: draws_at_once(plan, number),
                 one_by_one: draws_for_one(plan, number),
@@ -118,6 +122,7 @@ impl SceneDrawSource {
         Ok(SceneDrawSource {
             device: device.clone(),
             frame: 0,
+            drawn: false,
             views: views.collect::<Result<_, _>>()?,
             by_view,
             outline,
@@ -166,14 +171,34 @@ impl SceneDrawSource {
         Ok(())
     }
 
+    /// Has the main view seen by another camera from the next frame on, as one that the user moves. Passes that follow motion see how it
+    /// moved. Frames in flight keep what they are drawn from.
+    ///
+    /// # Errors
+    /// No memory.
+    pub fn set_camera(&mut self, camera: Camera) -> Result<(), Error> {
+        let Some((view, seen)) = self.views.first_mut() else { return Ok(()) };
+        if view.camera != camera {
+            let before = std::mem::replace(&mut view.camera, camera);
+            if self.drawn {
+                view.moved_from.get_or_insert(before);
+            } else {
+                *seen = ViewDraws::new(&self.device, &self.outline, view, self.frame)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Prepares the views for a frame. Frames in flight keep theirs.
     fn advance_to(&mut self, frame: u64) -> Result<(), Error> {
         if self.frame != frame {
             for (view, seen) in &mut self.views {
                 seen.advance_to(&self.device, &self.outline, view, frame)?;
+                view.moved = view.moved_from.take().is_some();
             }
             self.frame = frame;
         }
+        self.drawn = true;
         Ok(())
     }
 

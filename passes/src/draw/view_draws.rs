@@ -19,6 +19,10 @@ use glam::{DMat4, DVec3};
 pub(super) struct Viewpoint {
     /// At frame 0; of two eyes the one between both.
     pub(super) camera: Camera,
+    /// The camera of the frame before, if the program has moved it since.
+    pub(super) moved_from: Option<Camera>,
+    /// Whether it had moved it before that frame.
+    pub(super) moved: bool,
     /// The eyes that see it, if there are two.
     pub(super) eyes: Option<Eyes>,
     /// Whether passes draw for both eyes at once.
@@ -37,7 +41,18 @@ impl Viewpoint {
     /// The viewpoint of one eye, without jitter.
     pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<CascadeMap>) -> Viewpoint {
         let (at_once, one_by_one, culls_by_eye) = (false, false, true);
-        Viewpoint { camera, eyes: None, at_once, one_by_one, culls_by_eye, extent, maps, jitter: None }
+        Viewpoint {
+            camera,
+            moved_from: None,
+            moved: false,
+            eyes: None,
+            at_once,
+            one_by_one,
+            culls_by_eye,
+            extent,
+            maps,
+            jitter: None,
+        }
     }
 
     fn aspect(&self) -> f64 {
@@ -56,18 +71,18 @@ impl Viewpoint {
         self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.shift(frame))
     }
 
-    /// The transform at a frame from between the eyes, without jitter.
-    fn straight(&self, frame: u64) -> ViewTransform {
-        ViewTransform { world_to_clip: world_to_clip(&self.camera.at(frame), self.aspect()), eye: DVec3::ZERO }
+    /// The transform of a camera from between the eyes, without jitter.
+    fn straight(&self, camera: &Camera) -> ViewTransform {
+        ViewTransform { world_to_clip: world_to_clip(camera, self.aspect()), eye: DVec3::ZERO }
     }
 
-    /// The transform of each eye, without jitter; the same twice if there is one.
-    fn straight_by_eye(&self, frame: u64) -> [ViewTransform; 2] {
-        let (straight, camera) = (self.straight(frame), self.camera.at(frame));
+    /// The transform of a camera for each eye, without jitter; the same twice if there is one.
+    fn straight_by_eye(&self, camera: &Camera) -> [ViewTransform; 2] {
+        let straight = self.straight(camera);
         Eye::BOTH.map(|eye| {
             let Some(eye) = self.eyes.map(|eyes| eyes.of(eye)) else { return straight };
-            let world_to_clip = eye.world_to_clip(&camera, self.aspect(), straight.world_to_clip);
-            ViewTransform { world_to_clip, eye: eye.offset(&camera) }
+            let world_to_clip = eye.world_to_clip(camera, self.aspect(), straight.world_to_clip);
+            ViewTransform { world_to_clip, eye: eye.offset(camera) }
         })
     }
 
@@ -124,9 +139,9 @@ impl ViewDraws {
     pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<ViewDraws, Error> {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
-        let (camera, before) = (view.camera.at(frame), view.camera.at(frame_before));
-        let straight = |frame| view.straight_by_eye(frame).map(|sight| sight.world_to_clip);
-        let motion = motion_block(scene, straight(frame), (straight(frame_before), &before), frame_before);
+        let (camera, before) = (view.camera.at(frame), view.moved_from.unwrap_or(view.camera).at(frame_before));
+        let straight = |camera| view.straight_by_eye(camera).map(|sight| sight.world_to_clip);
+        let motion = motion_block(scene, straight(&camera), (straight(&before), &before), frame_before);
         let scene = &scene.at(frame);
         // Both eyes look up the same maps.
         let around = view.around(frame);
@@ -165,7 +180,7 @@ impl ViewDraws {
         view: &Viewpoint,
         frame: u64,
     ) -> Result<(), Error> {
-        if scene.moves() {
+        if scene.moves() || view.moved || view.moved_from.is_some() {
             *self = ViewDraws::new(device, scene, view, frame)?;
         } else if view.jitter.is_some() {
             self.shift(device, scene, view, frame)?;
@@ -198,7 +213,7 @@ impl JitteredDraws {
         buffers: &Buffers,
     ) -> Result<JitteredDraws, Error> {
         let camera = view.camera.at(frame);
-        let own = view.shifted(view.straight(frame), frame);
+        let own = view.shifted(view.straight(&camera), frame);
         let group = |sights| group(device, &camera, sights, buffers);
         if view.eyes.is_none() {
             let visible = frustum::within(scene, &camera, own.world_to_clip);
@@ -209,7 +224,7 @@ impl JitteredDraws {
         let share = view.shift(frame).into_iter().fold(0.0, |most: f64, side| most.max(side.abs()));
         let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
         let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
-        let eyes = view.straight_by_eye(frame).map(|sight| view.shifted(sight, frame));
+        let eyes = view.straight_by_eye(&camera).map(|sight| view.shifted(sight, frame));
         let each = |sight: ViewTransform| {
             let own = || frustum::within(scene, &camera, sight.world_to_clip);
             Ok::<_, Error>((group([sight; 2])?, view.culls_by_eye.then(own)))

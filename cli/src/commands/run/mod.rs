@@ -1,6 +1,5 @@
 //! `framewright run`: draws a scene through a pipeline.
 
-mod layer;
 mod report;
 mod subject;
 
@@ -14,7 +13,7 @@ use crate::files::outputs;
 use crate::picture::FileFormat;
 use crate::planning::{Assets, device, notes};
 use crate::system::quantiles::median;
-use crate::system::{Exit, interrupt, progress, text};
+use crate::system::{Exit, interrupt, layer, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::plan::{Buffer, Image, Plan, Resource, Role, Stage};

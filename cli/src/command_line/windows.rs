@@ -1,0 +1,34 @@
+//! What `framewright window` takes.
+
+use super::pipeline::{PipelineArguments, PlanningArguments};
+use super::values::{DEFAULT_SIZE, Size};
+use clap::Args;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// `framewright window`.
+#[derive(Debug, Args)]
+pub(crate) struct WindowArguments {
+    #[command(flatten)]
+    pub(crate) pipeline: PipelineArguments,
+    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Size of the window in pixels, when it opens.
+    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
+    pub(crate) size: Size,
+    /// How many frames are shown before the window closes by itself; by default it stays.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) frames: Option<u32>,
+    /// Picture of the last frame, to write when the window closes: a .png file.
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
+    #[arg(long)]
+    pub(crate) validate: bool,
+    #[command(flatten)]
+    pub(crate) planning: PlanningArguments,
+    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) device: Option<OsString>,
+}

@@ -1,0 +1,282 @@
+//! `framewright window`, on an X server that nobody sees.
+#![cfg(unix)]
+
+use crate::testing::{FORWARD, Outcome, Place, Vulkan, forward_with, outcome};
+use framewright_tests::sweep;
+use framewright_tests::x_server::XServer;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, ChildStderr, Stdio};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, InputFocus, KEY_PRESS_EVENT,
+    KEY_RELEASE_EVENT,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+const SCENE: [&str; 2] = ["--scene", "spheres_and_cubes"];
+const SIZE: [&str; 2] = ["--size", "192x108"];
+
+/// A server, with or without a window manager; `None` where there is none, which fails in CI.
+fn server(manager: bool) -> Option<XServer> {
+    let started = if manager { XServer::with_manager() } else { XServer::start() };
+    match started {
+        Ok(server) => Some(server),
+        Err(missing) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {missing}");
+            eprintln!("SKIPPED: {missing}");
+            None
+        }
+    }
+}
+
+/// Runs a command that ends by itself.
+fn run(place: &Place, server: &XServer, variables: &[(&str, &str)], words: &[&str]) -> Outcome {
+    let mut command = place.command(words);
+    command.env_remove("WAYLAND_DISPLAY").env("DISPLAY", server.display()).envs(variables.iter().copied());
+    outcome(&mut command)
+}
+
+#[test]
+fn the_picture_in_the_window_is_the_one_that_run_writes() {
+    let Some(server) = server(false) else { return };
+    for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
+        let Some(variables) = vulkan.variables() else { continue };
+        for (pipeline, choices) in [
+            ("forward", &[][..]),
+            ("forward", &["--set", "msaa=1", "--rotate", "90"]),
+            ("deferred", &[]),
+            ("image_quality", &["--stereo", "double-wide"]),
+        ] {
+            let place = Place::new();
+            let both = |command, file| [&[command, pipeline, "-o", file][..], &SCENE, choices].concat();
+            let shown = [both("window", "shown.png"), SIZE.into(), vec!["--frames", "3", "--validate"]].concat();
+            run(&place, &server, &variables, &shown).exits(0).mentions("validation: 0 findings");
+            // In a window both eyes share the width, and a turned picture has the window's height as its width.
+            let size = match choices {
+                [.., "double-wide"] => "96x108",
+                [.., "90"] => "108x192",
+                _ => "192x108",
+            };
+            let drawn = [both("run", "drawn.png"), vec!["--size", size, "--frames", "3"]].concat();
+            place.run_with(&variables, &drawn).exits(0);
+            let [shown, drawn] = ["shown.png", "drawn.png"].map(|file| {
+                image::open(place.path(file)).unwrap_or_else(|error| panic!("{pipeline}: {error}")).to_rgb8()
+            });
+            assert_eq!(shown.dimensions(), drawn.dimensions(), "{pipeline} {choices:?}");
+            assert!(shown == drawn, "{pipeline} {choices:?} on {vulkan:?}");
+        }
+    }
+}
+
+/// An open window of the command's, and what the test does to it.
+struct Window<'s> {
+    child: Child,
+    said: BufReader<ChildStderr>,
+    x: RustConnection,
+    root: u32,
+    window: u32,
+    _server: &'s XServer,
+}
+
+impl<'s> Window<'s> {
+    fn open(place: &Place, server: &'s XServer, vulkan: Vulkan, words: &[&str]) -> Option<Window<'s>> {
+        let mut command = place.command(&[&["window"][..], words].concat());
+        command.env_remove("WAYLAND_DISPLAY").env("DISPLAY", server.display()).envs(vulkan.variables()?);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
+        let said = BufReader::new(child.stderr.take().expect("piped"));
+        let (x, screen) = RustConnection::connect(Some(server.display())).expect("the server listens");
+        let root = x.setup().roots[screen].root;
+        let mut window = Window { child, said, x, root, window: 0, _server: server };
+        window.waits_for("keys: ");
+        window.window = window.find(root).expect("a window with a title");
+        Some(window)
+    }
+
+    /// The window of the command's below another one.
+    fn find(&self, below: u32) -> Option<u32> {
+        let children = self.x.query_tree(below).expect("sent").reply().expect("its windows").children;
+        children.into_iter().find_map(|window| {
+            let (wm_class, string) =
+                (x11rb::protocol::xproto::AtomEnum::WM_NAME, x11rb::protocol::xproto::AtomEnum::ANY);
+            let name = self.x.get_property(false, window, wm_class, string, 0, 64).expect("sent").reply();
+            let is_it = name.is_ok_and(|name| {
+                let name = String::from_utf8_lossy(&name.value).into_owned();
+                name.contains("framewright") || name.contains("frames/s")
+            });
+            if is_it { Some(window) } else { self.find(window) }
+        })
+    }
+
+    /// Reads what the command says until it says `text`.
+    #[track_caller]
+    fn waits_for(&mut self, text: &str) {
+        let mut all = String::new();
+        while !all.contains(text) {
+            let read = self.said.read_line(&mut all).expect("read");
+            assert!(read > 0, "it ended without `{text}`:\n{all}");
+        }
+    }
+
+    fn resize(&self, [width, height]: [u32; 2]) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.x.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
+    }
+
+    /// Asks the window manager to minimise the window, or to show it again.
+    fn minimise(&self, on: bool) {
+        const ICONIC: u32 = 3;
+        if on {
+            let change = self.x.intern_atom(false, b"WM_CHANGE_STATE").expect("sent").reply().expect("an atom").atom;
+            let event = ClientMessageEvent::new(32, self.window, change, [ICONIC, 0, 0, 0, 0]);
+            let mask = EventMask::SUBSTRUCTURE_REDIRECT | EventMask::SUBSTRUCTURE_NOTIFY;
+            self.x.send_event(false, self.root, mask, event).expect("sent").check().expect("it is asked");
+        } else {
+            self.x.map_window(self.window).expect("sent").check().expect("it is shown");
+        }
+        self.x.sync().expect("the server has done it");
+    }
+
+    /// Presses and releases a key, by its code on a usual keyboard.
+    fn press(&self, code: u8) {
+        self.x.set_input_focus(InputFocus::PARENT, self.window, 0_u32).expect("sent").check().expect("focus");
+        for event in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
+            self.x.xtest_fake_input(event, code, 0, self.root, 0, 0, 0).expect("sent").check().expect("a key");
+        }
+    }
+
+    /// Waits until the command ends, and returns its exit code with what else it said.
+    fn ends(mut self) -> (Option<i32>, String) {
+        let begun = Instant::now();
+        let code = loop {
+            if let Some(status) = self.child.try_wait().expect("its status") {
+                break status.code();
+            }
+            assert!(begun.elapsed() < Duration::from_secs(120), "it doesn't end");
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        let mut rest = String::new();
+        self.said.read_to_string(&mut rest).expect("read");
+        (code, rest)
+    }
+}
+
+impl Drop for Window<'_> {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+const ESCAPE: u8 = 9;
+const LEFT: u8 = 113;
+const RIGHT: u8 = 114;
+const DOWN: u8 = 116;
+const LETTER_E: u8 = 26;
+const LETTER_P: u8 = 33;
+const LETTER_T: u8 = 28;
+
+#[test]
+fn a_window_survives_resizes_and_being_minimised_without_a_finding() {
+    let Some(server) = server(true) else { return };
+    let place = Place::new();
+    let words = [&["forward", "--set", "msaa=1", "--validate", "-o", "last.png"][..], &SCENE, &SIZE].concat();
+    let Some(window) = Window::open(&place, &server, Vulkan::LAVAPIPE_CURRENT, &words) else { return };
+    let times = if sweep::is_long() { 1000 } else { 60 };
+    for time in 0..times {
+        window.resize([150 + time * 7 % 90, 60 + time * 11 % 70]);
+        std::thread::sleep(Duration::from_millis(10));
+        if time % 20 == 10 {
+            window.minimise(true);
+            std::thread::sleep(Duration::from_millis(50));
+            window.minimise(false);
+        }
+    }
+    window.resize([211, 97]);
+    std::thread::sleep(Duration::from_millis(500));
+    window.press(ESCAPE);
+    let (code, said) = window.ends();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("validation: 0 findings"), "{said}");
+    let last = image::open(place.path("last.png")).expect("a picture").to_rgb8();
+    assert_eq!(last.dimensions(), (211, 97));
+    let drawn = ["run", "forward", "--set", "msaa=1", "--size", "211x97", "-o", "drawn.png"];
+    place.run_with(&Vulkan::LAVAPIPE.variables().expect("it was there"), &[&drawn[..], &SCENE].concat()).exits(0);
+    assert!(last == image::open(place.path("drawn.png")).expect("a picture").to_rgb8());
+}
+
+#[test]
+fn keys_turn_settings_eyes_and_the_screen_and_write_pictures() {
+    let Some(server) = server(false) else { return };
+    let place = Place::new();
+    let words = [&["forward", "--validate"][..], &SCENE, &SIZE].concat();
+    let Some(mut window) = Window::open(&place, &server, Vulkan::LAVAPIPE_CURRENT, &words) else { return };
+    window.press(DOWN);
+    window.waits_for("hdr = true");
+    window.press(RIGHT);
+    window.waits_for("hdr = false");
+    window.press(LEFT);
+    window.waits_for("hdr = true");
+    window.press(LETTER_P);
+    window.waits_for("wrote `forward-001.png`");
+    window.press(LETTER_T);
+    window.waits_for("rotated by 90°");
+    window.press(LETTER_P);
+    window.waits_for("wrote `forward-002.png`");
+    for _ in 0..3 {
+        window.press(LETTER_T);
+    }
+    window.waits_for("rotated by 0°");
+    window.press(LETTER_E);
+    window.waits_for("both eyes beside each other");
+    window.press(LETTER_E);
+    window.waits_for("one eye");
+    window.press(ESCAPE);
+    let (code, said) = window.ends();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("validation: 0 findings"), "{said}");
+    let size = |file: &str| image::open(place.path(file)).expect("a picture").to_rgb8().dimensions();
+    assert_eq!([size("forward-001.png"), size("forward-002.png")], [(192, 108), (108, 192)]);
+}
+
+#[test]
+fn a_mistake_in_a_file_leaves_the_last_good_frame_and_a_mended_file_is_drawn() {
+    let Some(server) = server(false) else { return };
+    let place = Place::new();
+    place.file("mine.ron", FORWARD);
+    let words = [&["mine.ron"][..], &SCENE, &SIZE].concat();
+    let Some(mut window) = Window::open(&place, &server, Vulkan::LAVAPIPE, &words) else { return };
+    place.file("mine.ron", forward_with("draw: Sky", "draw: Skye"));
+    window.waits_for("Skye");
+    place.file("mine.ron", FORWARD);
+    window.waits_for("`mine.ron` is drawn as it is now");
+    kill(Pid::from_raw(i32::try_from(window.child.id()).expect("a number")), Signal::SIGINT).expect("sent");
+    let (code, said) = window.ends();
+    assert_eq!(code, Some(0), "Ctrl-C closes it: {said}");
+}
+
+#[test]
+fn what_keeps_a_window_from_opening_is_told_before_it_opens() {
+    let place = Place::new();
+    let variables = Vulkan::LAVAPIPE.variables();
+    let mut nowhere = place.command(&[&["window", "forward"][..], &SCENE].concat());
+    nowhere.env_remove("WAYLAND_DISPLAY").env_remove("DISPLAY").envs(variables.clone().unwrap_or_default());
+    let said = outcome(&mut nowhere).exits(3).err;
+    assert!(said.contains("no window can be opened: neither WAYLAND_DISPLAY"), "{said}");
+    let (Some(server), Some(variables)) = (server(false), variables) else { return };
+    for (words, code, said) in [
+        (&["window", "forwards"][..], 1, "there is no pipeline `forwards`"),
+        (&["window", "forward", "--set", "msaa=3"], 2, "msaa"),
+        (&["window", "forward", "--preset", "none"], 2, "none"),
+        (&["window", "forward", "--device", "nobody"], 3, "no device nobody"),
+        (&["window", "forward", "-o", "no/such/folder/a.png"], 3, "no/such/folder"),
+    ] {
+        run(&place, &server, &variables, &[words, &SCENE].concat()).exits(code).mentions(said);
+    }
+    place.file("wrong.ron", forward_with("draw: Sky", "draw: Skye"));
+    run(&place, &server, &variables, &[&["window", "wrong.ron"][..], &SCENE].concat()).exits(1).mentions("Skye");
+}
