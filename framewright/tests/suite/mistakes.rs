@@ -80,7 +80,7 @@ fn mistakes_in_files_are_told_with_their_places() {
     let error = Renderer::open(device, &file, RendererOptions::default()).map(drop).expect_err("wrong");
     assert!(error.to_string().contains("mine.ron:3:14"), "{error}");
     let (sources, mistakes) = error.diagnostics().expect("mistakes");
-    let place = sources.place(mistakes[0].labels[0].span);
+    let place = sources.place(mistakes[0].labels[0].span).expect("in the file");
     assert_eq!((place.line, place.column), (3, 14));
 }
 

@@ -89,7 +89,7 @@ fn a_setting_that_the_file_loses_waits_until_it_is_back() {
     renderer.set("mine", true).expect("it has it");
     let in_force = |renderer: &mut framewright::Renderer| {
         let plan = renderer.prepare().expect("planned").plan;
-        plan.settings.iter().find(|(name, _)| **name == *"mine").map(|(_, value)| value.clone())
+        plan.settings.iter().find(|used| *used.name == *"mine").map(|used| used.value.clone())
     };
     assert_eq!(in_force(&mut renderer).as_deref(), Some("true"));
     place.file("mine.ron", extending(""));
