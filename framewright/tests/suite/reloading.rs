@@ -56,6 +56,11 @@ fn mistakes_leave_what_is_drawn_until_they_are_mended() {
         assert!(error.diagnostics().is_some_and(|(_, mistakes)| !mistakes.is_empty()));
         assert!(!renderer.files_changed(), "a mistake is told once");
         assert_eq!(draw(&mut renderer, 1), (Change::Nothing, plain.clone()), "{said}");
+        // Choices are still those of the pipeline that is drawn.
+        renderer.set("white_point", 2).expect("allowed");
+        assert_eq!(draw(&mut renderer, 1).0, Change::Values, "{said}");
+        renderer.set("white_point", 3).expect("allowed");
+        assert_eq!(draw(&mut renderer, 1), (Change::Values, plain.clone()), "{said}");
     }
     place.file("mine.ron", extending(OVERLAY));
     assert!(renderer.files_changed());
