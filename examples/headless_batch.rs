@@ -19,8 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all("out/batch")?;
 
     let mut objects = None;
-    let (mut number, mut first_round, mut most) = (0, 0, 0);
-    'pictures: loop {
+    let (mut number, mut first_rounds, mut most) = (0, 0, 0);
+    'pictures: for round in 0_u32.. {
         for extent in SIZES {
             renderer.set_extent(extent)?;
             for white_point in WHITE_POINTS {
@@ -40,10 +40,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 most = most.max(device.memory_in_use().bytes);
             }
         }
-        if first_round == 0 {
-            first_round = most;
+        // From the second round on each size follows another one.
+        if round == 1 {
+            first_rounds = most;
         }
     }
-    println!("{number} pictures; device memory at most {first_round} bytes in the first round, {most} in all");
+    println!("{number} pictures; device memory at most {first_rounds} bytes in the first rounds, {most} in all");
     Ok(())
 }

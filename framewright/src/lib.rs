@@ -21,7 +21,8 @@
 //! - [`Renderer`] reads a pipeline, has it compiled whenever something changed, and draws its frames. All that the command does with a
 //!   pipeline's files works here too: shipped pipelines by name, `extends`, `include`, shaders and pictures of the folder.
 //! - A program that draws objects of its own implements [`DrawSource`] in place of [`SceneDrawSource`].
-//! - Errors are data ([`Error`]). Nothing that a file, a user, a driver or a device decides ends the program.
+//! - Errors are data ([`Error`]). What a file, a user or a device decides doesn't end the program; nor do shaders and drivers that go wrong,
+//!   in a program with a [`Helper`].
 //!
 //! The layers below are reachable: [`graph`] reads, compiles and verifies, [`vulkan`] executes Plans, [`passes`] has the scene and the
 //! shipped shaders, pipelines and scenes. [`PipelineFile`] and [`Pipeline`] are the way from a name to a document.

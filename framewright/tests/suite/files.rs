@@ -93,7 +93,7 @@ fn extensions_settings_files_and_further_images_are_options() {
     let mut renderer = renderer_with(device, "forward", options.clone());
     let plan = renderer.prepare().expect("planned").plan;
     assert!(!plan.tree().contains("`sky` draws"), "{}", plan.tree());
-    assert!(plan.settings.iter().any(|(name, value)| **name == *"msaa" && value == "2"), "{:?}", plan.settings);
+    assert!(plan.settings.iter().any(|used| *used.name == *"msaa" && used.value == "2"), "{:?}", plan.settings);
     draw(&mut renderer, 1);
     assert_eq!(renderer.read("depth").expect("it leaves the frame").extent[..2], crate::testing::EXTENT);
     options.settings = vec![PathBuf::from("none.ron")];

@@ -32,19 +32,21 @@ fn a_wrong_choice_is_an_error_of_its_call_and_changes_nothing() {
 fn choices_that_no_plan_can_be_made_for_go_back_to_the_last_good_ones() {
     let Some(device) = render::device() else { return };
     let place = Place::new();
-    let text = r#"Pipeline(version: 1, settings: [(name: "width", value: Integer(default: 4, min: -4, max: 4))],
-        images: [(name: "wide", format: Color(hdr: false), size: ("width", 4)), (name: "screen", format: Output, size: Output)],
+    let text = r#"Pipeline(version: 1, settings: [
+            (name: "width", value: Integer(default: 4, min: 1, max: 4)), (name: "less", value: Integer(default: 0, min: 0, max: 3))],
+        images: [(name: "wide", format: Color(hdr: false), size: Fixed("width - less", 4)), (name: "screen", format: Output, size: Output)],
         passes: [(name: "opaque", draw: Objects(Opaque), shader: "lit", color: [(image: "wide", clear: (0.0, 0.0, 0.0, 1.0))]),
             (name: "show", draw: FullScreen("copy"), sample: {"source": "wide"}, color: ["screen"])],
         outputs: ["screen"])"#;
     let mut renderer = renderer(device, place.file("wide.ron", text));
     let (_, picture) = draw(&mut renderer, 1);
-    renderer.set("width", -4).expect("allowed by itself");
-    let error = renderer.prepare().map(drop).expect_err("no image is so wide");
-    assert!(error.to_string().contains("wide.ron:2:"), "{error}");
+    renderer.set("width", 2).expect("allowed by itself");
+    renderer.set("less", 2).expect("allowed by itself");
+    let error = renderer.prepare().map(drop).expect_err("no image has no width");
+    assert!(error.to_string().contains("wide.ron:3:"), "{error}");
     assert_eq!(draw(&mut renderer, 1), (framewright::Change::Nothing, picture.clone()));
-    renderer.set("width", 4).expect("allowed");
-    assert_eq!(draw(&mut renderer, 1).1, picture);
+    renderer.set("less", 1).expect("allowed");
+    assert_eq!(renderer.prepare().expect("planned").plan.settings[0].value, "4", "both went back");
 }
 
 #[test]
@@ -80,7 +82,7 @@ fn mistakes_in_files_are_told_with_their_places() {
     let error = Renderer::open(device, &file, RendererOptions::default()).map(drop).expect_err("wrong");
     assert!(error.to_string().contains("mine.ron:3:14"), "{error}");
     let (sources, mistakes) = error.diagnostics().expect("mistakes");
-    let place = sources.place(mistakes[0].labels[0].span);
+    let place = sources.place(mistakes[0].labels[0].span).expect("in the file");
     assert_eq!((place.line, place.column), (3, 14));
 }
 

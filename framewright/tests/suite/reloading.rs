@@ -56,6 +56,11 @@ fn mistakes_leave_what_is_drawn_until_they_are_mended() {
         assert!(error.diagnostics().is_some_and(|(_, mistakes)| !mistakes.is_empty()));
         assert!(!renderer.files_changed(), "a mistake is told once");
         assert_eq!(draw(&mut renderer, 1), (Change::Nothing, plain.clone()), "{said}");
+        // Choices are still those of the pipeline that is drawn.
+        renderer.set("white_point", 2).expect("allowed");
+        assert_eq!(draw(&mut renderer, 1).0, Change::Values, "{said}");
+        renderer.set("white_point", 3).expect("allowed");
+        assert_eq!(draw(&mut renderer, 1), (Change::Values, plain.clone()), "{said}");
     }
     place.file("mine.ron", extending(OVERLAY));
     assert!(renderer.files_changed());
@@ -89,7 +94,7 @@ fn a_setting_that_the_file_loses_waits_until_it_is_back() {
     renderer.set("mine", true).expect("it has it");
     let in_force = |renderer: &mut framewright::Renderer| {
         let plan = renderer.prepare().expect("planned").plan;
-        plan.settings.iter().find(|(name, _)| **name == *"mine").map(|(_, value)| value.clone())
+        plan.settings.iter().find(|used| *used.name == *"mine").map(|used| used.value.clone())
     };
     assert_eq!(in_force(&mut renderer).as_deref(), Some("true"));
     place.file("mine.ron", extending(""));

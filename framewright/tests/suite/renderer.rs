@@ -1,6 +1,7 @@
 //! What a renderer plans and draws, and when (EM-1).
 
 use crate::testing::{EXTENT, difference, draw, renderer, scene};
+use framewright::graph::language::Facts;
 use framewright::{Change, Rotation, SceneDrawSource, Stereo};
 use framewright_tests::render::{self, Setup};
 
@@ -72,6 +73,22 @@ fn values_stay_with_the_executor_and_all_else_gets_a_new_one() {
     let (_, picture) = draw(&mut changing, 1);
     assert_eq!(picture, fresh(&|it| it.preset(Some("reference")).expect("it has one")));
     render::silent(device).expect("silent");
+}
+
+#[test]
+fn passes_follow_the_facts_of_the_scene() {
+    let Some(device) = render::device() else { return };
+    let mut renderer = renderer(device, "forward");
+    let mut glass = |facts: Option<Facts>| {
+        renderer.set_facts(facts);
+        renderer.prepare().expect("planned").plan.tree().to_string().contains("`transparent` draws")
+    };
+    let facts = scene().facts();
+    assert!(facts.has_transparent);
+    assert_eq!(
+        [Some(facts), Some(Facts { has_transparent: false, ..facts }), None].map(&mut glass),
+        [true, false, true]
+    );
 }
 
 #[test]
