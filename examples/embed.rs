@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pipeline = language::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
         .map_err(|mistakes| base::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
-    let shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
+    let shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interfaces());
     let mut shaders = shaders.with_helper(&helper);
     let inputs = expand::Inputs {
         set: &[("msaa".to_owned(), "4".to_owned())],

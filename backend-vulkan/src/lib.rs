@@ -61,7 +61,7 @@ pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
 pub use probe::Canary;
 pub use record::{
-    CullMode, CustomImage, CustomRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
+    CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
     StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, Resource, Texture};

@@ -13,7 +13,7 @@ use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    BindingKind, DrawInterface, DrawInterfaces, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
+    BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
     Variant,
 };
 use std::collections::{BTreeSet, HashMap};
@@ -297,8 +297,8 @@ impl ShaderInterfaces for ShaderLibrary {
         self.compute(name, variant).map(|shader| shader.interface)
     }
 
-    fn brought_along(&self, draw: Draw) -> DrawInterface {
-        self.draws.of(draw)
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
+        draw.map_or_else(|| self.draws.of_kind(DrawKind::Compute), |draw| self.draws.of(draw))
     }
 
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

@@ -35,7 +35,7 @@ impl Assets {
     ) -> Result<Assets, Error> {
         let recorded = |what| root.map(|root| root.clone().recorded(read, what));
         let draws = arguments.interface.as_deref().map(|path| draws(path, read));
-        let draws = draws.unwrap_or_else(|| Ok(draw::interface.into()))?;
+        let draws = draws.unwrap_or_else(|| Ok(draw::interfaces()))?;
         let folder = recorded("the shader itself").into_iter().collect();
         Ok(Assets {
             shaders: ShaderLibrary::new(folder, SHADERS, draws).with_helper(&helper),

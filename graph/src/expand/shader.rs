@@ -111,12 +111,12 @@ impl<'s> Checked<'s> {
         }
     }
 
-    /// The interface that the draw source provides (an empty one, for a dispatch), the first time that a shader draws this.
-    /// Later it is known to fit or not.
+    /// The interface that the draw source provides, the first time that a shader draws this or is dispatched. Later it is known
+    /// to fit or not.
     pub(super) fn brought_along_first(&mut self, pass: &language::Pass, path: &Arc<str>) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;
         let first = self.seen.insert((path.clone(), draw));
-        first.then(|| draw.map_or_else(DrawInterface::default, |draw| self.shaders.brought_along(draw)))
+        first.then(|| self.shaders.brought_along(draw))
     }
 
     /// As [`ShaderInterfaces::custom_passes`].

@@ -15,7 +15,7 @@ const VERSION: i64 = 1;
 pub const LARGEST_INTERFACE: usize = 1 << 20;
 const FORM: &str = "an interface is `Interface(version: 1, draws: [(of: [Sky], supplied: […]), …], custom: [\"…\"])`";
 const KINDS: &str = "a kind of draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Casters(Opaque)`, \
-                     `Casters(Masked)`, `Sky`, `FullScreen` or `Custom`";
+                     `Casters(Masked)`, `Sky`, `FullScreen`, `Custom` or `Compute`";
 
 fields! {
     struct InterfaceFields<'t> as "Interface" {
@@ -132,7 +132,12 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     for entry in reader.list(fields.draws, "the draws")? {
         let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
         let kinds = kinds(reader, fields.of, &mut seen);
+        let vertices = fields.attributes.or(fields.vertex_stride);
         let interface = interface(reader, fields);
+        let has_vertices = interface.vertex_stride > 0 || !interface.attributes.is_empty();
+        if let Some(leaf) = vertices.filter(|_| has_vertices && kinds.contains(&DrawKind::Compute)) {
+            reader.wrong(leaf, "compute passes have no vertices", "give `Compute` an entry of its own");
+        }
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
@@ -169,7 +174,7 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>
 }
 
 fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
-    const WORDS: [&str; 5] = ["Objects", "Casters", "Sky", "FullScreen", "Custom"];
+    const WORDS: [&str; 6] = ["Objects", "Casters", "Sky", "FullScreen", "Custom", "Compute"];
     let (word, rest) = reader.word(leaf, "a kind of draw", &WORDS, KINDS)?;
     let mut list = |lists: &[(&'static str, DrawList)], form| {
         let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
@@ -183,6 +188,7 @@ fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
     Some(match word {
         "Sky" => DrawKind::Sky,
         "FullScreen" => DrawKind::FullScreen,
+        "Compute" => DrawKind::Compute,
         _ => DrawKind::Custom,
     })
 }

@@ -289,8 +289,9 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// The interface of the draw source for `draw`; an empty one where the pass has vertices of its own.
-    fn brought_along(&self, draw: Draw) -> DrawInterface;
+    /// The interface of the draw source for `draw` (`None`: for compute shaders); an empty one where the pass has vertices of
+    /// its own.
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface;
 
     /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

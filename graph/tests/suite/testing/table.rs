@@ -412,12 +412,13 @@ impl ShaderInterfaces for Table {
         })
     }
 
-    fn brought_along(&self, draw: Draw) -> DrawInterface {
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
         let supplied = |set, binding, name, kind| Supplied::new(set, binding, name, kind);
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
-            Draw::Objects(_) | Draw::Casters(_) => DrawInterface {
+            None => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
+            Some(Draw::Objects(_) | Draw::Casters(_)) => DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
                     Attribute::new("position", 3, 0),
@@ -431,9 +432,9 @@ impl ShaderInterfaces for Table {
                     supplied(2, 0, "base_color_texture", SuppliedKind::SampledImage),
                 ],
             },
-            Draw::Sky => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
-            Draw::FullScreen => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
-            Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
+            Some(Draw::Sky) => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
+            Some(Draw::FullScreen) => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
+            Some(Draw::Vertices { .. } | Draw::Indirect | Draw::Custom) => DrawInterface::default(),
         }
     }
 }

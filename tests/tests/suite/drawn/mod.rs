@@ -5,6 +5,7 @@ mod alpha_coverage;
 mod ambient_occlusion;
 mod auto_exposure;
 mod bloom;
+mod camera_everywhere;
 mod color_grading;
 mod copies;
 mod cross_fade;
