@@ -196,7 +196,12 @@ fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
         let offset = module.member_decoration(structure_id, index, Decoration::Offset).flatten().and_then(number);
         let offset = offset.unwrap_or(0);
         let name = module.member_name(structure_id, index).to_owned();
-        block.members.push(Member { name, offset, ty: module.type_name(ty) });
+        block.members.push(Member {
+            name,
+            offset,
+            ty: module.type_name(ty),
+            matrix: module.matrix_layout(structure_id, index),
+        });
     }
     block
 }

@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::describe::{Description, code};
-use crate::frame::{Blend, ParamValue};
+use crate::frame::Blend;
 use crate::plan::names::Shown;
 use crate::plan::text::fill_value;
 use crate::plan::{
@@ -131,12 +131,7 @@ impl Described<'_> {
             fields.push(("binds", bound.join(", ")));
         }
         let params = pass.params.iter().map(|param| {
-            let value = match param.value {
-                ParamValue::Bool(value) => value.to_string(),
-                ParamValue::Integer(value) => value.to_string(),
-                ParamValue::Number(value) => value.to_string(),
-            };
-            format!("{} = {value}", Shown(&param.name))
+            format!("{} = {}", Shown(&param.name), param.value)
         });
         let params: Vec<String> = params.collect();
         if !params.is_empty() {

@@ -132,10 +132,11 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     for entry in reader.list(fields.draws, "the draws")? {
         let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
         let kinds = kinds(reader, fields.of, &mut seen);
-        let vertices = fields.attributes.or(fields.vertex_stride);
+        let (attributes, stride) = (fields.attributes, fields.vertex_stride);
         let interface = interface(reader, fields);
-        let has_vertices = interface.vertex_stride > 0 || !interface.attributes.is_empty();
-        if let Some(leaf) = vertices.filter(|_| has_vertices && kinds.contains(&DrawKind::Compute)) {
+        let attributes = attributes.filter(|_| !interface.attributes.is_empty());
+        let vertices = attributes.or_else(|| stride.filter(|_| interface.vertex_stride > 0));
+        if let Some(leaf) = vertices.filter(|_| kinds.contains(&DrawKind::Compute)) {
             reader.wrong(leaf, "compute passes have no vertices", "give `Compute` an entry of its own");
         }
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));

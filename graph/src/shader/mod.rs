@@ -4,6 +4,7 @@ mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
 mod interface_file;
+mod param_type;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
@@ -15,6 +16,7 @@ pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
 pub use interface_file::LARGEST_INTERFACE;
+pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 
 /// Everything that a shader (all its stages together) uses.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -148,6 +150,17 @@ pub struct Member {
     pub offset: u32,
     /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, …; `bool` members read as `uint`.
     pub ty: String,
+    /// How a matrix lies in the block; `None`: it is none.
+    pub matrix: Option<MatrixLayout>,
+}
+
+/// How a matrix lies in a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MatrixLayout {
+    /// Bytes from column to column, or from row to row if rows follow each other.
+    pub stride: u32,
+    /// Whether rows follow each other, and not columns.
+    pub row_major: bool,
 }
 
 /// A vertex attribute.

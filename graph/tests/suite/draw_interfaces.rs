@@ -131,7 +131,9 @@ fn each_mistake_is_told_at_its_place() {
     wrong("Objects(Masked)", "Objects(Maskd)", "5:43", &["`Maskd` is not a draw list", "did you mean `Masked`?"]);
     wrong("[Sky", "[Casters(Transparent)", "17:26", &["`Transparent` is not a draw list", "`Opaque` or `Masked`"]);
     wrong("[Compute", "[Computed", "26:18", &["`Computed` is not a kind of draw", "did you mean `Compute`?"]);
-    wrong("Objects(Masked), ", "Compute, ", "7:25", &["compute passes have no vertices", "an entry of its own"]);
+    let compute = "of: [Compute],\n            vertex_stride: ";
+    let said = &["compute passes have no vertices", "an entry of its own"];
+    wrong(&format!("{compute}0"), &format!("{compute}4"), "27:28", said);
     wrong("vertex_stride: 20", "vertex_stride: 4000", "6:28", &["vertices of 4000 bytes: every device allows 2048"]);
     wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);
     wrong("vertex_stride: 20", "vertex_stride: 16", "9:17", &["`tangent` doesn't fit vertices of 16 bytes"]);

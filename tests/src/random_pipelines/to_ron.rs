@@ -167,7 +167,7 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
         let param = |(name, value): &(String, ParamValue)| match value {
             ParamValue::Number(number) => format!("\"{name}\": {number:?}"),
             ParamValue::Integer(number) => format!("\"{name}\": {number}"),
-            ParamValue::Bool(truth) => format!("\"{name}\": {truth}"),
+            ParamValue::Bool(_) | ParamValue::List(_) => format!("\"{name}\": {value}"),
         };
         let params: Vec<String> = shader.params.iter().map(param).collect();
         fields.push(format!("params: {{{}}}", params.join(", ")));

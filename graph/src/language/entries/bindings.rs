@@ -93,7 +93,7 @@ pub(crate) const STORAGE: Form =
 pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
 
 /// Parameters, by the shader's names.
-pub(crate) const PARAMS: Form = Form::Map("shader's name", &Form::Either(&[Form::Number, Form::Truth]));
+pub(crate) const PARAMS: Form = Form::Map("shader's name", &values::PARAM);
 
 fields! {
     /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it.

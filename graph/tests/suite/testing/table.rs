@@ -30,6 +30,7 @@ fn params(members: &[(&str, &str)]) -> Binding {
         name: (*name).to_owned(),
         offset: 4 * at,
         ty: (*ty).to_owned(),
+        matrix: None,
     });
     let block = Block { bytes: 16, members: members.collect() };
     let kind = BindingKind::UniformBlock(block);
@@ -331,6 +332,13 @@ impl ShaderInterfaces for Table {
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
             "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
+            "vectors" => full_screen(vec![params(&[
+                ("tint", "vec3"),
+                ("cell", "ivec2"),
+                ("flags", "uvec2"),
+                ("turn", "mat2x3"),
+            ])]),
+            "listed" => full_screen(vec![params(&[("weights", "vec4[2]")])]),
             "scalars" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int")])]),
             "cube" => {
                 let mut interface = full_screen(vec![source()]);
