@@ -81,13 +81,13 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
             "give each a name of its own; layers of one image are sampled by a `sampler2DArray`",
         ),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
-            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other(
-                "a sampler that compares depth",
-                "sample the depth by a `sampler2D`, and compare it in the shader",
-            ),
-            Some(image) => image_shape(module, image)
-                .filter(|shape| shape.dimension != Dimension::Buffer)
-                .map_or_else(texel_buffer, BindingKind::SampledImage),
+            Some(image) => {
+                let compares = image.operands.get(2).and_then(number) == Some(1);
+                let kind = if compares { BindingKind::ComparedDepth } else { BindingKind::SampledImage };
+                image_shape(module, image)
+                    .filter(|shape| shape.dimension != Dimension::Buffer)
+                    .map_or_else(texel_buffer, kind)
+            }
             None => other("an image of unknown type", "declare it `sampler2D`"),
         },
         (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {

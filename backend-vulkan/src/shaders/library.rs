@@ -251,7 +251,7 @@ impl ShaderLibrary {
             }
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
-            let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
+            let sampled = matches!(binding.kind, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
             if sampled && mentioned.parts.contains(&binding.name) {
                 reflected.interface.asks_part.push(binding.name.clone());

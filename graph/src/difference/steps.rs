@@ -152,9 +152,10 @@ impl Described<'_> {
         let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
             let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
             let kind = match binding.kind {
-                BindingKind::Sampled(Sampler { filter, mips, address }) => {
+                BindingKind::Sampled(Sampler { filter, mips, address, compare }) => {
                     let [filter, mips, address] = [name_of(&filter), name_of(&mips), name_of(&address)];
-                    format!("sampled, {filter}, {mips} between mip levels, {address}")
+                    let compare = compare.map_or_else(String::new, |op| format!(", compared by {}", name_of(&op)));
+                    format!("sampled, {filter}, {mips} between mip levels, {address}{compare}")
                 }
                 BindingKind::Storage => "storage".to_owned(),
                 BindingKind::InputAttachment => "read at its own position".to_owned(),

@@ -97,7 +97,10 @@ fn number(value: &ParamValue) -> String {
 fn convert(value: &ParamValue, ty: &str) -> Result<ParamValue, (String, Option<String>)> {
     let known = ParamType::of(ty).ok_or_else(|| (String::new(), Some(format!("that is {NEITHER}"))))?;
     known.take(value).map_err(|misfit| match misfit {
-        ParamMisfit::Form => (String::new(), Some(format!("a `{ty}` is written `{}`", known.form()))),
+        ParamMisfit::Form => {
+            let several = known.rows > 1;
+            (String::new(), several.then(|| format!("values of this type are written `{}`", known.form())))
+        }
         ParamMisfit::Component { column, row, value } => {
             let column = column.map_or_else(String::new, |column| format!(" of column {column}"));
             let place = row.map(|row| format!(": component {row}{column} is `{}`", number(&value)));

@@ -89,6 +89,8 @@ pub struct Binding {
 pub enum BindingKind {
     /// A combined image sampler.
     SampledImage(ImageShape),
+    /// A combined image sampler that compares depth: `sampler2DShadow`.
+    ComparedDepth(ImageShape),
     /// A storage image.
     StorageImage {
         /// Dimension and component type.

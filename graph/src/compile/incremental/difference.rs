@@ -181,8 +181,9 @@ fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     // Most are the same, so comparing all at once takes fewer branches.
     let same_access =
         same_access((old.image, old.range, old.frames_ago, old.span), (*image, *range, *frames_ago, *span));
-    let bytes = |Sampler { filter, mips, address }: Sampler, own_pixel| {
-        [filter as u8, mips as u8, address as u8, u8::from(own_pixel)]
+    let bytes = |Sampler { filter, mips, address, compare }: Sampler, own_pixel| {
+        let compare = compare.map_or(u8::MAX, |compare| compare as u8);
+        [filter as u8, mips as u8, address as u8, compare, u8::from(own_pixel)]
     };
     let same_way = (bytes(old.sampler, old.own_pixel) == bytes(*sampler, *own_pixel)) & (old.stages == *stages);
     (same_access & same_way & (old.eye == *eye) & (old.face == *face))

@@ -332,6 +332,14 @@ impl ShaderInterfaces for Table {
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
             "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
+            "shadowed" => {
+                let mut interface = full_screen(vec![texture("shadow", 0, false, float)]);
+                if let BindingKind::SampledImage(shape) = interface.bindings[0].kind {
+                    interface.bindings[0].kind = BindingKind::ComparedDepth(shape);
+                    interface.asks_part.push("shadow".to_owned());
+                }
+                interface
+            }
             "vectors" => full_screen(vec![params(&[
                 ("tint", "vec3"),
                 ("cell", "ivec2"),
