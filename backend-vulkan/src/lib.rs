@@ -61,8 +61,8 @@ pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
 pub use probe::Canary;
 pub use record::{
-    CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
-    StepReport,
+    CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
+    Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, Resource, Texture};
 pub use shaders::ShaderLibrary;

@@ -30,7 +30,8 @@ pub trait DrawSource {
     /// [`DrawKind::Compute`]: framewright_graph::shader::DrawKind::Compute
     fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
         let (pass, shader) = (recorder.pass(), recorder.shader());
-        let what = format!("nobody binds what `{shader}` reads of the draw source, which the compute pass `{pass}` asks for");
+        let what =
+            format!("nobody binds what `{shader}` reads of the draw source, which the compute pass `{pass}` asks for");
         Err(Error::DrawSource { what })
     }
 

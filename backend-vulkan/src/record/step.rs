@@ -129,12 +129,7 @@ impl Recording<'_> {
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
 
-    fn dispatch(
-        &mut self,
-        commands: vk::CommandBuffer,
-        step: usize,
-        dispatch: &DispatchCommand,
-    ) -> Result<(), Error> {
+    fn dispatch(&mut self, commands: vk::CommandBuffer, step: usize, dispatch: &DispatchCommand) -> Result<(), Error> {
         let gpu = self.frame.gpu;
         self.state.begin_pass();
         let (device, compute) = (&gpu.raw, vk::PipelineBindPoint::COMPUTE);
@@ -162,8 +157,7 @@ impl Recording<'_> {
         let planned = passes(&self.frame.plan.steps[step].work).first();
         let (Some(made), Some(pass)) = (self.prepared.steps[step].dispatch(), planned) else { return Ok(()) };
         let (gpu, held) = (self.frame.gpu, &mut self.recorded.kept);
-        let mut recorder =
-            DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.number));
+        let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.number));
         self.source.dispatch(&mut recorder)?;
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }

@@ -12,8 +12,8 @@ use framewright_graph::shader::DrawInterfaces;
 use framewright_graph::vulkan::{FillValue, Rotation};
 use framewright_tests::render::in_repository;
 use framewright_vulkan::{
-    BindGroup, Buffer, BufferUsage, CustomRecorder, Device, DispatchRecorder, DrawSource, Error, Executor, ExecutorOptions,
-    Recorder, Resource, ShaderLibrary,
+    BindGroup, Buffer, BufferUsage, CustomRecorder, Device, DispatchRecorder, DrawSource, Error, Executor,
+    ExecutorOptions, Recorder, Resource, ShaderLibrary,
 };
 use std::sync::Arc;
 
@@ -163,7 +163,10 @@ fn what_a_compute_pass_reads_of_the_engine_must_be_bound() {
         executor.frame(source).expect_err("a refusal").to_string()
     };
     let engine = |gust| Engine { gust, ..Engine::new(device).expect("its resources") };
-    assert_eq!(refused(&mut engine(Gust::Unbound)), "pass `gust`, while recording: a dispatch without a bind group for set 1");
+    assert_eq!(
+        refused(&mut engine(Gust::Unbound)),
+        "pass `gust`, while recording: a dispatch without a bind group for set 1"
+    );
     assert_eq!(refused(&mut engine(Gust::OfObjects)), "pass `gust`, while recording: the draw interface has no set 2");
     let words = "nobody binds what `gust` reads of the draw source, which the compute pass `gust` asks for";
     assert!(refused(&mut OnlyCustom(engine(Gust::Bound))).contains(words));

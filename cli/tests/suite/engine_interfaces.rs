@@ -5,7 +5,8 @@ use crate::testing::{Outcome, Place, Vulkan, repository};
 /// A folder with the engine's pipeline, shaders and interface.
 fn engine() -> Place {
     let place = Place::new();
-    for file in ["engine.ron", "interface.ron", "terrain.vert", "terrain.frag", "grass.vert", "grass.frag", "gust.comp"] {
+    for file in ["engine.ron", "interface.ron", "terrain.vert", "terrain.frag", "grass.vert", "grass.frag", "gust.comp"]
+    {
         place.file(file, std::fs::read(repository("examples/engine").join(file)).expect("the example"));
     }
     place

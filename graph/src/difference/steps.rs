@@ -130,9 +130,7 @@ impl Described<'_> {
         if !bound.is_empty() {
             fields.push(("binds", bound.join(", ")));
         }
-        let params = pass.params.iter().map(|param| {
-            format!("{} = {}", Shown(&param.name), param.value)
-        });
+        let params = pass.params.iter().map(|param| format!("{} = {}", Shown(&param.name), param.value));
         let params: Vec<String> = params.collect();
         if !params.is_empty() {
             fields.push(("parameters", params.join(", ")));

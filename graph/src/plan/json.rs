@@ -1,8 +1,8 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
 use super::{
-    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Pass, Plan, Resource, Role, Side, Step, StepId,
-    ViewId, Work,
+    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Pass, Plan, Resource, Role, Side, Step, StepId, ViewId,
+    Work,
 };
 use crate::plan::names::Shown;
 use crate::vulkan::FillValue;

@@ -175,7 +175,9 @@ mod tests {
 
     #[test]
     fn types_are_named_as_glsl_names_them_and_arrays_are_none() {
-        for name in ["float", "int", "uint", "bool", "vec2", "ivec3", "uvec4", "bvec2", "mat2", "mat4", "mat2x3", "mat4x2"] {
+        for name in
+            ["float", "int", "uint", "bool", "vec2", "ivec3", "uvec4", "bvec2", "mat2", "mat4", "mat2x3", "mat4x2"]
+        {
             assert_eq!(ty(name).to_string(), name);
         }
         for name in ["vec5", "vec", "mat", "mat1", "mat2x", "vec4[2]", "float[3]", "double", "dvec2", "Light", ""] {
@@ -204,7 +206,10 @@ mod tests {
         assert_eq!(ty("int").take(&Number(0.5)), component(None, None, Number(0.5)));
         let numbers = ParamValue::list([Integer(1), Number(0.5)]);
         assert_eq!(ty("ivec2").take(&numbers), component(None, Some(2), Number(0.5)));
-        let nested = ParamValue::list([ParamValue::list([Integer(1), Integer(2)]), ParamValue::list([Number(1e99), Integer(2)])]);
+        let nested = ParamValue::list([
+            ParamValue::list([Integer(1), Integer(2)]),
+            ParamValue::list([Number(1e99), Integer(2)]),
+        ]);
         assert_eq!(ty("mat2").take(&nested), component(Some(2), Some(1), Number(1e99)));
         for (name, value) in [
             ("vec2", Integer(1)),

@@ -90,7 +90,11 @@ fn an_engine_writes_its_interfaces_and_reads_them_again() {
     assert_eq!(interfaces.of(Draw::Vertices { count: 3, instances: 1 }), DrawInterface::default());
     assert_eq!(interfaces.of_kind(DrawKind::Compute).supplied[0].name, "counters");
     let told = DrawInterfaces::from(|_| engine(Draw::Sky));
-    assert_eq!(told.of_kind(DrawKind::Compute), DrawInterface::default(), "a function of draws says nothing of compute passes");
+    assert_eq!(
+        told.of_kind(DrawKind::Compute),
+        DrawInterface::default(),
+        "a function of draws says nothing of compute passes"
+    );
 }
 
 #[test]

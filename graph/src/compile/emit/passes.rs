@@ -171,7 +171,11 @@ fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, nam
         redraws: Some(declared.name.clone()),
         view: view(results, declared.view),
         blend: Vec::new(),
-        params: declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect(),
+        params: declared
+            .params
+            .iter()
+            .map(|(name, value)| Param { name: name.clone(), value: value.clone() })
+            .collect(),
         accesses: uses.iter().map(|used| access(results, used, None)).collect(),
         merged: results.scoped.merged(results.frame, results.adapted, number),
         ..planned

@@ -2,8 +2,8 @@
 
 use crate::base::Span;
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Sampled,
-    StencilState, Storage, View, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Sampled, StencilState, Storage,
+    View, Work,
 };
 use crate::vulkan::{FillValue, Sampler, Subresources};
 use std::sync::Arc;

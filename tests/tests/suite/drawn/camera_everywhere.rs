@@ -112,7 +112,8 @@ fn compute_and_full_screen_passes_see_the_camera_of_their_eye_in_every_way() -> 
                 assert_eq!(texels.len(), (EXTENT[0] * EXTENT[1]) as usize);
                 for (pixel, found) in texels.iter().enumerate() {
                     let wanted = expected(&scene.camera, pixel, right);
-                    let off = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max);
+                    let off =
+                        found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max);
                     // Products of matrices in 32 bits, and for the eye numbers up to 14.
                     assert!(off < 1e-4, "{what}, eye {eye}, {ways:?}, pixel {pixel}: {found:?} instead of {wanted:?}");
                 }
@@ -149,7 +150,8 @@ fn a_compute_pass_that_runs_once_sees_the_camera_between_the_eyes() -> Result<()
     let world_to_clip = scene.camera.projection(width / height).as_dmat4() * scene.camera.transform.inverse();
     for stereo in [Stereo::Off, Stereo::MultiPass, Stereo::DoubleWide] {
         let seen = seen(device, &scene, Ways { stereo, rotation: Rotation::Identity })?;
-        let culls = |it: &&framewright_graph::plan::Step| matches!(&it.work, Work::Dispatch(pass) if &*pass.name == "cull");
+        let culls =
+            |it: &&framewright_graph::plan::Step| matches!(&it.work, Work::Dispatch(pass) if &*pass.name == "cull");
         assert_eq!(seen.plan.steps.iter().filter(culls).count(), 1, "{}", seen.plan.tree());
         assert_eq!(seen.places.len(), scene.objects.len());
         for (place, object) in seen.places.iter().zip(&scene.objects) {
