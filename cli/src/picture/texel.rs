@@ -154,6 +154,14 @@ mod tests {
     }
 
     #[test]
+    fn signed_and_wide_formats_show_what_a_picture_can() {
+        assert_eq!(shown(Format::R16_UNORM, &0x8000_u16.to_ne_bytes()), [188, 0, 0]);
+        assert_eq!(shown(Format::R8G8B8A8_SNORM, &[0x40, 0x81, 0x7f, 0]), [188, 0, 255]);
+        assert_eq!(shown(Format::R16G16B16A16_SINT, &[9, 0, 0xff, 0xff, 0, 1, 0, 0]), [9, 0, 255]);
+        assert_eq!(shown(Format::R32G32_UINT, &[7, 0, 0, 0, 8, 0, 0, 0]), [7, 0, 0]);
+    }
+
+    #[test]
     fn blue_and_red_stay_apart_whatever_their_order_in_memory() {
         assert_eq!(shown(Format::R8G8B8A8_SRGB, &[1, 2, 3, 4]), [1, 2, 3]);
         assert_eq!(shown(Format::B8G8R8A8_SRGB, &[1, 2, 3, 4]), [3, 2, 1]);

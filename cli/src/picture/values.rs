@@ -83,6 +83,10 @@ mod tests {
         assert!(near(Format::R16G16B16A16_UNORM, &[0xff, 0x7f].repeat(4)));
         assert!(near(Format::A2B10G10R10_UNORM_PACK32, &512_u32.to_ne_bytes()));
         assert_eq!(values(Format::R8_UINT, &[7]), [7.0, 0.0, 0.0, 1.0]);
+        assert!(near(Format::R16_UNORM, &[0xff, 0x7f]) && near(Format::R16G16_SNORM, &[0xff, 0x3f, 0, 0]));
+        assert_eq!(values(Format::R8G8_SNORM, &[0x80, 0x7f]), [-1.0, 1.0, 0.0, 1.0]);
+        assert_eq!(values(Format::R16G16_SINT, &[0xfd, 0xff, 4, 0]), [-3.0, 4.0, 0.0, 1.0]);
+        assert_eq!(values(Format::R32G32_UINT, &[0, 1, 0, 0, 2, 0, 0, 0]), [256.0, 2.0, 0.0, 1.0]);
         for format in Format::ALL {
             let all = values(*format, &[0x3f; 16][..texel_bytes(*format)]);
             assert!((1..=4).contains(&components(*format)) && all[0].is_finite(), "{format}");

@@ -241,12 +241,10 @@ impl<'p> Check<'_, 'p> {
             }
             Dimension::D1 | Dimension::Buffer => false,
         };
-        let whole = image.format.is_integer() || access.range.aspects == Aspects::STENCIL;
+        let stencil = access.range.aspects == Aspects::STENCIL;
+        let component = if stencil { Component::Uint } else { Component::of(image.format) };
         let sampled = access.accesses.contains(Accesses::SHADER_SAMPLED_READ);
-        sampled
-            && shape
-            && texture.multisampled == (image.samples > 1)
-            && (texture.component == Component::Uint) == whole
+        sampled && shape && texture.multisampled == (image.samples > 1) && texture.component == component
     }
 
     fn buffers(&mut self, pass: &Pass, stages: Stages) {

@@ -1,6 +1,6 @@
 //! Texel formats by Vulkan's names, and properties that follow from a name alone.
 
-use super::Aspects;
+use super::{Aspects, Component};
 use serde::{Deserialize, Serialize};
 
 /// How a component's bits are read.
@@ -159,7 +159,7 @@ impl Format {
     #[must_use]
     pub fn blits_to(self, other: Format) -> bool {
         let color = !self.is_depth() && !other.is_depth();
-        self == other || color && self.is_integer() == other.is_integer()
+        self == other || color && Component::of(self) == Component::of(other)
     }
 
     /// The format with Vulkan's name `name`.
