@@ -174,3 +174,33 @@ impl std::fmt::Display for Format {
         f.write_str(self.name())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Format::{self, *};
+
+    #[test]
+    fn a_blit_keeps_the_kind_of_components() {
+        for (from, to, blits) in [
+            (R16_UNORM, R8G8B8A8_SNORM, true),
+            (R32_UINT, R8_UINT, true),
+            (R16_SINT, R32G32_SINT, true),
+            (R32_UINT, R32_SINT, false),
+            (R8_SINT, R8_SNORM, false),
+            (D32_SFLOAT, R32_SFLOAT, false),
+            (D32_SFLOAT, D32_SFLOAT, true),
+        ] {
+            assert_eq!((from.blits_to(to), to.blits_to(from)), (blits, blits), "{from} and {to}");
+        }
+    }
+
+    #[test]
+    fn formats_are_listed_by_vulkans_numbers_each_once() {
+        assert!(Format::ALL.is_sorted_by_key(|format| format.vulkan()));
+        for format in Format::ALL.iter().filter(|format| !format.is_depth() && format.texel_bytes() > 0) {
+            let letters = format.name().split('_').next().unwrap_or_default();
+            let count = letters.chars().filter(char::is_ascii_alphabetic).count();
+            assert_eq!(format.components() as usize, count, "{format}");
+        }
+    }
+}

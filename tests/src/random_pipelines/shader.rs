@@ -73,7 +73,9 @@ impl Text {
         let (scalar, vector) = if is_float { ("float", "vec3") } else { ("uint", "uvec3") };
         let other = || ParamValue::Integer(9);
         let column = |value| ParamValue::list([other(), value, other()]);
+        // Names of one word may be others elsewhere.
         let (ty, place, value) = match self.params.len() % 3 {
+            _ if !name.contains('_') => (scalar, "", value),
             0 => (scalar, "", value),
             1 if is_float => ("mat2x3", "[1].y", ParamValue::list([column(other()), column(value)])),
             _ => (vector, ".y", column(value)),
