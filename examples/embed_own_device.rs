@@ -83,7 +83,7 @@ fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
     let pipeline = language::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
         .map_err(|mistakes| base::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
-    let mut shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
+    let mut shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interfaces());
     let profile = device.profile();
     let inputs = expand::Inputs {
         set: &[("msaa".to_owned(), "4".to_owned())],

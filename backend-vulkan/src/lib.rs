@@ -65,8 +65,8 @@ pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;
 pub use record::{
-    CullMode, CustomImage, CustomRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
-    StepReport,
+    CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
+    Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, Resource, Texture};
 pub use shaders::ShaderLibrary;

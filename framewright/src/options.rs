@@ -36,7 +36,7 @@ impl Default for RendererOptions {
             files: FileOptions::default(),
             settings: Vec::new(),
             shaders: Vec::new(),
-            draws: draw::interface.into(),
+            draws: draw::interfaces(),
             helper: None,
             dump: Vec::new(),
             compile: compile::Options::default(),

@@ -78,7 +78,7 @@ impl Drawn {
         let (name, pipeline) = ("forward.ron", include_str!("../../examples/pipelines/forward.ron"));
         let mut sources = Sources::default();
         let document = language::read(&mut sources, name, name, pipeline.to_owned()).expect("a pipeline");
-        let mut shaders = ShaderLibrary::new(Vec::<Root>::new(), SHADERS, draw::interface);
+        let mut shaders = ShaderLibrary::new(Vec::<Root>::new(), SHADERS, draw::interfaces());
         let profile = device.profile();
         let inputs = expand::Inputs {
             set: &[("msaa".to_owned(), "1".to_owned())],

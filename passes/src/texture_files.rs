@@ -192,7 +192,9 @@ fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), Text
         F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => {
             bytes.extend([2, 1, 0, 3].map(|at| fixed(color[at], 255.0).to_ne_bytes()[LOW]));
         }
-        F::R16G16B16A16_UNORM => bytes.extend(color.iter().flat_map(|value| fixed(*value, 65535.0).to_ne_bytes())),
+        F::R16_UNORM | F::R16G16_UNORM | F::R16G16B16A16_UNORM => {
+            bytes.extend(color.iter().take(components).flat_map(|value| fixed(*value, 65535.0).to_ne_bytes()));
+        }
         F::R16_SFLOAT | F::R16G16_SFLOAT | F::R16G16B16A16_SFLOAT => {
             let largest = f32::from(f16::MAX);
             let half = |value: &f32| f16::from_f32(value.clamp(-largest, largest)).to_ne_bytes();

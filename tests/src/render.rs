@@ -8,7 +8,7 @@ use framewright_graph::language::{self, PipelineFiles};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Rotation;
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::{SceneDrawSource, interfaces};
 use framewright_passes::scene::Scene;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
@@ -188,7 +188,7 @@ pub fn ready(
 /// The shaders of the tests, and those that are shipped.
 #[must_use]
 pub fn library() -> ShaderLibrary {
-    ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface)
+    ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interfaces())
 }
 
 /// Texels of 32-bit floats as numbers, channel by channel.

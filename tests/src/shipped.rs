@@ -6,7 +6,7 @@ use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::{self, Document, Facts, PipelineFiles, SettingKind};
 use framewright_graph::vulkan::Rotation;
-use framewright_passes::draw::interface;
+use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
 use std::collections::BTreeMap;
@@ -64,7 +64,7 @@ pub fn frames(output_extent: [u32; 2]) -> &'static [ShippedFrame] {
 }
 
 fn make(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
-    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
     let mut frames = Vec::new();
     let folder = std::fs::read_dir(in_repository("examples/pipelines")).expect("pipelines are shipped");
     let mut files: Vec<_> = folder.map(|file| file.expect("the folder can be listed").path()).collect();

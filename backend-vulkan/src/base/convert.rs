@@ -2,7 +2,7 @@
 
 use ash::vk;
 use framewright_graph::vulkan::{
-    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Format, Layout, LoadOp, ResolveMode, Stages,
+    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Format, Layout, LoadOp, Numeric, ResolveMode, Stages,
     StencilOp, StoreOp, Subresources, Usage,
 };
 
@@ -135,12 +135,20 @@ pub(crate) fn extent([width, height, depth]: [u32; 3]) -> vk::Extent3D {
 
 /// A colour attachment's clear value in the form that its components need.
 pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValue {
-    if format.is_integer() {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, as a clear should")]
-        let uint32 = value.map(|component| component as u32);
-        vk::ClearColorValue { uint32 }
-    } else {
-        vk::ClearColorValue { float32: value }
+    match format.numeric() {
+        Numeric::Uint => {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, as a clear should")]
+            let uint32 = value.map(|component| component as u32);
+            vk::ClearColorValue { uint32 }
+        }
+        Numeric::Sint => {
+            #[allow(clippy::cast_possible_truncation, reason = "saturates, as a clear should")]
+            let int32 = value.map(|component| component as i32);
+            vk::ClearColorValue { int32 }
+        }
+        Numeric::Sfloat | Numeric::Ufloat | Numeric::Unorm | Numeric::Snorm | Numeric::Srgb => {
+            vk::ClearColorValue { float32: value }
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::vulkan::{AddressMode, Filter, Format, Rotation};
+use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Format, Rotation};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,7 @@ const KEPT_ROUNDS: u64 = 16;
 /// The caches of a device.
 #[derive(Default)]
 pub(crate) struct Caches {
-    pub(crate) samplers: Cache<SamplerDescriptor, vk::Sampler>,
+    pub(crate) samplers: Cache<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
     pub(crate) set_layouts: Cache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
     pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
     pub(crate) pipelines: Cache<PipelineDescriptor, vk::Pipeline>,

@@ -33,7 +33,12 @@ pub(crate) fn create_info<'f>(descriptor: &BufferDescriptor, families: &'f [u32]
     let info = vk::BufferCreateInfo::default()
         .size(descriptor.bytes.checked_next_multiple_of(4).unwrap_or(descriptor.bytes))
         .usage(convert::buffer_usage(descriptor.usage));
-    if descriptor.sharing == Sharing::Concurrent && families.len() > 1 {
+    if descriptor.sharing == Sharing::Concurrent { sharing(info, families) } else { info }
+}
+
+/// With several queue families, a buffer that all of them may use at any time.
+fn sharing<'f>(info: vk::BufferCreateInfo<'f>, families: &'f [u32]) -> vk::BufferCreateInfo<'f> {
+    if families.len() > 1 {
         info.sharing_mode(vk::SharingMode::CONCURRENT).queue_family_indices(families)
     } else {
         info
@@ -59,6 +64,19 @@ impl RawBuffer {
         kind: MemoryUse,
     ) -> Result<RawBuffer, Error> {
         let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
+        RawBuffer::with_own_memory(gpu, name, &info, bytes, kind)
+    }
+
+    /// As [`RawBuffer::new`], for the shaders of all queues at once.
+    pub(crate) fn shared(
+        gpu: &Arc<Gpu>,
+        name: &str,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+        kind: MemoryUse,
+    ) -> Result<RawBuffer, Error> {
+        let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
+        let info = sharing(info, &gpu.queues.families.indices);
         RawBuffer::with_own_memory(gpu, name, &info, bytes, kind)
     }
 

@@ -19,7 +19,10 @@ pub(crate) fn check_limits(gpu: &Gpu, shader: &ShaderInterface, brought: &DrawIn
     let counts = [
         (
             "sampled images",
-            count(|it| matches!(it, BindingKind::SampledImage(_)), Some(SuppliedKind::SampledImage)),
+            count(
+                |it| matches!(it, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_)),
+                Some(SuppliedKind::SampledImage),
+            ),
             sampled,
         ),
         (

@@ -2,7 +2,7 @@
 
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan;
-use framewright_graph::shader::Block;
+use framewright_graph::shader::{Block, MatrixLayout, Member, ParamScalar, ParamType};
 
 /// Name of the block that holds a pass's parameters.
 pub(crate) const PARAMS: &str = "params";
@@ -19,54 +19,68 @@ pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, Str
     for member in &block.members {
         let param = params.iter().find(|it| *it.name == *member.name);
         let param = param.ok_or_else(|| format!("`{}` of the block `{PARAMS}` has no value", member.name))?;
-        let value = value(&member.ty, param.value)
-            .ok_or_else(|| format!("`{}` is a {}, and {:?} is none", member.name, member.ty, param.value))?;
-        let at = member.offset as usize;
-        bytes
-            .get_mut(at..at + value.len())
-            .ok_or_else(|| format!("`{}` lies outside its block", member.name))?
-            .copy_from_slice(&value);
+        write(&mut bytes, member, &param.value)?;
     }
     Ok(bytes)
 }
 
-/// A value as a member of type `ty` holds it; `None` if it can't.
-fn value(ty: &str, value: ParamValue) -> Option<[u8; 4]> {
+/// Writes a value where its member lies in a block.
+fn write(bytes: &mut [u8], member: &Member, value: &ParamValue) -> Result<(), String> {
+    let Member { name, ty, offset, matrix } = member;
+    let misfit = || format!("`{name}` is a {ty}, and {value:?} is none");
+    let known = ParamType::of(ty).ok_or_else(misfit)?;
+    let MatrixLayout { stride, row_major } = matrix.unwrap_or(MatrixLayout { stride: 16, row_major: false });
+    for (column, components) in (0_u32..).zip(known.columns_of(value).ok_or_else(misfit)?) {
+        for (row, component) in (0_u32..).zip(components) {
+            let (line, at) = if row_major { (row, column) } else { (column, row) };
+            let place = offset.saturating_add(line.saturating_mul(stride)).saturating_add(4 * at) as usize;
+            bytes
+                .get_mut(place..place.saturating_add(4))
+                .ok_or_else(|| format!("`{name}` lies outside its block"))?
+                .copy_from_slice(&word(known.scalar, component).ok_or_else(misfit)?);
+        }
+    }
+    Ok(())
+}
+
+/// A value as a component of such a type holds it; `None` if it can't.
+fn word(scalar: ParamScalar, value: &ParamValue) -> Option<[u8; 4]> {
     let number = match value {
-        ParamValue::Bool(value) => f64::from(u8::from(value)),
+        ParamValue::Bool(value) => f64::from(u8::from(*value)),
         // Beyond 2^53 no 32-bit type holds it anyway.
         ParamValue::Integer(value) => {
-            i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from)).ok()?
+            i32::try_from(*value).map(f64::from).or_else(|_| u32::try_from(*value).map(f64::from)).ok()?
         }
-        ParamValue::Number(value) => value,
+        ParamValue::Number(value) => *value,
+        ParamValue::List(_) => return None,
     };
-    match ty {
-        "float" => {
+    match scalar {
+        ParamScalar::Float => {
             #[allow(clippy::cast_possible_truncation, reason = "shaders compute in 32 bits")]
             let narrowed = number as f32;
             narrowed.is_finite().then(|| narrowed.to_ne_bytes())
         }
-        "int" if number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&number) => {
+        ParamScalar::Int if number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&number) => {
             #[allow(clippy::cast_possible_truncation, reason = "the range was checked")]
             let whole = number as i32;
             Some(whole.to_ne_bytes())
         }
-        "uint" if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) => {
+        ParamScalar::Uint if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) => {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range was checked")]
             let whole = number as u32;
             Some(whole.to_ne_bytes())
         }
-        _ => None,
+        // SPIR-V has no truth values in blocks.
+        ParamScalar::Int | ParamScalar::Uint | ParamScalar::Bool => None,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::shader::Member;
 
     fn member(name: &str, offset: u32, ty: &str) -> Member {
-        Member { name: name.to_owned(), offset, ty: ty.to_owned() }
+        Member { name: name.to_owned(), offset, ty: ty.to_owned(), matrix: None }
     }
 
     fn param(name: &str, value: ParamValue) -> plan::Param {
@@ -88,6 +102,32 @@ mod tests {
         expected.extend([0; 4]);
         expected.extend(1_u32.to_ne_bytes());
         assert_eq!(fill(&block, &params), Ok(expected));
+    }
+
+    #[test]
+    fn vectors_and_matrices_lie_as_their_block_says() {
+        let numbers = |from: i64, count: i64| ParamValue::list((from..from + count).map(ParamValue::Integer));
+        let columns = || ParamValue::list([numbers(1, 3), numbers(4, 3)]);
+        let matrix = |offset, stride, row_major| Member {
+            matrix: Some(MatrixLayout { stride, row_major }),
+            ..member("m", offset, "mat2x3")
+        };
+        let floats = |members: Vec<Member>, given: &[plan::Param]| -> Vec<f32> {
+            let bytes = fill(&Block { bytes: 64, members }, given).expect("it fits");
+            bytes.as_chunks().0.iter().map(|word| f32::from_ne_bytes(*word)).collect()
+        };
+        let vector = [param("v", numbers(7, 3))];
+        assert_eq!(floats(vec![member("v", 16, "vec3")], &vector)[3..8], [0.0, 7.0, 8.0, 9.0, 0.0]);
+        let given = [param("m", columns())];
+        assert_eq!(floats(vec![matrix(0, 16, false)], &given)[..8], [1.0, 2.0, 3.0, 0.0, 4.0, 5.0, 6.0, 0.0]);
+        // Three rows of two.
+        let rows = [1.0, 4.0, 0.0, 0.0, 2.0, 5.0, 0.0, 0.0, 3.0, 6.0];
+        assert_eq!(floats(vec![matrix(0, 16, true)], &given)[..10], rows);
+        assert_eq!(floats(vec![matrix(4, 12, false)], &given)[1..7], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let outside = fill(&Block { bytes: 16, members: vec![matrix(0, 16, false)] }, &given);
+        assert_eq!(outside, Err("`m` lies outside its block".to_owned()));
+        let short = fill(&Block { bytes: 64, members: vec![member("v", 0, "vec4")] }, &vector);
+        assert!(short.is_err_and(|said| said.starts_with("`v` is a vec4, and List(")));
     }
 
     #[test]

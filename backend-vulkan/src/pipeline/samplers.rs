@@ -3,17 +3,21 @@
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, SamplerDescriptor};
 use ash::vk;
-use framewright_graph::vulkan::{AddressMode, Filter, Sampler};
+use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Sampler};
 
 impl Gpu {
-    /// The sampler of this description.
-    pub(crate) fn sampler(&self, descriptor: SamplerDescriptor) -> Result<vk::Sampler, Error> {
+    /// The sampler of this description. `compare`: it compares depth.
+    pub(crate) fn sampler(
+        &self,
+        descriptor: SamplerDescriptor,
+        compare: Option<CompareOp>,
+    ) -> Result<vk::Sampler, Error> {
         let address = |mode| match mode {
             AddressMode::Repeat => vk::SamplerAddressMode::REPEAT,
             AddressMode::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
             AddressMode::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
         };
-        self.caches.samplers.get(descriptor, |it| {
+        self.caches.samplers.get((descriptor, compare), |(it, compare)| {
             let info = vk::SamplerCreateInfo::default()
                 .mag_filter(convert::filter(it.magnify))
                 .min_filter(convert::filter(it.minify))
@@ -24,6 +28,8 @@ impl Gpu {
                 .address_mode_u(address(it.address[0]))
                 .address_mode_v(address(it.address[1]))
                 .address_mode_w(address(it.address[2]))
+                .compare_enable(compare.is_some())
+                .compare_op(compare.map_or(vk::CompareOp::NEVER, convert::compare))
                 .max_lod(vk::LOD_CLAMP_NONE);
             // SAFETY: the device lives.
             unsafe { self.raw.create_sampler(&info, None) }.map_err(Error::vulkan("creating a sampler"))
@@ -32,7 +38,7 @@ impl Gpu {
 }
 
 impl From<Sampler> for SamplerDescriptor {
-    fn from(Sampler { filter, mips, address }: Sampler) -> SamplerDescriptor {
+    fn from(Sampler { filter, mips, address, .. }: Sampler) -> SamplerDescriptor {
         SamplerDescriptor { magnify: filter, minify: filter, mip: mips, address: [address; 3] }
     }
 }

@@ -124,6 +124,8 @@ pub(crate) struct DispatchCommand {
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) bindings: Bindings,
     pub(crate) groups: WorkgroupCount<vk::Buffer>,
+    /// Whether the shader reads what the draw source brings along.
+    pub(crate) supplied: bool,
 }
 
 /// The number of workgroups.

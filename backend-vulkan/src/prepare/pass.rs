@@ -5,13 +5,13 @@ use super::command_list::{
 };
 use super::frame::Frame;
 use super::pass_set::PassSets;
+use super::supplied::SuppliedSets;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
-use crate::resources::supplied_layouts;
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
@@ -39,27 +39,18 @@ pub(crate) struct PreparedDraw {
 /// State of the pass's pipeline that a recorder must know.
 #[derive(Default)]
 pub(crate) struct PassState {
-    pub(crate) layout: vk::PipelineLayout,
-    /// Layouts of the sets from 1 on, and whether the shader reads them.
-    pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
+    pub(crate) supplied: SuppliedSets,
     /// Bytes from vertex to vertex of what the draw source provides; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
     /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
 
-impl PassState {
-    /// Whether the shader reads anything that the draw source provides.
-    pub(crate) fn reads_supplied(&self) -> bool {
-        self.supplied.iter().any(|(_, needed)| *needed)
-    }
-}
-
 /// A dispatch's objects.
 pub(crate) struct PreparedDispatch {
     pub(crate) sets: PassSets,
     pub(crate) pipeline: vk::Pipeline,
-    pub(crate) layout: vk::PipelineLayout,
+    pub(crate) supplied: SuppliedSets,
     /// Invocations of a workgroup.
     size: [u32; 3],
 }
@@ -87,12 +78,12 @@ impl PreparedDraw {
             DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices: self.indices.map(buffer), counts }))
         };
         let vertices = match (self.draw, self.indirect) {
-            (Draw::FullScreen, _) if !self.state.reads_supplied() => DrawnVertices::FullScreen,
+            (Draw::FullScreen, _) if !self.state.supplied.are_read() => DrawnVertices::FullScreen,
             (Draw::Vertices { count, instances }, _) => own(DrawCounts::Direct(count, instances)),
             (Draw::Indirect, Some(counts)) => own(DrawCounts::Indirect(buffer(counts))),
             _ => DrawnVertices::Source,
         };
-        let bindings = bindings(list, frame, plan, &mut self.sets, self.state.layout)?;
+        let bindings = bindings(list, frame, plan, &mut self.sets, self.state.supplied.layout)?;
         Ok(DrawCommand { pipeline: self.pipeline, bindings, pass, target, vertices })
     }
 }
@@ -109,8 +100,8 @@ impl PreparedDispatch {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
-        let bindings = bindings(list, frame, pass, &mut self.sets, self.layout)?;
-        Ok(DispatchCommand { pipeline: self.pipeline, bindings, groups })
+        let bindings = bindings(list, frame, pass, &mut self.sets, self.supplied.layout)?;
+        Ok(DispatchCommand { pipeline: self.pipeline, bindings, groups, supplied: self.supplied.are_read() })
     }
 
     /// How many workgroups it takes.
@@ -169,15 +160,18 @@ pub(super) fn prepare_dispatch(
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
-    let nothing = DrawInterface::default();
-    check_limits(gpu, &shader.interface, &nothing).map_err(mismatch)?;
-    check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
+    // A shader that reads nothing of it isn't held to what the device can bind of it.
+    let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
+    let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
+    check_brought(&brought).map_err(mismatch)?;
+    check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
+    check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
     let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
-    let layout = gpu.pipeline_layout(vec![sets.layout])?;
-    let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
-    Ok(PreparedDispatch { sets, pipeline, layout, size })
+    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
+    let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, supplied.layout)?;
+    Ok(PreparedDispatch { sets, pipeline, supplied, size })
 }
 
 /// The objects of a pass of a rendering scope.
@@ -218,7 +212,7 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let brought = shaders.brought_along(draw);
+    let brought = shaders.brought_along(Some(draw));
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
@@ -238,9 +232,7 @@ pub(super) fn prepare_draw(
         check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
     }
     let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
-    let supplied = supplied_layouts(gpu, &brought)?;
-    let layout = gpu.pipeline_layout([sets.layout].into_iter().chain(supplied.iter().copied()).collect())?;
-    let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
+    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
     let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
     let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
@@ -251,7 +243,7 @@ pub(super) fn prepare_draw(
     let descriptor = PipelineDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
-        layout,
+        layout: supplied.layout,
         strides: strides.clone(),
         attributes,
         color: scope.color.iter().zip(0_usize..).map(|(it, number)| (format(it), blend(&number))).collect(),
@@ -267,10 +259,9 @@ pub(super) fn prepare_draw(
     };
     let sized = descriptor.turned.filter(|turned| turned.extent != [0; 2]).map(|_| descriptor.clone());
     let pipeline = Some(gpu.pipeline(&pass.name, descriptor)?);
-    let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
-    let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
+    let state = PassState { supplied, vertex_stride: brought_stride, usual_vertices };
     Ok(PreparedDraw { pipeline, sized, local, state, vertices, ..nothing(sets) })
 }
 

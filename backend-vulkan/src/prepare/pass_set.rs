@@ -132,7 +132,7 @@ impl PassSet {
                 BoundResource::Image { image, range, shape, layout, sampler } => {
                     let image = frame.image(*image);
                     images.push(image.clone());
-                    let sampler = sampler.map(|it| frame.gpu.sampler(it.into())).transpose()?;
+                    let sampler = sampler.map(|it| frame.gpu.sampler(it.into(), it.compare)).transpose()?;
                     DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
                 }
             };
@@ -242,7 +242,13 @@ fn image(
     let layout = convert::layout(access.layout);
     let whole = |shape, sampler| BoundResource::Image { image: access.image, range, shape, layout, sampler };
     match (&wanted.kind, kind) {
-        (shader::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
+        (
+            shader::BindingKind::SampledImage(shape) | shader::BindingKind::ComparedDepth(shape),
+            BindingKind::Sampled(sampler),
+        ) => {
+            if matches!(wanted.kind, shader::BindingKind::ComparedDepth(_)) != sampler.compare.is_some() {
+                return Err(format!("`{name}` is compared with a depth by only one of Plan and shader"));
+            }
             samples(shape.multisampled)?;
             read(shape.component)?;
             let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();

@@ -78,6 +78,14 @@ impl PreparedStep {
         }
     }
 
+    /// The objects of its dispatch.
+    pub(crate) fn dispatch(&self) -> Option<&PreparedDispatch> {
+        match self {
+            PreparedStep::Dispatch(dispatch) => Some(dispatch),
+            PreparedStep::Render(_) | PreparedStep::Plain => None,
+        }
+    }
+
     /// The sets of its passes.
     pub(crate) fn sets(&mut self) -> Vec<&mut PassSets> {
         match self {

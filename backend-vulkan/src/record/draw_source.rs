@@ -1,6 +1,7 @@
 //! The trait that the embedding program implements to record the draws of objects, the sky and custom passes.
 
 use super::custom::CustomRecorder;
+use super::dispatch::DispatchRecorder;
 use super::recorder::Recorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
@@ -18,6 +19,21 @@ pub trait DrawSource {
     /// # Errors
     /// Any error that keeps the source from drawing; [`Error::DrawSource`] is for its own reasons.
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error>;
+
+    /// Binds the draw source's sets for a compute pass, which is dispatched right after. It is called once for each compute pass
+    /// whose shader reads what the draw source brings along to [`DrawKind::Compute`], in the frame's order among the calls of
+    /// [`DrawSource::record`]. The pass's own set is bound already.
+    ///
+    /// # Errors
+    /// Any error that keeps the source from binding. Unless this is overridden, that it binds nothing.
+    ///
+    /// [`DrawKind::Compute`]: framewright_graph::shader::DrawKind::Compute
+    fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        let (pass, shader) = (recorder.pass(), recorder.shader());
+        let what =
+            format!("nobody binds what `{shader}` reads of the draw source, which the compute pass `{pass}` asks for");
+        Err(Error::DrawSource { what })
+    }
 
     /// Records the custom pass that the pipeline knows as `callback`, outside of rendering scopes. It must do what the
     /// pipeline says of it: write whole what it writes, and touch nothing else. If it writes anything, it is an error to record

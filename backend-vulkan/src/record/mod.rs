@@ -3,15 +3,19 @@
 mod bindings;
 mod canvas;
 mod custom;
+mod dispatch;
 mod draw_source;
 mod fragments;
+mod held;
 mod recorder;
 mod scope;
 mod state;
 mod step;
+mod supplied;
 mod timing;
 
 pub use custom::{CustomImage, CustomRecorder};
+pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use recorder::{IndexType, Recorder};
 pub use state::{CullMode, FrontFace};

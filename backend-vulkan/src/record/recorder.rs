@@ -1,17 +1,16 @@
 //! How a draw source records its draws.
 
-use super::bindings::bind_set;
 use super::canvas::Canvas;
+use super::held::HeldResources;
 use super::state::{CullMode, FrontFace};
-use crate::memory::RawBuffer;
+use super::supplied::BoundSets;
 use crate::prepare::{PassState, PreparedDraw};
-use crate::resources::{BindGroup, Buffer, RawBindGroup};
+use crate::resources::{BindGroup, Buffer};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// The type of an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -28,7 +27,7 @@ pub enum IndexType {
 /// as [`crate::Error::Recording`].
 pub struct Recorder<'f> {
     canvas: Canvas<'f>,
-    kept: &'f mut HeldResources,
+    sets: BoundSets<'f>,
     pass: &'f PassState,
     has_pipeline: bool,
     plan: &'f plan::Pass,
@@ -41,53 +40,6 @@ pub struct Recorder<'f> {
     misuse: Option<String>,
 }
 
-/// Resources of a frame's commands, kept until the device is done with them even if the draw source drops them.
-#[derive(Default)]
-pub(crate) struct HeldResources {
-    groups: Held<RawBindGroup>,
-    buffers: Held<RawBuffer>,
-    /// By set from 1 on: whether the pass that is being recorded has all that it reads of it.
-    bound: Vec<bool>,
-}
-
-/// Resources in the order in which a frame's commands use them. What a frame uses as the frame before did stays as it is, since
-/// to count references takes time.
-struct Held<T> {
-    list: Vec<Arc<T>>,
-    /// How many of them the frame has used so far.
-    used: usize,
-}
-
-impl<T> Default for Held<T> {
-    fn default() -> Held<T> {
-        Held { list: Vec::new(), used: 0 }
-    }
-}
-
-impl<T> Held<T> {
-    fn hold(&mut self, resource: &Arc<T>) {
-        match self.list.get_mut(self.used) {
-            Some(held) if Arc::ptr_eq(held, resource) => {}
-            Some(held) => *held = resource.clone(),
-            None => self.list.push(resource.clone()),
-        }
-        self.used += 1;
-    }
-}
-
-impl HeldResources {
-    /// Begins a frame, which finds the resources of the one before. The device must be done with that.
-    pub(super) fn begin(&mut self) {
-        (self.groups.used, self.buffers.used) = (0, 0);
-    }
-
-    /// Lets go of what the frame before used and this one doesn't.
-    pub(super) fn end(&mut self) {
-        self.groups.list.truncate(self.groups.used);
-        self.buffers.list.truncate(self.buffers.used);
-    }
-}
-
 impl<'f> Recorder<'f> {
     pub(super) fn new(
         canvas: Canvas<'f>,
@@ -98,10 +50,9 @@ impl<'f> Recorder<'f> {
         begun: Result<(), String>,
     ) -> Recorder<'f> {
         let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
-        kept.bound.clear();
-        kept.bound.extend(pass.supplied.iter().map(|(_, needed)| !needed));
+        let sets = BoundSets::new(canvas.gpu, vk::PipelineBindPoint::GRAPHICS, &pass.supplied, kept);
         let (vertices, indices) = (None, None);
-        Recorder { canvas, kept, pass, has_pipeline, plan, frame, vertices, indices, culled: 0, ready: false, misuse }
+        Recorder { canvas, sets, pass, has_pipeline, plan, frame, vertices, indices, culled: 0, ready: false, misuse }
     }
 
     /// The pass's name.
@@ -173,24 +124,8 @@ impl<'f> Recorder<'f> {
 
     /// Binds a group to the set number `set`, from 1 on.
     pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
-        if !group.0.set.is_of(self.canvas.gpu) {
-            return self.misused(|| "the bind group belongs to another device".to_owned());
-        }
-        let index = (set as usize).wrapping_sub(1);
-        match self.pass.supplied.get(index) {
-            None => self.misused(|| format!("the draw interface has no set {set}")),
-            Some((layout, _)) if *layout != group.0.set.layout => {
-                self.misused(|| {
-                    format!("the bind group was made for another set than {set}, or another draw interface")
-                });
-            }
-            Some(_) => {
-                self.kept.bound[index] = true;
-                self.kept.groups.hold(&group.0);
-                let (gpu, commands, layout) = (self.canvas.gpu, self.canvas.commands, self.pass.layout);
-                bind_set(gpu, commands, vk::PipelineBindPoint::GRAPHICS, layout, set, group.0.set.raw);
-            }
-        }
+        let bound = self.sets.bind(self.canvas.commands, set, group);
+        self.note(bound);
     }
 
     /// Binds the vertices.
@@ -304,7 +239,7 @@ impl<'f> Recorder<'f> {
     fn may_bind(&mut self, buffer: &Buffer, usage: vk::BufferUsageFlags) -> bool {
         let may = buffer.0.usage.contains(usage) && buffer.0.is_of(self.canvas.gpu);
         if may {
-            self.kept.buffers.hold(&buffer.0);
+            self.sets.held.buffers.hold(&buffer.0);
         }
         may
     }
@@ -320,8 +255,8 @@ impl<'f> Recorder<'f> {
 
     /// A draw is misuse as long as something is missing.
     fn look_for_missing(&mut self) {
-        if let Some(missing) = self.kept.bound.iter().position(|bound| !bound) {
-            self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
+        if let Some(missing) = self.sets.missing() {
+            self.misused(|| format!("a draw without a bind group for set {missing}"));
         }
         if !self.has_pipeline {
             let shader = &self.plan.shader;

@@ -2,9 +2,10 @@
 
 use super::bindings::bind;
 use super::custom::CustomRecorder;
+use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
 use super::fragments::FragmentCounts;
-use super::recorder::HeldResources;
+use super::held::HeldResources;
 use super::state::CommandState;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
@@ -93,7 +94,7 @@ impl Recording<'_> {
                 // SAFETY: the scope was begun by a command before.
                 Command::EndScope => unsafe { gpu.raw.cmd_end_rendering(commands) },
                 Command::Dispatch(dispatch) => {
-                    self.dispatch(commands, dispatch);
+                    self.dispatch(commands, step, dispatch)?;
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
                 Command::Custom => {
@@ -128,20 +129,36 @@ impl Recording<'_> {
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
 
-    fn dispatch(&mut self, commands: vk::CommandBuffer, dispatch: &DispatchCommand) {
+    fn dispatch(&mut self, commands: vk::CommandBuffer, step: usize, dispatch: &DispatchCommand) -> Result<(), Error> {
         let gpu = self.frame.gpu;
         self.state.begin_pass();
         let (device, compute) = (&gpu.raw, vk::PipelineBindPoint::COMPUTE);
-        // SAFETY: the command buffer is being recorded outside a scope, and counts and the buffer behind them were checked.
+        if self.state.needs_compute(dispatch.pipeline) {
+            // SAFETY: the command buffer is being recorded outside a scope.
+            unsafe { device.cmd_bind_pipeline(commands, compute, dispatch.pipeline) };
+        }
+        bind(gpu, commands, compute, &self.prepared.list, &dispatch.bindings);
+        if dispatch.supplied {
+            self.bind_supplied(commands, step)?;
+        }
+        // SAFETY: the command buffer is being recorded outside a scope, everything that the pipeline reads is bound, and counts and
+        // the buffer behind them were checked.
         unsafe {
-            if self.state.needs_compute(dispatch.pipeline) {
-                device.cmd_bind_pipeline(commands, compute, dispatch.pipeline);
-            }
-            bind(gpu, commands, compute, &self.prepared.list, &dispatch.bindings);
             match dispatch.groups {
                 WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
                 WorkgroupCount::Indirect(buffer, offset) => device.cmd_dispatch_indirect(commands, buffer, offset),
             }
         }
+        Ok(())
+    }
+
+    /// Has the draw source bind its sets for the dispatch of a step.
+    fn bind_supplied(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
+        let planned = passes(&self.frame.plan.steps[step].work).first();
+        let (Some(made), Some(pass)) = (self.prepared.steps[step].dispatch(), planned) else { return Ok(()) };
+        let (gpu, held) = (self.frame.gpu, &mut self.recorded.kept);
+        let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.number));
+        self.source.dispatch(&mut recorder)?;
+        recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
 }

@@ -8,6 +8,13 @@ use ash::vk;
 use framewright_graph::shader::{DrawInterface, PASS_SET, SuppliedKind};
 use std::sync::Arc;
 
+/// The stages that see what a draw source brings along.
+const SUPPLIED_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw()
+        | vk::ShaderStageFlags::FRAGMENT.as_raw()
+        | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+
 /// Something that can be bound.
 #[derive(Clone, Copy)]
 pub enum Resource<'r> {
@@ -92,14 +99,15 @@ impl Buffer {
     }
 }
 
-/// Every set from 1 on is visible in both stages, so that all shaders of a kind of draw share its layout.
+/// Every set from 1 on is visible in all stages, so that all shaders of a kind of draw share its layout, and kinds that bring the
+/// same share bind groups.
 fn layout_binding(binding: u32, kind: SuppliedKind) -> LayoutBinding {
     let ty = match kind {
         SuppliedKind::UniformBlock => vk::DescriptorType::UNIFORM_BUFFER,
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,
         SuppliedKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     };
-    LayoutBinding { binding, ty, stages: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT }
+    LayoutBinding { binding, ty, stages: SUPPLIED_STAGES }
 }
 
 /// The layouts of the sets from 1 on that `interface` brings along, without gaps.

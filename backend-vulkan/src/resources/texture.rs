@@ -66,7 +66,7 @@ impl Device {
             return Err(Error::BadResource { what });
         }
         let contents = if contents.is_empty() { &[0; 16] } else { contents };
-        let mut buffer = RawBuffer::new(&self.gpu, "buffer", contents.len() as u64, flags, MemoryUse::Upload)?;
+        let mut buffer = RawBuffer::shared(&self.gpu, "buffer", contents.len() as u64, flags, MemoryUse::Upload)?;
         buffer.fill(contents)?;
         Ok(Buffer(Arc::new(buffer)))
     }
@@ -115,7 +115,8 @@ impl Device {
             layers: 1,
             samples: 1,
             usage: Usage::SAMPLED | Usage::TRANSFER_DST | if levels > 1 { Usage::TRANSFER_SRC } else { Usage::empty() },
-            sharing: Sharing::Exclusive,
+            // Compute passes may see it too, on a queue of their own.
+            sharing: Sharing::Concurrent,
         };
         let image = Arc::new(Image::with_own_memory(&self.gpu, "texture", &descriptor)?);
         let staging = staged(&self.gpu, "texture upload", texels)?;
@@ -123,7 +124,7 @@ impl Device {
             record_upload(&self.gpu, commands, &image, &staging, Layout::ShaderReadOnlyOptimal);
         })?;
         let view = image.view(Subresources::all(format, levels, 1), ViewShape::Flat)?;
-        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler, None)? })))
     }
 
     /// The texels of `texture`, which they share, sampled another way.
@@ -132,6 +133,6 @@ impl Device {
     /// If the device has no room for another sampler.
     pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
         let (image, view) = (texture.0.image.clone(), texture.0.view);
-        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler, None)? })))
     }
 }

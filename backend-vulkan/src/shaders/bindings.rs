@@ -81,13 +81,13 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
             "give each a name of its own; layers of one image are sampled by a `sampler2DArray`",
         ),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
-            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other(
-                "a sampler that compares depth",
-                "sample the depth by a `sampler2D`, and compare it in the shader",
-            ),
-            Some(image) => image_shape(module, image)
-                .filter(|shape| shape.dimension != Dimension::Buffer)
-                .map_or_else(texel_buffer, BindingKind::SampledImage),
+            Some(image) => {
+                let compares = image.operands.get(2).and_then(number) == Some(1);
+                let kind = if compares { BindingKind::ComparedDepth } else { BindingKind::SampledImage };
+                image_shape(module, image)
+                    .filter(|shape| shape.dimension != Dimension::Buffer)
+                    .map_or_else(texel_buffer, kind)
+            }
             None => other("an image of unknown type", "declare it `sampler2D`"),
         },
         (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {
@@ -137,19 +137,41 @@ fn texel_format(operand: Option<&Operand>) -> Result<Option<Format>, String> {
     let format = match format {
         ImageFormat::Unknown => return Ok(None),
         ImageFormat::R8 => Format::R8_UNORM,
+        ImageFormat::R8Snorm => Format::R8_SNORM,
         ImageFormat::R8ui => Format::R8_UINT,
+        ImageFormat::R8i => Format::R8_SINT,
         ImageFormat::Rg8 => Format::R8G8_UNORM,
+        ImageFormat::Rg8Snorm => Format::R8G8_SNORM,
+        ImageFormat::Rg8ui => Format::R8G8_UINT,
+        ImageFormat::Rg8i => Format::R8G8_SINT,
         ImageFormat::Rgba8 => Format::R8G8B8A8_UNORM,
+        ImageFormat::Rgba8Snorm => Format::R8G8B8A8_SNORM,
         ImageFormat::Rgba8ui => Format::R8G8B8A8_UINT,
+        ImageFormat::Rgba8i => Format::R8G8B8A8_SINT,
         ImageFormat::Rgb10A2 => Format::A2B10G10R10_UNORM_PACK32,
+        ImageFormat::R16 => Format::R16_UNORM,
+        ImageFormat::R16Snorm => Format::R16_SNORM,
+        ImageFormat::R16ui => Format::R16_UINT,
+        ImageFormat::R16i => Format::R16_SINT,
         ImageFormat::R16f => Format::R16_SFLOAT,
+        ImageFormat::Rg16 => Format::R16G16_UNORM,
+        ImageFormat::Rg16Snorm => Format::R16G16_SNORM,
+        ImageFormat::Rg16ui => Format::R16G16_UINT,
+        ImageFormat::Rg16i => Format::R16G16_SINT,
         ImageFormat::Rg16f => Format::R16G16_SFLOAT,
         ImageFormat::Rgba16 => Format::R16G16B16A16_UNORM,
+        ImageFormat::Rgba16Snorm => Format::R16G16B16A16_SNORM,
+        ImageFormat::Rgba16ui => Format::R16G16B16A16_UINT,
+        ImageFormat::Rgba16i => Format::R16G16B16A16_SINT,
         ImageFormat::Rgba16f => Format::R16G16B16A16_SFLOAT,
         ImageFormat::R32ui => Format::R32_UINT,
+        ImageFormat::R32i => Format::R32_SINT,
         ImageFormat::R32f => Format::R32_SFLOAT,
+        ImageFormat::Rg32ui => Format::R32G32_UINT,
+        ImageFormat::Rg32i => Format::R32G32_SINT,
         ImageFormat::Rg32f => Format::R32G32_SFLOAT,
         ImageFormat::Rgba32ui => Format::R32G32B32A32_UINT,
+        ImageFormat::Rgba32i => Format::R32G32B32A32_SINT,
         ImageFormat::Rgba32f => Format::R32G32B32A32_SFLOAT,
         ImageFormat::R11fG11fB10f => Format::B10G11R11_UFLOAT_PACK32,
         other => return Err(format!("a storage image of the format `{other:?}`, which no image of a pipeline has")),
@@ -196,7 +218,12 @@ fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
         let offset = module.member_decoration(structure_id, index, Decoration::Offset).flatten().and_then(number);
         let offset = offset.unwrap_or(0);
         let name = module.member_name(structure_id, index).to_owned();
-        block.members.push(Member { name, offset, ty: module.type_name(ty) });
+        block.members.push(Member {
+            name,
+            offset,
+            ty: module.type_name(ty),
+            matrix: module.matrix_layout(structure_id, index),
+        });
     }
     block
 }

@@ -204,7 +204,12 @@ impl Layers {
                 known.extend(it.result_id.map(|result| (result, arrayed)));
                 made.push(it);
             }
-            Op::ImageSampleImplicitLod | Op::ImageSampleExplicitLod | Op::ImageGather => {
+            Op::ImageSampleImplicitLod
+            | Op::ImageSampleExplicitLod
+            | Op::ImageGather
+            | Op::ImageSampleDrefImplicitLod
+            | Op::ImageSampleDrefExplicitLod
+            | Op::ImageDrefGather => {
                 self.give_layer(&mut it, self.float, types, made)?;
                 made.push(it);
             }
@@ -237,8 +242,20 @@ impl Layers {
         made: &mut Vec<Instruction>,
     ) -> Result<(), String> {
         let flat = self.builder.type_vector(component, 2);
-        let coordinate = id(it, 1).filter(|coordinate| self.type_of(*coordinate, types) == Some(flat));
-        let coordinate = coordinate.ok_or_else(|| format!("Op{:?} with an unusual coordinate", it.class.opcode))?;
+        let [with_depth, with_more] = [3, 4].map(|length| self.builder.type_vector(component, length));
+        let unusual = || format!("Op{:?} with an unusual coordinate", it.class.opcode);
+        let given = id(it, 1).ok_or_else(unusual)?;
+        let coordinate = match self.type_of(given, types) {
+            Some(ty) if ty == flat => given,
+            // The compiler hands over the depth that is compared behind the coordinate too.
+            Some(ty) if ty == with_depth || ty == with_more => {
+                let first = self.builder.id();
+                let parts = [given, given].map(Operand::IdRef).into_iter().chain([0, 1].map(Operand::LiteralBit32));
+                made.push(Instruction::new(Op::VectorShuffle, Some(flat), Some(first), parts.collect()));
+                first
+            }
+            _ => return Err(unusual()),
+        };
         let eye = self.builder.id();
         made.push(Instruction::new(Op::Load, Some(self.int), Some(eye), vec![Operand::IdRef(self.eye)]));
         let layer = if component == self.float {

@@ -13,8 +13,8 @@ use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    BindingKind, DrawInterface, DrawInterfaces, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
-    Variant,
+    BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
+    Unbindable, Variant,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -251,7 +251,7 @@ impl ShaderLibrary {
             }
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
-            let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
+            let sampled = matches!(binding.kind, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
             if sampled && mentioned.parts.contains(&binding.name) {
                 reflected.interface.asks_part.push(binding.name.clone());
@@ -297,8 +297,8 @@ impl ShaderInterfaces for ShaderLibrary {
         self.compute(name, variant).map(|shader| shader.interface)
     }
 
-    fn brought_along(&self, draw: Draw) -> DrawInterface {
-        self.draws.of(draw)
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
+        draw.map_or_else(|| self.draws.of_kind(DrawKind::Compute), |draw| self.draws.of(draw))
     }
 
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

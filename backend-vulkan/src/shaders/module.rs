@@ -1,5 +1,6 @@
 //! A SPIR-V module with its instructions found by id.
 
+use framewright_graph::shader::MatrixLayout;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 use std::collections::HashMap;
@@ -126,14 +127,21 @@ impl<'m> IndexedModule<'m> {
         let members = (0_u32..).zip(it.operands.iter().map(Operand::id_ref_any));
         let ends = members.filter_map(|(member, ty)| {
             let said = |decoration| self.member_decoration(structure, member, decoration).flatten().and_then(number);
-            let bytes = self.member_bytes(ty?, said(Decoration::MatrixStride).unwrap_or(16));
+            let bytes = self.member_bytes(ty?, self.matrix_layout(structure, member));
             Some(said(Decoration::Offset).unwrap_or(0).saturating_add(bytes))
         });
         ends.max().unwrap_or(0).checked_next_multiple_of(16).unwrap_or(u32::MAX)
     }
 
+    /// How a block's member lies if it is a matrix, or an array of them.
+    pub(super) fn matrix_layout(&self, structure: u32, member: u32) -> Option<MatrixLayout> {
+        let stride = self.member_decoration(structure, member, Decoration::MatrixStride).flatten().and_then(number)?;
+        let row_major = self.member_decoration(structure, member, Decoration::RowMajor).is_some();
+        Some(MatrixLayout { stride, row_major })
+    }
+
     /// Bytes that a block's member of type `ty` spans.
-    fn member_bytes(&self, ty: u32, matrix_stride: u32) -> u32 {
+    fn member_bytes(&self, ty: u32, matrix: Option<MatrixLayout>) -> u32 {
         let Some(it) = self.global(ty) else { return 0 };
         let scalar_bytes = |it: &Instruction| it.operands.first().and_then(number).unwrap_or(32) / 8;
         match it.class.opcode {
@@ -141,7 +149,14 @@ impl<'m> IndexedModule<'m> {
                 let element = id(it, 0).and_then(|element| self.global(element)).map_or(0, scalar_bytes);
                 element.saturating_mul(self.components(ty))
             }
-            Op::TypeMatrix => matrix_stride.saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0)),
+            Op::TypeMatrix => {
+                let columns = it.operands.get(1).and_then(number).unwrap_or(0);
+                let lines = match matrix {
+                    Some(MatrixLayout { row_major: true, .. }) => id(it, 0).map_or(0, |column| self.components(column)),
+                    _ => columns,
+                };
+                matrix.map_or(16, |matrix| matrix.stride).saturating_mul(lines)
+            }
             Op::TypeArray => {
                 let stride = self.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
                 stride.saturating_mul(self.array_length(it))

@@ -11,6 +11,7 @@ mod allocations;
 mod blending;
 mod compute;
 mod depth;
+mod formats;
 mod geometry;
 mod growth;
 mod hand_over;

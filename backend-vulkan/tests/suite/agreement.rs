@@ -12,8 +12,8 @@ use framewright_graph::shader::DrawInterfaces;
 use framewright_graph::vulkan::{FillValue, Rotation};
 use framewright_tests::render::in_repository;
 use framewright_vulkan::{
-    BindGroup, Buffer, BufferUsage, CustomRecorder, Device, DrawSource, Error, Executor, ExecutorOptions, Recorder,
-    Resource, ShaderLibrary,
+    BindGroup, Buffer, BufferUsage, CustomRecorder, Device, DispatchRecorder, DrawSource, Error, Executor,
+    ExecutorOptions, Recorder, Resource, ShaderLibrary,
 };
 use std::sync::Arc;
 
@@ -62,8 +62,18 @@ fn out_of_file(old: &str, new: &str) -> Option<DrawInterfaces> {
 struct Engine {
     vertices: Buffer,
     camera: BindGroup,
-    custom_camera: BindGroup,
+    only_camera: BindGroup,
     materials: BindGroup,
+    gust: Gust,
+    /// The frames in which the compute pass was dispatched.
+    frames: Vec<u64>,
+}
+
+/// What the engine binds for its compute pass.
+enum Gust {
+    Bound,
+    Unbound,
+    OfObjects,
 }
 
 impl Engine {
@@ -78,8 +88,10 @@ impl Engine {
         Ok(Engine {
             vertices: device.buffer(BufferUsage::Vertex, &words(&vertices))?,
             camera: device.bind_group(&objects, 1, &[(0, Resource::Buffer(&camera))])?,
-            custom_camera: device.bind_group(&interfaces.of(Draw::Custom), 1, &[(0, Resource::Buffer(&camera))])?,
+            only_camera: device.bind_group(&interfaces.of(Draw::Custom), 1, &[(0, Resource::Buffer(&camera))])?,
             materials: device.bind_group(&objects, 2, &[(0, Resource::Buffer(&materials))])?,
+            gust: Gust::Bound,
+            frames: Vec::new(),
         })
     }
 }
@@ -88,7 +100,7 @@ impl DrawSource for Engine {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
         if draw == Draw::Custom {
             assert_eq!(recorder.shader(), "grass");
-            recorder.bind_group(1, &self.custom_camera);
+            recorder.bind_group(1, &self.only_camera);
         } else {
             recorder.bind_group(1, &self.camera);
             recorder.bind_group(2, &self.materials);
@@ -96,6 +108,17 @@ impl DrawSource for Engine {
         }
         recorder.draw(0..3, 0..1);
         Ok(1)
+    }
+
+    fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        assert_eq!((recorder.pass(), recorder.shader(), recorder.view()), ("gust", "gust", None));
+        self.frames.push(recorder.frame());
+        match self.gust {
+            Gust::Bound => recorder.bind_group(1, &self.only_camera),
+            Gust::Unbound => {}
+            Gust::OfObjects => recorder.bind_group(2, &self.materials),
+        }
+        Ok(())
     }
 
     fn custom(&mut self, callback: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
@@ -126,8 +149,41 @@ fn what_is_checked_against_the_file_is_drawn_by_the_engine_in_silence() {
     // The tint times the material, half of which is 0; the grass stands in the upper left corner.
     assert_eq!(texels[0], [0, 255, 0, 255]);
     assert_eq!(texels[EXTENT[0] as usize - 1], [255, 0, 0, 255]);
+    assert_eq!(engine.frames, [0, 1]);
     drop((executor, engine, device));
     assert_eq!(testing::findings(&messages), []);
+}
+
+#[test]
+fn what_a_compute_pass_reads_of_the_engine_must_be_bound() {
+    let Some(device) = testing::device() else { return };
+    let plan = planned(device, engine::interfaces()).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let refused = |source: &mut dyn DrawSource| {
+        let options = ExecutorOptions::default();
+        let mut executor = Executor::new(device, &plan, &mut shaders(engine::interfaces()), &options).expect("fits");
+        executor.frame(source).expect_err("a refusal").to_string()
+    };
+    let engine = |gust| Engine { gust, ..Engine::new(device).expect("its resources") };
+    assert_eq!(
+        refused(&mut engine(Gust::Unbound)),
+        "pass `gust`, while recording: a dispatch without a bind group for set 1"
+    );
+    assert_eq!(refused(&mut engine(Gust::OfObjects)), "pass `gust`, while recording: the draw interface has no set 2");
+    let words = "nobody binds what `gust` reads of the draw source, which the compute pass `gust` asks for";
+    assert!(refused(&mut OnlyCustom(engine(Gust::Bound))).contains(words));
+}
+
+/// An engine that knows nothing of compute passes.
+struct OnlyCustom(Engine);
+
+impl DrawSource for OnlyCustom {
+    fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        self.0.record(draw, recorder)
+    }
+
+    fn custom(&mut self, callback: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
+        self.0.custom(callback, recorder)
+    }
 }
 
 #[test]
@@ -148,10 +204,11 @@ fn what_the_executor_refuses_the_check_refuses_and_nothing_else() {
         ("kind: StorageBlock", "kind: UniformBlock"),
         ("kind: UniformBlock", "kind: SampledImage"),
         ("of: [Objects(Opaque), ", "of: ["),
-        ("of: [Custom]", "of: [Sky]"),
+        ("of: [Custom, Compute]", "of: [Sky, Compute]"),
+        ("of: [Custom, Compute]", "of: [Custom]"),
         (
-            "of: [Custom],\n            vertex_stride: 0,\n            attributes: [\n            ],\n            supplied: [\n                (name: \"camera\"",
-            "of: [Custom],\n            supplied: [\n                (name: \"eye\"",
+            "of: [Custom, Compute],\n            vertex_stride: 0,\n            attributes: [\n            ],\n            supplied: [\n                (name: \"camera\"",
+            "of: [Custom, Compute],\n            supplied: [\n                (name: \"eye\"",
         ),
     ] {
         let interfaces = out_of_file(old, new).unwrap_or_else(|| panic!("{new} is a right file"));
@@ -160,6 +217,6 @@ fn what_the_executor_refuses_the_check_refuses_and_nothing_else() {
         assert_eq!(checked.is_ok(), made.is_ok(), "{old} → {new}: {:?} and {made:?}", checked.map(drop));
         verdicts.push(made.is_ok());
     }
-    let expected = [vec![true; 4], vec![false; 10]].concat();
+    let expected = [vec![true; 4], vec![false; 11]].concat();
     assert_eq!(verdicts, expected);
 }

@@ -4,7 +4,7 @@ use crate::testing::{device, findings};
 use framewright_graph::compile::Options;
 use framewright_graph::plan::{Image, ImageId, Placement, Plan, Role};
 use framewright_graph::verify::verify;
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::{SceneDrawSource, interfaces};
 use framewright_passes::scene::{Scene, load};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{Setup, in_repository, plan};
@@ -13,7 +13,7 @@ use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
 const EXTENT: [u32; 2] = [160, 90];
 
 fn library() -> ShaderLibrary {
-    ShaderLibrary::new(Vec::new(), SHADERS, interface)
+    ShaderLibrary::new(Vec::new(), SHADERS, interfaces())
 }
 
 fn soft_focus(device: &Device, scene: &Scene, options: &Options) -> Plan {

@@ -119,7 +119,7 @@ fn a_pass_with_vertices_of_its_own_can_not_read_what_a_draw_source_brings_along(
     assert_eq!(said("brought", own), refused);
     let shaders = ShaderLibrary::new(Vec::new(), SHADERS, plain);
     for draw in [own, Draw::Indirect] {
-        assert_eq!(shaders.brought_along(draw), DrawInterface::default(), "the compiler says the same");
+        assert_eq!(shaders.brought_along(Some(draw)), DrawInterface::default(), "the compiler says the same");
     }
 }
 

@@ -189,7 +189,7 @@ mod tests {
         // Compiled by this program: a test is no helper process.
         let folder = Path::new(pipeline).parent().filter(|folder| folder.is_absolute());
         let roots = folder.map(|folder| Root::new(folder.to_owned())).into_iter().collect();
-        loaded.assets.shaders = ShaderLibrary::new(roots, SHADERS, draw::interface);
+        loaded.assets.shaders = ShaderLibrary::new(roots, SHADERS, draw::interfaces());
         loaded.set.extend(reference_settings(&loaded).expect("a preset"));
         let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
         let converging = Converging::of(frame, device, &loaded);

@@ -51,6 +51,8 @@ impl FileFormat {
             _ if format.is_depth() => Some("the nearest texel is white"),
             Numeric::Sfloat | Numeric::Ufloat => Some("values outside 0…1 are clamped"),
             Numeric::Uint => Some("values above 255 are clamped"),
+            Numeric::Sint => Some("values below 0 and above 255 are clamped"),
+            Numeric::Snorm => Some("values below 0 are clamped"),
             _ => None,
         }
     }

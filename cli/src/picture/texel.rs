@@ -17,19 +17,11 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
     let word = |at: usize| u32::from_ne_bytes([texel[at], texel[at + 1], texel[at + 2], texel[at + 3]]);
     let float = |at: usize| f32::from_bits(word(at));
     let unorm = |byte: u8| f32::from(byte) / 255.0;
-    let word16 = |at: usize| f32::from(u16::from_ne_bytes([texel[at], texel[at + 1]])) / 65535.0;
     match format {
         F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]],
         F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]],
-        F::R8_UINT => [texel[0], 0, 0],
-        F::R8G8B8A8_UINT => [texel[0], texel[1], texel[2]],
-        F::R32_UINT => [integer(word(0)), 0, 0],
-        F::R32G32B32A32_UINT => [0, 4, 8].map(|at| integer(word(at))),
-        F::R8_UNORM | F::R8G8_UNORM => [unorm(texel[0]), 0.0, 0.0].map(encode),
-        F::R8G8B8A8_UNORM => [texel[0], texel[1], texel[2]].map(unorm).map(encode),
         F::B8G8R8A8_UNORM => [texel[2], texel[1], texel[0]].map(unorm).map(encode),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(|shift| encode(bits(word(0), shift, 10))),
-        F::R16G16B16A16_UNORM => [0, 2, 4].map(word16).map(encode),
         F::R16_SFLOAT | F::R16G16_SFLOAT => [half(0), 0.0, 0.0].map(encode),
         F::R16G16B16A16_SFLOAT => [half(0), half(2), half(4)].map(encode),
         F::R32_SFLOAT | F::R32G32_SFLOAT => [float(0), 0.0, 0.0].map(encode),
@@ -39,6 +31,34 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::D16_UNORM | F::X8_D24_UNORM_PACK32 | F::D32_SFLOAT | F::D24_UNORM_S8_UINT | F::D32_SFLOAT_S8_UINT => {
             [encode(depth(format, texel)); 3]
         }
+        // All others have components of one size, in order.
+        _ => {
+            let shown = if format.is_integer() { integer } else { encode };
+            let colors = if format.components() >= 3 { 3 } else { 1 };
+            std::array::from_fn(|at| if at < colors { shown(component(format, texel, at)) } else { 0 })
+        }
+    }
+}
+
+/// A component of one texel of a format whose components have one size, in order, and are fixed-point numbers or integers.
+#[allow(clippy::cast_precision_loss, reason = "a picture shows no more")]
+pub(super) fn component(format: Format, texel: &[u8], number: usize) -> f32 {
+    let bytes = texel.len() / format.components() as usize;
+    let signed = matches!(format.numeric(), Numeric::Snorm | Numeric::Sint);
+    let value = match (texel.get(number * bytes..(number + 1) * bytes).unwrap_or_default(), signed) {
+        (&[a], false) => i64::from(a),
+        (&[a], true) => i64::from(a.cast_signed()),
+        (&[a, b], false) => i64::from(u16::from_ne_bytes([a, b])),
+        (&[a, b], true) => i64::from(i16::from_ne_bytes([a, b])),
+        (&[a, b, c, d], false) => i64::from(u32::from_ne_bytes([a, b, c, d])),
+        (&[a, b, c, d], true) => i64::from(i32::from_ne_bytes([a, b, c, d])),
+        _ => 0,
+    };
+    let bits = 8 * u32::try_from(bytes).unwrap_or(4);
+    match format.numeric() {
+        Numeric::Unorm => value as f32 / ((1_i64 << bits) - 1) as f32,
+        Numeric::Snorm => (value as f32 / ((1_i64 << (bits - 1)) - 1) as f32).max(-1.0),
+        _ => value as f32,
     }
 }
 
@@ -98,8 +118,11 @@ pub(super) fn encode(linear: f32) -> u8 {
     byte
 }
 
-fn integer(value: u32) -> u8 {
-    u8::try_from(value).unwrap_or(u8::MAX)
+/// An integer as a byte, clamped.
+fn integer(value: f32) -> u8 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, as it should")]
+    let byte = value as u8;
+    byte
 }
 
 #[cfg(test)]
@@ -128,6 +151,14 @@ mod tests {
             super::shown(Format::B10G11R11_UFLOAT_PACK32, &((14 << 6) | (14 << 17) | (14_u32 << 27)).to_ne_bytes()),
             [188; 3]
         );
+    }
+
+    #[test]
+    fn signed_and_wide_formats_show_what_a_picture_can() {
+        assert_eq!(shown(Format::R16_UNORM, &0x8000_u16.to_ne_bytes()), [188, 0, 0]);
+        assert_eq!(shown(Format::R8G8B8A8_SNORM, &[0x40, 0x81, 0x7f, 0]), [188, 0, 255]);
+        assert_eq!(shown(Format::R16G16B16A16_SINT, &[9, 0, 0xff, 0xff, 0, 1, 0, 0]), [9, 0, 255]);
+        assert_eq!(shown(Format::R32G32_UINT, &[7, 0, 0, 0, 8, 0, 0, 0]), [7, 0, 0]);
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl Assets {
 /// # Errors
 /// If the interface is wrong.
 pub(crate) fn draws(arguments: &PipelineArguments, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
-    let Some(path) = arguments.interface.as_deref() else { return Ok(draw::interface.into()) };
+    let Some(path) = arguments.interface.as_deref() else { return Ok(draw::interfaces()) };
     let text = inputs::text(FileRole::INTERFACE, path, shader::LARGEST_INTERFACE, read)?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let mut sources = Sources::default();

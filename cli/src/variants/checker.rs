@@ -164,7 +164,7 @@ mod tests {
     use crate::planning;
     use crate::variants::space::Space;
     use framewright_graph::base::ReadFiles;
-    use framewright_passes::draw::interface;
+    use framewright_passes::draw::interfaces;
     use framewright_passes::shipped::SHADERS;
     use framewright_vulkan::ShaderLibrary;
     use std::sync::Mutex;
@@ -187,7 +187,7 @@ mod tests {
             stereo: loaded.stereo.clone(),
         };
         let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets()).expect("few variants");
-        let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interface));
+        let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interfaces()));
         let decisions = || SharedDecisions::of(subject.devices.len());
         let shared = decisions();
         let mut one = VariantChecker::new(&subject, SharedShaders::new(&library), &shared);

@@ -57,7 +57,7 @@ impl ShaderInterfaces for SharedShaders<'_> {
         self.compiled(name, None, variant)
     }
 
-    fn brought_along(&self, draw: Draw) -> DrawInterface {
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
         self.library.lock().unwrap_or_else(PoisonError::into_inner).brought_along(draw)
     }
 

@@ -17,7 +17,7 @@ use framewright_graph::frame::{
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{self, *};
 use framewright_graph::vulkan::{Encoding, Stages, Subresources};
-use framewright_passes::draw::interface;
+use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
 use framewright_vulkan::{
@@ -80,7 +80,7 @@ fn texels(frame: &Frame) -> (Texels, Option<Encoding>, Option<String>) {
     let plan = compile(frame, &device.profile(), &mut device.memory(), &Options::default()).expect("a Plan");
     assert_eq!(verify(&plan), []);
     let shaders = [SHADERS, &[("gradient.frag", GRADIENT)]].concat().leak();
-    let mut shaders = ShaderLibrary::new(Vec::new(), shaders, interface);
+    let mut shaders = ShaderLibrary::new(Vec::new(), shaders, interfaces());
     let mut executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
     executor.frame(&mut Nothing).expect("a frame");
     let texels = executor.read(0).expect("texels");

@@ -5,7 +5,8 @@ use crate::testing::{Outcome, Place, Vulkan, repository};
 /// A folder with the engine's pipeline, shaders and interface.
 fn engine() -> Place {
     let place = Place::new();
-    for file in ["engine.ron", "interface.ron", "terrain.vert", "terrain.frag", "grass.vert", "grass.frag"] {
+    for file in ["engine.ron", "interface.ron", "terrain.vert", "terrain.frag", "grass.vert", "grass.frag", "gust.comp"]
+    {
         place.file(file, std::fs::read(repository("examples/engine").join(file)).expect("the example"));
     }
     place
@@ -36,7 +37,7 @@ fn a_pipeline_for_an_engine_is_refused_without_its_interface() {
         "error: shader `terrain` uses `materials` (set 2, binding 0), which the draw source doesn't bring along",
         "error: shader `grass` uses `camera` (set 1, binding 0), which the draw source doesn't bring along",
         "`check --interface` reads what the draws of another program bring along",
-        "engine.ron:13:58",
+        "engine.ron:15:58",
     ] {
         assert!(err.contains(said), "`{said}` is not in\n{err}");
     }
@@ -46,7 +47,7 @@ fn a_pipeline_for_an_engine_is_refused_without_its_interface() {
 fn with_its_interface_it_is_checked_as_any_pipeline_is() {
     let place = engine();
     let fine = |arguments: &[&str]| place.run(&[arguments, &["--interface", "interface.ron"]].concat()).exits(0).out;
-    assert!(fine(&["check", "engine.ron"]).starts_with("engine.ron: fine on lavapipe: 3 passes"));
+    assert!(fine(&["check", "engine.ron"]).starts_with("engine.ron: fine on lavapipe: 4 passes"));
     assert!(fine(&["check", "engine.ron", "--all-variants"]).contains("engine.ron: fine in 2 variants: grass (2)"));
     assert!(fine(&["check", "engine.ron", "--device", "all"]).contains("fine on 7 of 7 devices"));
     assert!(fine(&["inspect", "engine.ron"]).contains("`grass`"));
@@ -59,7 +60,7 @@ fn what_the_interface_does_not_bring_is_a_mistake_of_the_pipeline_with_a_near_na
     with("interface.ron", "\"tint\"", "\"tints\"")
         .exits(1)
         .mentions("error: shader `terrain` reads the vertex attribute `tint`, which doesn't exist")
-        .mentions("engine.ron:13:58")
+        .mentions("engine.ron:15:58")
         .mentions("did you mean `tints`?");
     with("interface.ron", "\"materials\"", "\"material\"")
         .exits(1)
@@ -80,14 +81,14 @@ fn what_the_interface_does_not_bring_is_a_mistake_of_the_pipeline_with_a_near_na
     with("terrain.vert", "in vec3 tint;", "in ivec3 tint;")
         .exits(1)
         .mentions("reads the vertex attribute `tint` as `ivec3`");
-    with("interface.ron", "of: [Custom]", "of: [Sky]")
+    with("interface.ron", "of: [Custom, Compute]", "of: [Sky, Compute]")
         .exits(1)
         .mentions("error: shader `grass` uses `camera` (set 1, binding 0), which the draw source doesn't bring along")
-        .mentions("engine.ron:17:48");
+        .mentions("engine.ron:19:48");
 }
 
 #[test]
-fn a_compute_shader_sees_nothing_of_what_draws_bring() {
+fn a_compute_shader_sees_what_its_kind_brings_and_nothing_of_what_draws_bring() {
     let place = engine();
     let text = "#version 460\nlayout(local_size_x = 1) in;\n\
         layout(set = 1, binding = 0) uniform Camera { vec4 shift; } camera;\n\
@@ -96,8 +97,10 @@ fn a_compute_shader_sees_nothing_of_what_draws_bring() {
     place.file("blow.comp", text);
     let pass = r#"(name: "blow", dispatch: "blow", groups: Count(1), storage: {"wind": "wind"}), (name: "terrain","#;
     replace(&place, "engine.ron", r#"(name: "terrain","#, pass);
-    place
-        .run(&["check", "engine.ron", "--interface", "interface.ron"])
+    let check = || place.run(&["check", "engine.ron", "--interface", "interface.ron"]);
+    check().exits(0);
+    replace(&place, "interface.ron", "of: [Custom, Compute]", "of: [Custom]");
+    check()
         .exits(1)
         .mentions("error: shader `blow` uses `camera` (set 1, binding 0), which the draw source doesn't bring along");
 }

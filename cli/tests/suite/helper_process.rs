@@ -3,7 +3,7 @@
 use crate::testing::{Place, Vulkan};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::Variant;
-use framewright_passes::draw::interface;
+use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::helper::Limits;
 use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
@@ -234,7 +234,7 @@ fn helper() -> Helper {
 
 #[test]
 fn a_helper_process_compiles_shaders_to_the_same_words() {
-    let library = || ShaderLibrary::new(Vec::new(), SHADERS, interface);
+    let library = || ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
     let (mut here, mut helped) = (library(), library().with_helper(&helper()));
     let names = SHADERS.iter().filter_map(|(file, _)| file.strip_suffix(".frag"));
     let mut compared = 0;

@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::describe::{Description, code};
-use crate::frame::{Blend, ParamValue};
+use crate::frame::Blend;
 use crate::plan::names::Shown;
 use crate::plan::text::fill_value;
 use crate::plan::{
@@ -130,14 +130,7 @@ impl Described<'_> {
         if !bound.is_empty() {
             fields.push(("binds", bound.join(", ")));
         }
-        let params = pass.params.iter().map(|param| {
-            let value = match param.value {
-                ParamValue::Bool(value) => value.to_string(),
-                ParamValue::Integer(value) => value.to_string(),
-                ParamValue::Number(value) => value.to_string(),
-            };
-            format!("{} = {value}", Shown(&param.name))
-        });
+        let params = pass.params.iter().map(|param| format!("{} = {}", Shown(&param.name), param.value));
         let params: Vec<String> = params.collect();
         if !params.is_empty() {
             fields.push(("parameters", params.join(", ")));
@@ -157,9 +150,10 @@ impl Described<'_> {
         let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
             let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
             let kind = match binding.kind {
-                BindingKind::Sampled(Sampler { filter, mips, address }) => {
+                BindingKind::Sampled(Sampler { filter, mips, address, compare }) => {
                     let [filter, mips, address] = [name_of(&filter), name_of(&mips), name_of(&address)];
-                    format!("sampled, {filter}, {mips} between mip levels, {address}")
+                    let compare = compare.map_or_else(String::new, |op| format!(", compared by {}", name_of(&op)));
+                    format!("sampled, {filter}, {mips} between mip levels, {address}{compare}")
                 }
                 BindingKind::Storage => "storage".to_owned(),
                 BindingKind::InputAttachment => "read at its own position".to_owned(),

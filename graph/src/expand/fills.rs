@@ -2,7 +2,7 @@
 
 use crate::base::shown_number;
 use crate::language::Fill;
-use crate::vulkan::{Aspects, FillValue, Format};
+use crate::vulkan::{Aspects, FillValue, Format, Numeric};
 
 /// Zero, as the format has it; `None`: a buffer.
 pub(super) fn zero(format: Option<Format>) -> FillValue {
@@ -41,11 +41,14 @@ pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (St
     };
     if format.is_integer() {
         let size = u32::try_from(format.texel_bytes() * 8 / u64::from(format.components())).unwrap_or(32);
+        let signed = format.numeric() == Numeric::Sint;
         let component = |number| {
-            bits(number, size).ok_or_else(|| {
-                let most = if size >= 32 { u32::MAX } else { (1 << size) - 1 };
+            let fitting = if signed { signed_bits(number, size) } else { bits(number, size) };
+            fitting.ok_or_else(|| {
+                let values = 1_i64 << size.min(32);
+                let (least, most) = if signed { (-values / 2, values / 2 - 1) } else { (0, values - 1) };
                 let message = format!("{} is no component of {format}", shown_number(number));
-                (message, format!("whole numbers from 0 to {most} are allowed"))
+                (message, format!("whole numbers from {least} to {most} are allowed"))
             })
         };
         let [r, g, b, a] = numbers;
@@ -90,6 +93,14 @@ fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
     };
     #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
     Ok(FillValue::Depth(depth as f32, stencil))
+}
+
+/// The bits of a signed whole number of `size` bits, with its sign before them up to 32 bits.
+fn signed_bits(number: f64, size: u32) -> Option<u32> {
+    let half = 2_f64.powi(size.clamp(1, 32).cast_signed() - 1);
+    let fits = number.fract() == 0.0 && (-half..half).contains(&number);
+    #[allow(clippy::cast_possible_truncation, reason = "whole and in range, as checked")]
+    fits.then_some((number as i32).cast_unsigned())
 }
 
 /// A whole number of `bits` bits.

@@ -5,8 +5,11 @@ use crate::base::{Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{BindingKind, Block, PASS_SET, ShaderInterface};
+use crate::shader::{BindingKind, Block, PASS_SET, ParamMisfit, ParamType, ShaderInterface};
 use std::sync::Arc;
+
+/// What a type is that no pipeline file can give.
+const NEITHER: &str = "neither a number nor a vector nor a matrix of 32 bits: split it into several";
 
 /// Values for the members of the shader's block, in the pass's order, each of its member's type.
 pub(super) fn give(
@@ -33,15 +36,15 @@ pub(super) fn give(
             errors.push(Diagnostic { help, ..Diagnostic::new(param.name.span, unknown) });
             continue;
         };
-        match convert(param.value.value, &member.ty) {
-            Some(value) => given.push((name.clone(), value)),
-            None => {
+        match convert(&param.value.value, &member.ty) {
+            Ok(value) => given.push((name.clone(), value)),
+            Err((place, help)) => {
                 let message = format!(
-                    "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {}",
+                    "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {}{place}",
                     member.ty,
                     shown(param)
                 );
-                errors.push(Diagnostic::new(param.value.span, message));
+                errors.push(Diagnostic { help, ..Diagnostic::new(param.value.span, message) });
             }
         }
     }
@@ -50,9 +53,9 @@ pub(super) fn give(
             let (name, ty) = (&member.name, &member.ty);
             let message =
                 format!("shader `{shader}` needs the parameter `{name}`, which pass `{}` doesn't give", pass.name.text);
-            let help = match ty.as_str() {
-                "float" | "int" | "uint" | "bool" => format!("add `params: {{\"{name}\": …}}`; its type is `{ty}`"),
-                _ => format!("its type is `{ty}`, and pipeline files give single numbers only: split it into several"),
+            let help = match ParamType::of(ty) {
+                Some(known) => format!("add `params: {{\"{name}\": {}}}`; its type is `{ty}`", known.form()),
+                None => format!("its type is `{ty}`, {NEITHER}"),
             };
             errors.push(Diagnostic::new(*named, message).help(help));
         }
@@ -62,7 +65,7 @@ pub(super) fn give(
 
 /// Values as the file has them, for passes that the embedding program records: no block says their types.
 pub(super) fn as_written(pass: &language::Pass) -> Vec<(Arc<str>, ParamValue)> {
-    pass.params.iter().map(|param| (param.name.text.clone(), param.value.value)).collect()
+    pass.params.iter().map(|param| (param.name.text.clone(), param.value.value.clone())).collect()
 }
 
 fn block(interface: &ShaderInterface) -> Option<&Block> {
@@ -74,28 +77,34 @@ fn block(interface: &ShaderInterface) -> Option<&Block> {
 
 /// How a parameter's value is shown: "`3` (setting `steps`)".
 fn shown(param: &language::Param) -> String {
-    let value = match param.value.value {
-        ParamValue::Bool(value) => value.to_string(),
-        ParamValue::Integer(value) => value.to_string(),
-        ParamValue::Number(value) => shown_number(value),
-    };
+    let value = number(&param.value.value);
     match &param.written {
         Some(written) => format!("`{value}` ({written})"),
         None => format!("`{value}`"),
     }
 }
 
-/// The value as the member's type has it; `None` if it doesn't fit.
-fn convert(value: ParamValue, ty: &str) -> Option<ParamValue> {
-    #[allow(clippy::cast_possible_truncation, reason = "the test is whether single precision can hold it")]
-    let finite = |number: f64| (number as f32).is_finite().then_some(ParamValue::Number(number));
-    match (ty, value) {
-        ("float", ParamValue::Number(number)) => finite(number),
-        #[allow(clippy::cast_precision_loss, reason = "the shader's number has fewer bits anyway")]
-        ("float", ParamValue::Integer(number)) => finite(number as f64),
-        ("int", ParamValue::Integer(number)) => i32::try_from(number).ok().map(|_| value),
-        ("uint", ParamValue::Integer(number)) => u32::try_from(number).ok().map(|_| value),
-        ("int" | "uint" | "bool", ParamValue::Bool(_)) => Some(value),
-        _ => None,
+/// A value with its numbers as people read them.
+fn number(value: &ParamValue) -> String {
+    match value {
+        ParamValue::Bool(_) | ParamValue::Integer(_) => value.to_string(),
+        ParamValue::Number(value) => shown_number(*value),
+        ParamValue::List(values) => format!("({})", values.iter().map(number).collect::<Vec<_>>().join(", ")),
     }
+}
+
+/// The value as the member's type has it; else which component doesn't fit, and a help.
+fn convert(value: &ParamValue, ty: &str) -> Result<ParamValue, (String, Option<String>)> {
+    let known = ParamType::of(ty).ok_or_else(|| (String::new(), Some(format!("that is {NEITHER}"))))?;
+    known.take(value).map_err(|misfit| match misfit {
+        ParamMisfit::Form => {
+            let several = known.rows > 1;
+            (String::new(), several.then(|| format!("values of this type are written `{}`", known.form())))
+        }
+        ParamMisfit::Component { column, row, value } => {
+            let column = column.map_or_else(String::new, |column| format!(" of column {column}"));
+            let place = row.map(|row| format!(": component {row}{column} is `{}`", number(&value)));
+            (place.unwrap_or_default(), None)
+        }
+    })
 }

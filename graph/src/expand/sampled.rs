@@ -19,17 +19,21 @@ struct Declared {
     adapts: bool,
     /// Whether it is read at the fragment's own position only, by its declaration.
     input: bool,
+    /// Whether it is compared with a depth.
+    compares: bool,
 }
 
 /// The shader's declaration of the sampled image `name`.
 fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
     let mut all = interface.bindings.iter();
     let binding = all.find(|binding| binding.set == PASS_SET && binding.name == name)?;
+    let adapts = binding.adapts;
     match binding.kind {
-        BindingKind::SampledImage(shape) => Some(Declared { shape, adapts: binding.adapts, input: false }),
+        BindingKind::SampledImage(shape) => Some(Declared { shape, adapts, input: false, compares: false }),
+        BindingKind::ComparedDepth(shape) => Some(Declared { shape, adapts, input: false, compares: true }),
         BindingKind::InputAttachment { multisampled, component } => {
             let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
-            Some(Declared { shape, adapts: false, input: true })
+            Some(Declared { shape, adapts: false, input: true, compares: false })
         }
         _ => None,
     }
@@ -38,8 +42,10 @@ fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
 /// Names of images that a shader samples.
 fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
     let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
-    let sampled =
-        |kind: &BindingKind| matches!(kind, BindingKind::SampledImage(_) | BindingKind::InputAttachment { .. });
+    let sampled = |kind: &BindingKind| {
+        use BindingKind::{ComparedDepth, InputAttachment, SampledImage};
+        matches!(kind, SampledImage(_) | ComparedDepth(_) | InputAttachment { .. })
+    };
     of_pass.filter(move |binding| sampled(&binding.kind)).map(|binding| &*binding.name)
 }
 
@@ -94,11 +100,12 @@ fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filte
     if texture.is_some_and(|texture| texture.multisampled) {
         return Sampler::new(Filter::Nearest);
     }
-    let Sampler { filter, mips, address } = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
+    let Sampler { filter, mips, address, .. } = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
     Sampler {
         filter,
         mips: sample.mip_filter.map_or(mips, |mips| mips.value),
         address: sample.address.map_or(address, |address| address.value),
+        compare: sample.compare.map(|compare| compare.value),
     }
 }
 
@@ -144,6 +151,7 @@ pub(super) fn check<'i>(
             check.component(errors);
             check.samples(errors);
             check.filters(errors);
+            check.compare(errors);
             check.address(errors);
             check.own_pixel(resources, lowered, sampled.own_pixel, errors);
             check.part(interface, errors);
@@ -282,6 +290,38 @@ impl Check<'_> {
             if filter.value == Filter::Linear {
                 errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
             }
+        }
+    }
+
+    /// Shader and pass agree on whether depth is compared, and it is depth.
+    fn compare(&self, errors: &mut Vec<Diagnostic>) {
+        let (name, image, shader) = (&self.sample.binding.text, &self.image.image, self.shader);
+        let place = self.sample.part.image.span;
+        match self.sample.compare {
+            None if self.declared.compares => {
+                let message = format!(
+                    "shader `{shader}` compares a depth with `{name}`, and pass `{}` doesn't say how",
+                    self.pass.name.text
+                );
+                let help = format!(
+                    "`(image: \"{}\", compare: GreaterOrEqual)` gives 1 where the shader's depth is no farther than the image's",
+                    image.name
+                );
+                errors.push(Diagnostic::new(place, message).help(help));
+            }
+            Some(compare) if !self.declared.compares => {
+                let message = format!("shader `{shader}` reads `{name}`, and compares nothing with it");
+                let help = format!("leave `compare` out, or declare `{name}` in the shader as `sampler2DShadow`");
+                errors.push(Diagnostic::new(compare.span, message).help(help));
+            }
+            // That stencil and integers are no depth is said already.
+            Some(_) if !image.format.is_depth() && !image.format.is_integer() => {
+                let message =
+                    format!("shader `{shader}` compares a depth with `{name}`, and `{}` holds colour", image.name);
+                let declared = self.resources.declared(self.sample.part.image.index).format.span;
+                errors.push(Diagnostic::new(place, message).label(declared, "its format"));
+            }
+            None | Some(_) => {}
         }
     }
 

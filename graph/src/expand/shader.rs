@@ -111,12 +111,12 @@ impl<'s> Checked<'s> {
         }
     }
 
-    /// The interface that the draw source provides (an empty one, for a dispatch), the first time that a shader draws this.
-    /// Later it is known to fit or not.
+    /// The interface that the draw source provides, the first time that a shader draws this or is dispatched. Later it is known
+    /// to fit or not.
     pub(super) fn brought_along_first(&mut self, pass: &language::Pass, path: &Arc<str>) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;
         let first = self.seen.insert((path.clone(), draw));
-        first.then(|| draw.map_or_else(DrawInterface::default, |draw| self.shaders.brought_along(draw)))
+        first.then(|| self.shaders.brought_along(draw))
     }
 
     /// As [`ShaderInterfaces::custom_passes`].
@@ -190,7 +190,7 @@ pub(super) fn missing(
         let Some((kind, _, field)) = given_in(binding) else { continue };
         let verb = match (&binding.kind, kind.split_once(' ')) {
             (BindingKind::InputAttachment { .. }, Some((_, kind))) => format!("reads the {kind}"),
-            (BindingKind::SampledImage(_), _) | (_, None) => "samples".to_owned(),
+            (BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_), _) | (_, None) => "samples".to_owned(),
             (_, Some((_, kind))) => format!("uses the {kind}"),
         };
         let message = format!("shader `{shader}` {verb} `{name}`, which pass `{}` doesn't give", pass.name.text);
@@ -202,7 +202,7 @@ pub(super) fn missing(
 fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static str)> {
     match &binding.kind {
         BindingKind::UniformBlock(_) if binding.name == PARAMS => None,
-        BindingKind::SampledImage(_) => Some(("a sampled image", "an image", "sample")),
+        BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_) => Some(("a sampled image", "an image", "sample")),
         BindingKind::InputAttachment { .. } => Some(("an input attachment", "an image", "sample")),
         BindingKind::StorageImage { .. } => Some(("a storage image", "an image", "storage")),
         BindingKind::StorageBlock { .. } => Some(("a storage block", "a buffer", "storage")),

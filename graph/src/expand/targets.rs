@@ -8,7 +8,7 @@ use crate::base::Diagnostic;
 use crate::frame::{Blend, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::shader::ShaderInterface;
-use crate::vulkan::{Aspects, Component, Shape};
+use crate::vulkan::{Aspects, Component, Numeric, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
 pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
@@ -65,6 +65,7 @@ pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut
 fn kind(image: &FrameImage) -> &'static str {
     match image.image.format {
         format if format.is_depth() => "depth",
+        format if format.numeric() == Numeric::Sint => "signed integers",
         format if format.is_integer() => "integers",
         _ => "colour",
     }

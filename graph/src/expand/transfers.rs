@@ -220,7 +220,9 @@ pub(super) fn blit(
             Diagnostic::new(other.part.image.span, message)
                 .remark(format!("{}", other.image.format))
                 .label(one.part.image.span, format!("{}", one.image.format))
-                .help("integers go to integers, and depth to the same format"),
+                .help(
+                    "unsigned integers go to unsigned ones, signed ones to signed ones, and depth to the same format",
+                ),
         );
     }
     if let Some(filter) = filter

@@ -12,6 +12,7 @@ mod exact;
 mod index;
 mod jitter;
 mod output;
+mod param;
 mod part;
 mod pass;
 mod resource;
@@ -25,8 +26,9 @@ pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;
+pub use param::ParamValue;
 pub(crate) use part::TargetShape;
-pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Share, Work};
+pub use pass::{Cascade, Draw, DrawList, Groups, Metres, Pass, Share, Work};
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{

@@ -1,6 +1,6 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, Sampled, Storage, TransferUse, ViewIndex};
+use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, ParamValue, Sampled, Storage, TransferUse, ViewIndex};
 use crate::base::Span;
 use crate::vulkan::{FillValue, Filter};
 use serde::{Deserialize, Serialize};
@@ -259,18 +259,6 @@ impl DrawList {
         [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
     /// Those of objects that light doesn't go through, by name.
     pub const CASTERS: [(&'static str, DrawList); 2] = [DrawList::NAMED[0], DrawList::NAMED[1]];
-}
-
-/// A value for a shader parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum ParamValue {
-    /// A truth value, given to the shader as a 32-bit 0 or 1.
-    Bool(bool),
-    /// A whole number.
-    Integer(i64),
-    /// A number.
-    Number(f64),
 }
 
 #[cfg(test)]

@@ -152,7 +152,9 @@ pub fn format_problem(file: &TextureFile, format: Format) -> Option<&'static str
         Some("a picture holds no depth")
     } else if format.is_integer() {
         Some("a picture holds no integers")
-    } else if matches!(format, Format::A2B10G10R10_UNORM_PACK32 | Format::B10G11R11_UFLOAT_PACK32) {
+    } else if matches!(format, Format::A2B10G10R10_UNORM_PACK32 | Format::B10G11R11_UFLOAT_PACK32)
+        || format.numeric() == Numeric::Snorm
+    {
         Some("no picture is stored in this format")
     } else if format.numeric() == Numeric::Srgb && file.color_space == ColorSpace::Linear {
         Some("its values are linear, and the format decodes sRGB")

@@ -122,6 +122,9 @@ impl Schema {
                 self.named(&name, |_| json!({ "description": what, "enum": all }))
             }
             Form::Tuple(values) => self.tuple(values),
+            Form::Several(of, least, most) => {
+                json!({ "type": "array", "minItems": least, "maxItems": most, "items": self.form(of) })
+            }
             Form::List(of) => json!({ "type": "array", "items": self.form(of) }),
             Form::Map(_, of) => json!({ "type": "object", "additionalProperties": self.form(of) }),
             Form::Either(forms) => either(forms.iter().map(|form| self.form(form)).collect()),

@@ -1,10 +1,9 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
 use super::{
-    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Param, Pass, Plan, Resource, Role, Side, Step, StepId,
-    ViewId, Work,
+    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Pass, Plan, Resource, Role, Side, Step, StepId, ViewId,
+    Work,
 };
-use crate::frame::ParamValue;
 use crate::plan::names::Shown;
 use crate::vulkan::FillValue;
 use serde::Deserialize;
@@ -197,7 +196,7 @@ impl Plan {
                 }
             }
             for (pass, param) in passes.flat_map(|pass| pass.params.iter().map(move |param| (pass, param))) {
-                if !is_finite(param) {
+                if !param.value.is_finite() {
                     let place = format!("`{}` of pass `{}` in steps[{index}]", Shown(&param.name), Shown(&pass.name));
                     return Err(PlanError::NotFinite { place });
                 }
@@ -225,13 +224,6 @@ fn sides(work: &Work) -> Vec<Side> {
         }
         Work::Fill(fill) => vec![fill.target],
         Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => Vec::new(),
-    }
-}
-
-fn is_finite(param: &Param) -> bool {
-    match param.value {
-        ParamValue::Bool(_) | ParamValue::Integer(_) => true,
-        ParamValue::Number(number) => number.is_finite(),
     }
 }
 

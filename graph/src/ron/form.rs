@@ -36,6 +36,8 @@ pub enum Form {
     Open(&'static str),
     /// `(value, …)`
     Tuple(&'static [Form]),
+    /// `(value, …)`, of one form, at least and at most so many.
+    Several(&'static Form, usize, usize),
     /// `[value, …]`
     List(&'static Form),
     /// `{"name": value, …}`, with the kind of its names: "setting".

@@ -16,9 +16,14 @@ pub struct DrawInterfaces {
 }
 
 impl DrawInterfaces {
-    /// With the interface of another kind of draw, in place of the one that it had.
+    /// With the interface of another kind of draw, in place of the one that it had. Compute passes have no vertices: those are left
+    /// out.
     #[must_use]
     pub fn with(mut self, kind: DrawKind, interface: DrawInterface) -> DrawInterfaces {
+        let interface = match kind {
+            DrawKind::Compute => DrawInterface { vertex_stride: 0, attributes: Vec::new(), ..interface },
+            _ => interface,
+        };
         if interface == DrawInterface::default() {
             self.draws.remove(&kind);
         } else {
@@ -44,7 +49,13 @@ impl DrawInterfaces {
     /// The interface of a draw; an empty one where the pass has vertices of its own.
     #[must_use]
     pub fn of(&self, draw: Draw) -> DrawInterface {
-        DrawKind::of(draw).and_then(|kind| self.draws.get(&kind)).cloned().unwrap_or_default()
+        DrawKind::of(draw).map_or_else(DrawInterface::default, |kind| self.of_kind(kind))
+    }
+
+    /// The interface of a kind of draw, or of compute passes.
+    #[must_use]
+    pub fn of_kind(&self, kind: DrawKind) -> DrawInterface {
+        self.draws.get(&kind).cloned().unwrap_or_default()
     }
 
     /// The kinds of draws that something is brought along for, with what that is.
@@ -79,10 +90,12 @@ impl DrawInterfaces {
     }
 }
 
-/// Those that a function tells. It is asked once for each kind of draw.
+/// Those that a function tells. It is asked once for each kind of draw. Compute passes see nothing then: [`DrawInterfaces::with`] and
+/// [`DrawKind::Compute`] say what they see.
 impl<F: Fn(Draw) -> DrawInterface> From<F> for DrawInterfaces {
     fn from(draws: F) -> DrawInterfaces {
         let all = DrawInterfaces::default();
-        DrawKind::ALL.into_iter().fold(all, |all, kind| all.with(kind, draws(kind.example())))
+        let asked = DrawKind::ALL.into_iter().filter_map(|kind| Some((kind, kind.example()?)));
+        asked.fold(all, |all, (kind, draw)| all.with(kind, draws(draw)))
     }
 }

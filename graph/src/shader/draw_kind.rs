@@ -1,9 +1,9 @@
-//! The kinds of draws for which a draw source brings something along.
+//! The kinds of draws for which a draw source brings something along, and compute passes.
 
 use crate::frame::{Cascade, Draw, DrawList, Share};
 use std::fmt;
 
-/// A kind of draw that a draw source records.
+/// A kind of draw that a draw source records, or of passes that it brings resources for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DrawKind {
     /// One of the scene's draw lists.
@@ -16,11 +16,13 @@ pub enum DrawKind {
     FullScreen,
     /// Draws of custom passes.
     Custom,
+    /// Compute passes. They draw nothing, and see resources of the draw source.
+    Compute,
 }
 
 impl DrawKind {
     /// All of them.
-    pub const ALL: [DrawKind; 8] = [
+    pub const ALL: [DrawKind; 9] = [
         DrawKind::Objects(DrawList::Opaque),
         DrawKind::Objects(DrawList::Masked),
         DrawKind::Objects(DrawList::Transparent),
@@ -29,6 +31,7 @@ impl DrawKind {
         DrawKind::Sky,
         DrawKind::FullScreen,
         DrawKind::Custom,
+        DrawKind::Compute,
     ];
 
     /// The kind of a draw; `None` if the pass has vertices of its own, which no draw source brings.
@@ -44,9 +47,9 @@ impl DrawKind {
         }
     }
 
-    /// A draw of this kind.
-    pub(super) const fn example(self) -> Draw {
-        match self {
+    /// A draw of this kind; `None` for compute passes.
+    pub(super) const fn example(self) -> Option<Draw> {
+        Some(match self {
             DrawKind::Objects(list) => Draw::Objects(list),
             DrawKind::Casters(list) => {
                 Draw::Casters(Cascade { list, index: 0, of: 1, reach: None, logarithmic: Share::OF_CASCADES })
@@ -54,7 +57,8 @@ impl DrawKind {
             DrawKind::Sky => Draw::Sky,
             DrawKind::FullScreen => Draw::FullScreen,
             DrawKind::Custom => Draw::Custom,
-        }
+            DrawKind::Compute => return None,
+        })
     }
 }
 

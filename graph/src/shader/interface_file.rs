@@ -15,7 +15,7 @@ const VERSION: i64 = 1;
 pub const LARGEST_INTERFACE: usize = 1 << 20;
 const FORM: &str = "an interface is `Interface(version: 1, draws: [(of: [Sky], supplied: […]), …], custom: [\"…\"])`";
 const KINDS: &str = "a kind of draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Casters(Opaque)`, \
-                     `Casters(Masked)`, `Sky`, `FullScreen` or `Custom`";
+                     `Casters(Masked)`, `Sky`, `FullScreen`, `Custom` or `Compute`";
 
 fields! {
     struct InterfaceFields<'t> as "Interface" {
@@ -132,7 +132,13 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     for entry in reader.list(fields.draws, "the draws")? {
         let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
         let kinds = kinds(reader, fields.of, &mut seen);
+        let (attributes, stride) = (fields.attributes, fields.vertex_stride);
         let interface = interface(reader, fields);
+        let attributes = attributes.filter(|_| !interface.attributes.is_empty());
+        let vertices = attributes.or_else(|| stride.filter(|_| interface.vertex_stride > 0));
+        if let Some(leaf) = vertices.filter(|_| kinds.contains(&DrawKind::Compute)) {
+            reader.wrong(leaf, "compute passes have no vertices", "give `Compute` an entry of its own");
+        }
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
@@ -169,7 +175,7 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>
 }
 
 fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
-    const WORDS: [&str; 5] = ["Objects", "Casters", "Sky", "FullScreen", "Custom"];
+    const WORDS: [&str; 6] = ["Objects", "Casters", "Sky", "FullScreen", "Custom", "Compute"];
     let (word, rest) = reader.word(leaf, "a kind of draw", &WORDS, KINDS)?;
     let mut list = |lists: &[(&'static str, DrawList)], form| {
         let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
@@ -183,6 +189,7 @@ fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
     Some(match word {
         "Sky" => DrawKind::Sky,
         "FullScreen" => DrawKind::FullScreen,
+        "Compute" => DrawKind::Compute,
         _ => DrawKind::Custom,
     })
 }

@@ -4,6 +4,7 @@ mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
 mod interface_file;
+mod param_type;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
@@ -15,6 +16,7 @@ pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
 pub use interface_file::LARGEST_INTERFACE;
+pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 
 /// Everything that a shader (all its stages together) uses.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -87,6 +89,8 @@ pub struct Binding {
 pub enum BindingKind {
     /// A combined image sampler.
     SampledImage(ImageShape),
+    /// A combined image sampler that compares depth: `sampler2DShadow`.
+    ComparedDepth(ImageShape),
     /// A storage image.
     StorageImage {
         /// Dimension and component type.
@@ -148,6 +152,17 @@ pub struct Member {
     pub offset: u32,
     /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, …; `bool` members read as `uint`.
     pub ty: String,
+    /// How a matrix lies in the block; `None`: it is none.
+    pub matrix: Option<MatrixLayout>,
+}
+
+/// How a matrix lies in a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MatrixLayout {
+    /// Bytes from column to column, or from row to row if rows follow each other.
+    pub stride: u32,
+    /// Whether rows follow each other, and not columns.
+    pub row_major: bool,
 }
 
 /// A vertex attribute.
@@ -289,8 +304,9 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// The interface of the draw source for `draw`; an empty one where the pass has vertices of its own.
-    fn brought_along(&self, draw: Draw) -> DrawInterface;
+    /// The interface of the draw source for `draw` (`None`: for compute shaders); an empty one where the pass has vertices of
+    /// its own.
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface;
 
     /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

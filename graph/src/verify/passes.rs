@@ -10,8 +10,8 @@ use crate::plan::names::Shown;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
-    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, Shape, Stages, StencilOp,
-    name_of,
+    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, Sampler, Shape, Stages,
+    StencilOp, name_of,
 };
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
@@ -215,6 +215,9 @@ impl<'p> Check<'_, 'p> {
         );
         let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
+        let compares = matches!(binding.kind, BindingKind::Sampled(Sampler { compare: Some(_), .. }));
+        let depth = format.is_depth() && access.range.aspects != Aspects::STENCIL;
+        self.demand(!compares || depth, access.image, "is compared with a depth, and holds none");
         let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));
         self.demand(declared, access.image, "isn't as its shader is made to declare it");
     }
@@ -238,12 +241,10 @@ impl<'p> Check<'_, 'p> {
             }
             Dimension::D1 | Dimension::Buffer => false,
         };
-        let whole = image.format.is_integer() || access.range.aspects == Aspects::STENCIL;
+        let stencil = access.range.aspects == Aspects::STENCIL;
+        let component = if stencil { Component::Uint } else { Component::of(image.format) };
         let sampled = access.accesses.contains(Accesses::SHADER_SAMPLED_READ);
-        sampled
-            && shape
-            && texture.multisampled == (image.samples > 1)
-            && (texture.component == Component::Uint) == whole
+        sampled && shape && texture.multisampled == (image.samples > 1) && texture.component == component
     }
 
     fn buffers(&mut self, pass: &Pass, stages: Stages) {

@@ -5,7 +5,7 @@ use super::parts::overlap;
 use super::structure::{fill_fits, is_of_file};
 use super::work::{Check, mip_extent};
 use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Transfer};
-use crate::vulkan::{Aspects, FillValue, Filter, Format, Layout, Subresources};
+use crate::vulkan::{Aspects, Component, FillValue, Filter, Format, Layout, Subresources};
 
 /// The side of a transfer that is an image.
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +34,8 @@ impl<'p> Check<'_, 'p> {
         for image in [from, to] {
             self.demand(image.samples == 1, image.id, "is blitted and multisampled");
         }
-        let alike =
-            from.format.is_integer() == to.format.is_integer() && !from.format.is_depth() && !to.format.is_depth();
+        let components = Component::of(from.format) == Component::of(to.format);
+        let alike = components && !from.format.is_depth() && !to.format.is_depth();
         self.demand(alike || from.format == to.format, to.id, "is blitted to from a format of another kind");
         let filtered = transfer.filter == Some(Filter::Linear);
         let nearest = from.format.is_integer() || from.format.is_depth();

@@ -24,7 +24,7 @@ impl Encoding {
             _ if format.is_depth() => None,
             Numeric::Srgb => Some(Encoding::Srgb),
             Numeric::Sfloat | Numeric::Ufloat => Some(Encoding::Linear),
-            Numeric::Unorm | Numeric::Uint => None,
+            Numeric::Unorm | Numeric::Snorm | Numeric::Uint | Numeric::Sint => None,
         }
     }
 

@@ -378,13 +378,16 @@ pub struct Sampler {
     pub mips: Filter,
     /// The texels beyond the edges.
     pub address: AddressMode,
+    /// How a depth that the shader gives is compared with those that are sampled; `None`: the shader is given those.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compare: Option<CompareOp>,
 }
 
 impl Sampler {
     /// A sampler that ends at the image's edges and takes the nearest mip level.
     #[must_use]
     pub const fn new(filter: Filter) -> Sampler {
-        Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge }
+        Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge, compare: None }
     }
 
     /// Whether it takes means of texels, which not every format allows.

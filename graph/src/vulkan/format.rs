@@ -1,6 +1,6 @@
 //! Texel formats by Vulkan's names, and properties that follow from a name alone.
 
-use super::Aspects;
+use super::{Aspects, Component};
 use serde::{Deserialize, Serialize};
 
 /// How a component's bits are read.
@@ -14,8 +14,12 @@ pub enum Numeric {
     Unorm,
     /// 0…1, encoded with the sRGB curve.
     Srgb,
+    /// −1…1 in equal steps.
+    Snorm,
     /// Unsigned integers.
     Uint,
+    /// Signed integers.
+    Sint,
 }
 
 macro_rules! formats {
@@ -62,22 +66,44 @@ const DEPTH_STENCIL: Aspects = Aspects::DEPTH.union(Aspects::STENCIL);
 
 formats! {
     R8_UNORM = 9, 1 bytes, 1 x Unorm, COLOR;
+    R8_SNORM = 10, 1 bytes, 1 x Snorm, COLOR;
     R8_UINT = 13, 1 bytes, 1 x Uint, COLOR;
+    R8_SINT = 14, 1 bytes, 1 x Sint, COLOR;
     R8G8_UNORM = 16, 2 bytes, 2 x Unorm, COLOR;
+    R8G8_SNORM = 17, 2 bytes, 2 x Snorm, COLOR;
+    R8G8_UINT = 20, 2 bytes, 2 x Uint, COLOR;
+    R8G8_SINT = 21, 2 bytes, 2 x Sint, COLOR;
     R8G8B8A8_UNORM = 37, 4 bytes, 4 x Unorm, COLOR;
+    R8G8B8A8_SNORM = 38, 4 bytes, 4 x Snorm, COLOR;
     R8G8B8A8_UINT = 41, 4 bytes, 4 x Uint, COLOR;
+    R8G8B8A8_SINT = 42, 4 bytes, 4 x Sint, COLOR;
     R8G8B8A8_SRGB = 43, 4 bytes, 4 x Srgb, COLOR;
     B8G8R8A8_UNORM = 44, 4 bytes, 4 x Unorm, COLOR;
     B8G8R8A8_SRGB = 50, 4 bytes, 4 x Srgb, COLOR;
     A2B10G10R10_UNORM_PACK32 = 64, 4 bytes, 4 x Unorm, COLOR;
+    R16_UNORM = 70, 2 bytes, 1 x Unorm, COLOR;
+    R16_SNORM = 71, 2 bytes, 1 x Snorm, COLOR;
+    R16_UINT = 74, 2 bytes, 1 x Uint, COLOR;
+    R16_SINT = 75, 2 bytes, 1 x Sint, COLOR;
     R16_SFLOAT = 76, 2 bytes, 1 x Sfloat, COLOR;
+    R16G16_UNORM = 77, 4 bytes, 2 x Unorm, COLOR;
+    R16G16_SNORM = 78, 4 bytes, 2 x Snorm, COLOR;
+    R16G16_UINT = 81, 4 bytes, 2 x Uint, COLOR;
+    R16G16_SINT = 82, 4 bytes, 2 x Sint, COLOR;
     R16G16_SFLOAT = 83, 4 bytes, 2 x Sfloat, COLOR;
     R16G16B16A16_UNORM = 91, 8 bytes, 4 x Unorm, COLOR;
+    R16G16B16A16_SNORM = 92, 8 bytes, 4 x Snorm, COLOR;
+    R16G16B16A16_UINT = 95, 8 bytes, 4 x Uint, COLOR;
+    R16G16B16A16_SINT = 96, 8 bytes, 4 x Sint, COLOR;
     R16G16B16A16_SFLOAT = 97, 8 bytes, 4 x Sfloat, COLOR;
     R32_UINT = 98, 4 bytes, 1 x Uint, COLOR;
+    R32_SINT = 99, 4 bytes, 1 x Sint, COLOR;
     R32_SFLOAT = 100, 4 bytes, 1 x Sfloat, COLOR;
+    R32G32_UINT = 101, 8 bytes, 2 x Uint, COLOR;
+    R32G32_SINT = 102, 8 bytes, 2 x Sint, COLOR;
     R32G32_SFLOAT = 103, 8 bytes, 2 x Sfloat, COLOR;
     R32G32B32A32_UINT = 107, 16 bytes, 4 x Uint, COLOR;
+    R32G32B32A32_SINT = 108, 16 bytes, 4 x Sint, COLOR;
     R32G32B32A32_SFLOAT = 109, 16 bytes, 4 x Sfloat, COLOR;
     B10G11R11_UFLOAT_PACK32 = 122, 4 bytes, 3 x Ufloat, COLOR;
     D16_UNORM = 124, 2 bytes, 1 x Unorm, DEPTH;
@@ -97,7 +123,7 @@ impl Format {
     /// Whether components are integers: such images can't be filtered, blended or averaged.
     #[must_use]
     pub const fn is_integer(self) -> bool {
-        matches!(self.numeric(), Numeric::Uint)
+        matches!(self.numeric(), Numeric::Uint | Numeric::Sint)
     }
 
     /// Bytes that one texel takes where each plane is stored by itself.
@@ -133,7 +159,7 @@ impl Format {
     #[must_use]
     pub fn blits_to(self, other: Format) -> bool {
         let color = !self.is_depth() && !other.is_depth();
-        self == other || color && self.is_integer() == other.is_integer()
+        self == other || color && Component::of(self) == Component::of(other)
     }
 
     /// The format with Vulkan's name `name`.
@@ -146,5 +172,35 @@ impl Format {
 impl std::fmt::Display for Format {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Format::{self, *};
+
+    #[test]
+    fn a_blit_keeps_the_kind_of_components() {
+        for (from, to, blits) in [
+            (R16_UNORM, R8G8B8A8_SNORM, true),
+            (R32_UINT, R8_UINT, true),
+            (R16_SINT, R32G32_SINT, true),
+            (R32_UINT, R32_SINT, false),
+            (R8_SINT, R8_SNORM, false),
+            (D32_SFLOAT, R32_SFLOAT, false),
+            (D32_SFLOAT, D32_SFLOAT, true),
+        ] {
+            assert_eq!((from.blits_to(to), to.blits_to(from)), (blits, blits), "{from} and {to}");
+        }
+    }
+
+    #[test]
+    fn formats_are_listed_by_vulkans_numbers_each_once() {
+        assert!(Format::ALL.is_sorted_by_key(|format| format.vulkan()));
+        for format in Format::ALL.iter().filter(|format| !format.is_depth() && format.texel_bytes() > 0) {
+            let letters = format.name().split('_').next().unwrap_or_default();
+            let count = letters.chars().filter(char::is_ascii_alphabetic).count();
+            assert_eq!(format.components() as usize, count, "{format}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Images as shaders declare them.
 
-use super::{Format, Shape};
+use super::{Format, Numeric, Shape};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::fmt::{Display, Formatter};
@@ -56,7 +56,11 @@ impl Component {
     /// The type of a component of `format` in a shader.
     #[must_use]
     pub const fn of(format: Format) -> Component {
-        if format.is_integer() { Component::Uint } else { Component::Float }
+        match format.numeric() {
+            Numeric::Uint => Component::Uint,
+            Numeric::Sint => Component::Int,
+            Numeric::Sfloat | Numeric::Ufloat | Numeric::Unorm | Numeric::Snorm | Numeric::Srgb => Component::Float,
+        }
     }
 }
 

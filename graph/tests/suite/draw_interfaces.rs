@@ -25,6 +25,15 @@ fn engine(draw: Draw) -> DrawInterface {
     }
 }
 
+/// All that the engine tells.
+fn interfaces() -> DrawInterfaces {
+    let compute = DrawInterface {
+        supplied: vec![Supplied::new(2, 1, "counters", SuppliedKind::StorageBlock)],
+        ..DrawInterface::default()
+    };
+    DrawInterfaces::from(engine).with(DrawKind::Compute, compute).with_custom_passes(["grass", "hair-2"])
+}
+
 const ENGINE: &str = r#"Interface(
     version: 1,
     draws: [
@@ -49,6 +58,15 @@ const ENGINE: &str = r#"Interface(
                 (name: "camera", set: 1, binding: 0, kind: UniformBlock),
             ],
         ),
+        (
+            of: [Compute],
+            vertex_stride: 0,
+            attributes: [
+            ],
+            supplied: [
+                (name: "counters", set: 2, binding: 1, kind: StorageBlock),
+            ],
+        ),
     ],
     custom: ["grass", "hair-2"],
 )
@@ -56,7 +74,7 @@ const ENGINE: &str = r#"Interface(
 
 #[test]
 fn an_engine_writes_its_interfaces_and_reads_them_again() {
-    let interfaces = DrawInterfaces::from(engine).with_custom_passes(["grass", "hair-2"]);
+    let interfaces = interfaces();
     assert_eq!(interfaces.to_ron(), ENGINE);
     assert_eq!(read(ENGINE), Ok(interfaces.clone()));
     for kind in DrawKind::ALL {
@@ -64,11 +82,25 @@ fn an_engine_writes_its_interfaces_and_reads_them_again() {
             DrawKind::Objects(list) => Draw::Objects(list),
             DrawKind::Sky => Draw::Sky,
             DrawKind::Custom => Draw::Custom,
+            DrawKind::Compute => continue,
             _ => Draw::FullScreen,
         };
         assert_eq!(interfaces.of(draw), engine(draw), "{kind}");
     }
     assert_eq!(interfaces.of(Draw::Vertices { count: 3, instances: 1 }), DrawInterface::default());
+    assert_eq!(interfaces.of_kind(DrawKind::Compute).supplied[0].name, "counters");
+    let told = DrawInterfaces::from(|_| engine(Draw::Sky));
+    assert_eq!(
+        told.of_kind(DrawKind::Compute),
+        DrawInterface::default(),
+        "a function of draws says nothing of compute passes"
+    );
+}
+
+#[test]
+fn a_file_that_knows_nothing_of_compute_passes_brings_them_nothing() {
+    let old = ENGINE.replacen("of: [Compute]", "of: [FullScreen]", 1);
+    assert_eq!(read(&old).expect("right").of_kind(DrawKind::Compute), DrawInterface::default());
 }
 
 #[test]
@@ -102,6 +134,10 @@ fn each_mistake_is_told_at_its_place() {
     wrong("[Sky", "[Skye", "17:18", &["`Skye` is not a kind of draw", "did you mean `Sky`?"]);
     wrong("Objects(Masked)", "Objects(Maskd)", "5:43", &["`Maskd` is not a draw list", "did you mean `Masked`?"]);
     wrong("[Sky", "[Casters(Transparent)", "17:26", &["`Transparent` is not a draw list", "`Opaque` or `Masked`"]);
+    wrong("[Compute", "[Computed", "26:18", &["`Computed` is not a kind of draw", "did you mean `Compute`?"]);
+    let compute = "of: [Compute],\n            vertex_stride: ";
+    let said = &["compute passes have no vertices", "an entry of its own"];
+    wrong(&format!("{compute}0"), &format!("{compute}4"), "27:28", said);
     wrong("vertex_stride: 20", "vertex_stride: 4000", "6:28", &["vertices of 4000 bytes: every device allows 2048"]);
     wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);
     wrong("vertex_stride: 20", "vertex_stride: 16", "9:17", &["`tangent` doesn't fit vertices of 16 bytes"]);
@@ -121,8 +157,8 @@ fn each_mistake_is_told_at_its_place() {
     wrong("\"detail\"", "\"camera\"", "13:17", &["`camera` is the name of two resources", "first here"]);
     wrong("SampledImage", "SampledImages", "13:60", &["is not a kind of resource", "did you mean `SampledImage`?"]);
     wrong("kind: SampledImage", "stage: SampledImage", "13:54", &["a resource has no field `stage`"]);
-    wrong("\"hair-2\"", "\"grass\"", "26:23", &["`grass` is the name of more than one custom pass"]);
-    wrong("\"hair-2\"", "\"2\"", "26:23", &["`2` can't be the name of a custom pass"]);
+    wrong("\"hair-2\"", "\"grass\"", "35:23", &["`grass` is the name of more than one custom pass"]);
+    wrong("\"hair-2\"", "\"2\"", "35:23", &["`2` can't be the name of a custom pass"]);
 }
 
 #[test]
@@ -169,7 +205,7 @@ proptest! {
 
     #[test]
     fn what_is_written_is_read_again(
-        draws in prop::collection::btree_map(prop::sample::select(DrawKind::ALL.to_vec()), interface(), 0..8),
+        draws in prop::collection::btree_map(prop::sample::select(DrawKind::ALL.to_vec()), interface(), 0..9),
         custom in prop::option::of(prop::collection::btree_set("[a-z_][a-z0-9_-]{5,9}", 0..4)),
     ) {
         let all = draws.into_iter().fold(DrawInterfaces::default(), |all, (kind, draws)| all.with(kind, draws));

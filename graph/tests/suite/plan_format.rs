@@ -349,6 +349,7 @@ fn own_declaration(pass: &Value, binding: &str) -> Option<String> {
     let found = shader.bindings.iter().find(|it| it.name == binding)?;
     match &found.kind {
         BindingKind::SampledImage(shape) => Some(sampler(*shape)),
+        BindingKind::ComparedDepth(shape) => Some(format!("{}Shadow", sampler(*shape))),
         // It is declared in either way, as the device has local reads or not.
         BindingKind::InputAttachment { .. } => None,
         other => panic!("it doesn't sample {other:?}"),

@@ -190,7 +190,8 @@ fn a_strip_of_squares_makes_a_three_dimensional_image_and_nothing_else_does() {
 #[test]
 fn a_sampler_stands_in_the_plan_and_the_tree_says_what_is_unusual() {
     let mut frame = frame();
-    let sampler = Sampler { filter: Filter::Linear, mips: Filter::Linear, address: AddressMode::MirroredRepeat };
+    let sampler =
+        Sampler { mips: Filter::Linear, address: AddressMode::MirroredRepeat, ..Sampler::new(Filter::Linear) };
     frame.passes[0].sampled[0].sampler = sampler;
     let plan = compiled(&frame);
     let json = plan.to_json().expect("it has one");

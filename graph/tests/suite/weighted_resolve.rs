@@ -51,7 +51,7 @@ fn each_version_is_resolved_by_one_draw_for_all_its_readers() {
     for pass in inserted(&plan) {
         assert_eq!((pass.draw, &pass.blend[..]), (Some(Draw::FullScreen), &[Blend::Replace][..]));
         assert_eq!(
-            pass.params.iter().map(|it| (&*it.name, it.value)).collect::<Vec<_>>(),
+            pass.params.iter().map(|it| (&*it.name, it.value.clone())).collect::<Vec<_>>(),
             [("invert", ParamValue::Bool(true))]
         );
         let Cause::Inserted(why) = &pass.cause else { panic!("{:?}", pass.cause) };

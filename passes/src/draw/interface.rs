@@ -2,7 +2,7 @@
 //! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
 
 /// The set with the resources of a frame.
 pub const FRAME_SET: u32 = 1;
@@ -23,22 +23,21 @@ pub const MOTION_BINDING: u32 = 5;
 /// Binding of the base colour's texture, in [`MATERIAL_SET`].
 pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 
-/// Everything that the shipped draw source binds for a kind of draw. It is known without a device, so `check` can compare
-/// shaders with it.
+/// Everything that the shipped draw source binds for each kind of draw, and for compute passes: those see the set of the frame.
+/// It is known without a device, so `check` can compare shaders with it.
+#[must_use]
+pub fn interfaces() -> DrawInterfaces {
+    let compute = DrawInterface { supplied: of_frame(), ..DrawInterface::default() };
+    DrawInterfaces::from(interface).with(DrawKind::Compute, compute)
+}
+
+/// Everything that the shipped draw source binds for a kind of draw.
 ///
 /// The sky and full-screen draws are given the same frame set as objects, so that one bind group serves all; other draws are
 /// given only the resources of their pass.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
-    let frame = |binding, name, kind| Supplied::new(FRAME_SET, binding, name, kind);
-    let mut supplied = vec![
-        frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
-        frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
-        frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
-        frame(CASCADES_BINDING, "cascades", SuppliedKind::UniformBlock),
-        frame(CLUSTERS_BINDING, "clusters", SuppliedKind::StorageBlock),
-        frame(MOTION_BINDING, "motion", SuppliedKind::StorageBlock),
-    ];
+    let mut supplied = of_frame();
     match draw {
         Draw::Objects(_) | Draw::Casters(_) => {
             let texture = SuppliedKind::SampledImage;
@@ -56,4 +55,17 @@ pub fn interface(draw: Draw) -> DrawInterface {
         Draw::Sky | Draw::FullScreen => DrawInterface { supplied, ..DrawInterface::default() },
         Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
     }
+}
+
+/// The resources of [`FRAME_SET`].
+fn of_frame() -> Vec<Supplied> {
+    let frame = |binding, name, kind| Supplied::new(FRAME_SET, binding, name, kind);
+    vec![
+        frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
+        frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
+        frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
+        frame(CASCADES_BINDING, "cascades", SuppliedKind::UniformBlock),
+        frame(CLUSTERS_BINDING, "clusters", SuppliedKind::StorageBlock),
+        frame(MOTION_BINDING, "motion", SuppliedKind::StorageBlock),
+    ]
 }

@@ -8,8 +8,8 @@ use super::textures::Textures;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
-use framewright_graph::plan::{Plan, View, ViewId, Work};
-use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
+use framewright_graph::plan::{Plan, Step, View, ViewId, Work};
+use framewright_vulkan::{BindGroup, Device, DispatchRecorder, DrawSource, Error, Recorder};
 use std::collections::BTreeMap;
 
 /// Point lights that a scene may have to be drawn. Those with a range are looked at where they reach; see
@@ -84,8 +84,8 @@ impl SceneDrawSource {
                 moved: false,
                 eyes: two.then_some(*eyes),
                 at_once: draws_at_once(plan, number),
-                one_by_one: draws_for_one(plan, number),
-                culls_by_eye: true,
+                one_by_one: is_seen_by_one(plan, number),
+                culls_by_eye: draws_for_one(plan, number),
                 extent: view.extent,
                 maps: cascades::of_plan(plan, Some(number)),
                 jitter: view.jitter.clone(),
@@ -266,35 +266,40 @@ impl SceneDrawSource {
         })
     }
 
-    /// The draws of a pass's view, and the eye for which it draws.
-    fn view_draws_and_eye(&self, recorder: &Recorder<'_>) -> Result<(&ViewDraws, Option<Eye>), Error> {
-        let view = recorder.view().map_or(0, |view| view.0 as usize);
+    /// The draws of the view of a pass, and the eye for which it draws or computes.
+    fn view_draws_and_eye(&self, pass: &str, view: Option<ViewId>) -> Result<(&ViewDraws, Option<Eye>), Error> {
+        let view = view.map_or(0, |view| view.0 as usize);
         let (place, eye) = self.by_view.get(view).copied().unwrap_or((view, None));
         self.views.get(place).map(|(_, seen)| (seen, eye)).ok_or_else(|| {
-            let (pass, views) = (recorder.pass(), self.views.len());
+            let views = self.views.len();
             Error::DrawSource { what: format!("pass `{pass}` draws for view {view}, and {views} were prepared") }
         })
     }
 
     /// The draws of a pass's view.
     fn view_draws(&self, recorder: &Recorder<'_>) -> Result<&ViewDraws, Error> {
-        self.view_draws_and_eye(recorder).map(|(seen, _)| seen)
+        self.view_draws_and_eye(recorder.pass(), recorder.view()).map(|(seen, _)| seen)
     }
 
-    /// The bind group of a pass, and by object whether it may be visible.
+    /// The bind group of a pass that draws, and by object whether it may be visible.
     fn group_and_visible(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
-        let (seen, eye) = self.view_draws_and_eye(recorder)?;
+        let at_once = recorder.both_eyes().is_some();
+        Ok(self.seen_by(self.view_draws_and_eye(recorder.pass(), recorder.view())?, at_once))
+    }
+
+    /// The bind group of an eye, of both at once, or of one between them; and by object whether it may be visible.
+    fn seen_by<'s>(&'s self, (seen, eye): (&'s ViewDraws, Option<Eye>), at_once: bool) -> (&'s BindGroup, &'s [bool]) {
         let seen = &seen.jittered;
         let both = seen.by_eye.as_ref().and_then(|by_eye| by_eye.both.as_ref());
         let each = seen.by_eye.as_ref().and_then(|by_eye| by_eye.each.as_ref());
-        Ok(match (both, each.zip(eye)) {
-            (Some(group), _) if recorder.both_eyes().is_some() => (group, &seen.visible),
+        match (both, each.zip(eye)) {
+            (Some(group), _) if at_once => (group, &seen.visible),
             (_, Some((each, eye))) => {
                 let (group, own) = &each[eye as usize];
                 (group, own.as_ref().filter(|_| !self.culls_once).unwrap_or(&seen.visible))
             }
             _ => (&seen.frame, &seen.visible),
-        })
+        }
     }
 }
 
@@ -323,6 +328,13 @@ impl DrawSource for SceneDrawSource {
             }
         }
     }
+
+    fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        self.advance_to(recorder.frame())?;
+        let seen = self.view_draws_and_eye(recorder.pass(), recorder.view())?;
+        recorder.bind_group(FRAME_SET, self.seen_by(seen, false).0);
+        Ok(())
+    }
 }
 
 fn no_camera(scene: &Scene, view: &View) -> Error {
@@ -332,8 +344,8 @@ fn no_camera(scene: &Scene, view: &View) -> Error {
     Error::DrawSource { what: format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name) }
 }
 
-/// The views of passes, with whether they draw for both eyes at once.
-fn views_of_passes(plan: &Plan) -> impl Iterator<Item = (Option<ViewId>, bool)> {
+/// The views of passes that draw, with whether they draw for both eyes at once.
+fn views_of_draws(plan: &Plan) -> impl Iterator<Item = (Option<ViewId>, bool)> {
     plan.steps.iter().flat_map(|step| match &step.work {
         Work::Render(scope) => {
             let at_once = plan.eyes(scope).is_some();
@@ -344,10 +356,22 @@ fn views_of_passes(plan: &Plan) -> impl Iterator<Item = (Option<ViewId>, bool)> 
 }
 
 fn draws_at_once(plan: &Plan, view: ViewId) -> bool {
-    views_of_passes(plan).any(|(of, at_once)| at_once && of == Some(view))
+    views_of_draws(plan).any(|(of, at_once)| at_once && of == Some(view))
 }
 
+/// Whether passes draw for one eye of a view.
 fn draws_for_one(plan: &Plan, view: ViewId) -> bool {
-    let eye = |of: ViewId| plan.views.get(of.0 as usize).and_then(|of| of.eye);
-    views_of_passes(plan).any(|(of, _)| of.and_then(eye).is_some_and(|eye| eye.of == view))
+    views_of_draws(plan).any(|(of, _)| is_eye_of(plan, of, view))
+}
+
+/// Whether passes draw or compute for one eye of a view.
+fn is_seen_by_one(plan: &Plan, view: ViewId) -> bool {
+    let computes = |step: &Step| matches!(&step.work, Work::Dispatch(pass) if is_eye_of(plan, pass.view, view));
+    draws_for_one(plan, view) || plan.steps.iter().any(computes)
+}
+
+/// Whether `eye` is the view of one eye of another view.
+fn is_eye_of(plan: &Plan, eye: Option<ViewId>, view: ViewId) -> bool {
+    let eye = eye.and_then(|eye| plan.views.get(eye.0 as usize)).and_then(|eye| eye.eye);
+    eye.is_some_and(|eye| eye.of == view)
 }

@@ -27,8 +27,9 @@ pub(super) struct Viewpoint {
     pub(super) eyes: Option<Eyes>,
     /// Whether passes draw for both eyes at once.
     pub(super) at_once: bool,
-    /// Whether passes draw for one eye, and then are given the objects that it may see itself.
+    /// Whether passes draw or compute for one eye.
     pub(super) one_by_one: bool,
+    /// Whether passes that draw for one eye are given the objects that it may see itself.
     pub(super) culls_by_eye: bool,
     /// Width and height of its picture, of which only the ratio counts.
     pub(super) extent: [u32; 2],

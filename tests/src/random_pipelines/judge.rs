@@ -15,7 +15,7 @@ use framewright_graph::language::{self, Facts};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Rotation;
-use framewright_passes::draw::interface;
+use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
     CustomRecorder, Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder,
@@ -129,7 +129,7 @@ impl Judge {
         let device = Device::open(&DeviceOptions { validation: true, ..DeviceOptions::default() })?;
         device.canary()?;
         let folder = tempfile::tempdir()?;
-        let shaders = ShaderLibrary::new(vec![Root::new(folder.path().to_owned())], SHADERS, interface);
+        let shaders = ShaderLibrary::new(vec![Root::new(folder.path().to_owned())], SHADERS, interfaces());
         Ok(Judge {
             profile: device.profile(),
             device,

@@ -57,6 +57,8 @@ struct Text {
     declarations: String,
     body: String,
     members: String,
+    /// Where in vectors and matrices parameters are.
+    places: String,
     params: Vec<(String, ParamValue)>,
     bindings: u32,
     structured: bool,
@@ -65,11 +67,28 @@ struct Text {
 }
 
 impl Text {
+    /// Adds a parameter: by itself, as a component of a vector, or of a matrix, in turn.
     fn param(&mut self, name: &str, value: ParamValue) {
-        let ty = if matches!(value, ParamValue::Number(_)) { "float" } else { "uint" };
+        let is_float = matches!(value, ParamValue::Number(_));
+        let (scalar, vector) = if is_float { ("float", "vec3") } else { ("uint", "uvec3") };
+        let other = || ParamValue::Integer(9);
+        let column = |value| ParamValue::list([other(), value, other()]);
+        // Names of one word may be others elsewhere.
+        let (ty, place, value) = match self.params.len() % 3 {
+            _ if !name.contains('_') => (scalar, "", value),
+            0 => (scalar, "", value),
+            1 if is_float => ("mat2x3", "[1].y", ParamValue::list([column(other()), column(value)])),
+            _ => (vector, ".y", column(value)),
+        };
         // Writing into a String can't fail.
-        let _ = writeln!(self.members, "    {ty} {name};");
-        self.params.push((name.to_owned(), value));
+        if place.is_empty() {
+            let _ = writeln!(self.members, "    {ty} {name};");
+            self.params.push((name.to_owned(), value));
+        } else {
+            let _ = writeln!(self.members, "    {ty} {name}_within;");
+            let _ = writeln!(self.places, "#define {name} {name}_within{place}");
+            self.params.push((format!("{name}_within"), value));
+        }
     }
 
     fn whole(&mut self, name: &str, value: u32) {
@@ -323,7 +342,7 @@ impl Text {
     }
 
     fn block(&self) -> String {
-        format!("layout(set = 0, binding = 0) uniform params {{\n{}}};\n", self.members)
+        format!("layout(set = 0, binding = 0) uniform params {{\n{}}};\n{}", self.members, self.places)
     }
 
     fn draw_shader(self, draw: &Draw) -> Shader {

@@ -106,7 +106,7 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
     let mut made = frame::Pass::new(&format!("p{}", pass.number), work(pipeline, pass, name));
     made.side_effect = pass.side_effect;
     if let Some(shader) = &shader {
-        made.params = shader.params.iter().map(|(name, value)| (name.as_str().into(), *value)).collect();
+        made.params = shader.params.iter().map(|(name, value)| (name.as_str().into(), value.clone())).collect();
     }
     let stages = if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
     let (reads, stores) = valid::shader(pass);

@@ -164,11 +164,7 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
         fields.push("side_effect: true".to_owned());
     }
     if let Some(shader) = shader {
-        let param = |(name, value): &(String, ParamValue)| match value {
-            ParamValue::Number(number) => format!("\"{name}\": {number:?}"),
-            ParamValue::Integer(number) => format!("\"{name}\": {number}"),
-            ParamValue::Bool(truth) => format!("\"{name}\": {truth}"),
-        };
+        let param = |(name, value): &(String, ParamValue)| format!("\"{name}\": {}", written(value));
         let params: Vec<String> = shader.params.iter().map(param).collect();
         fields.push(format!("params: {{{}}}", params.join(", ")));
     }
@@ -258,5 +254,14 @@ fn bindings(pass: &Pass, fields: &mut Vec<String>) {
         if !entries.is_empty() {
             fields.push(format!("{field}: {{{}}}", entries.join(", ")));
         }
+    }
+}
+
+/// A parameter's value, numbers with all their digits.
+fn written(value: &ParamValue) -> String {
+    match value {
+        ParamValue::Number(number) => format!("{number:?}"),
+        ParamValue::Integer(_) | ParamValue::Bool(_) => value.to_string(),
+        ParamValue::List(values) => format!("({})", values.iter().map(written).collect::<Vec<_>>().join(", ")),
     }
 }

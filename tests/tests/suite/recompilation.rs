@@ -79,10 +79,11 @@ fn with_values(frame: &Frame, value: u8) -> Frame {
     let number = f32::from(value) / 255.0;
     for pass in &mut frame.passes {
         for (_, param) in &mut pass.params {
-            *param = match *param {
+            *param = match param {
                 ParamValue::Bool(_) => ParamValue::Bool(value > 100),
                 ParamValue::Integer(_) => ParamValue::Integer(value.into()),
                 ParamValue::Number(_) => ParamValue::Number(number.into()),
+                ParamValue::List(list) => ParamValue::list(list.iter().map(|_| ParamValue::Number(number.into()))),
             };
         }
         pass.color.iter_mut().filter_map(|target| target.clear.as_mut()).for_each(|clear| *clear = [number; 4]);

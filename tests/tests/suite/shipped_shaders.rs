@@ -3,7 +3,7 @@
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::{BindingKind, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind, Variant};
 use framewright_graph::vulkan::Dimension;
-use framewright_passes::draw::interface;
+use framewright_passes::draw::{interface, interfaces};
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
 use std::error::Error;
@@ -74,7 +74,7 @@ const DISPATCHED: &[(&str, [u32; 3])] = &[
 ];
 
 fn library() -> ShaderLibrary {
-    ShaderLibrary::new(Vec::new(), SHADERS, interface)
+    ShaderLibrary::new(Vec::new(), SHADERS, interfaces())
 }
 
 fn reflected(name: &str, draw: Draw) -> Result<ShaderInterface, Box<dyn Error>> {

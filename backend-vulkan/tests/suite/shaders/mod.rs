@@ -6,7 +6,7 @@ mod refusals;
 use framewright_graph::base::Root;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::{
-    Binding, BindingKind, DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
+    Binding, BindingKind, DrawInterface, MatrixLayout, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 use framewright_vulkan::ShaderLibrary;
@@ -97,6 +97,7 @@ fn images_have_their_dimension_samples_and_component() {
         layout(set = 0, binding = 2) uniform usampler3D volume;
         layout(set = 0, binding = 3) uniform isamplerCube cube;
         layout(set = 0, binding = 4, r32f) uniform writeonly image2D stored;
+        layout(set = 0, binding = 5) uniform samplerCubeShadow shadow;
         layout(location = 0) out vec4 color; void main() { color = vec4(1.0); }",
     );
     let shape =
@@ -113,8 +114,23 @@ fn images_have_their_dimension_samples_and_component() {
             readable: false,
             writable: true,
         },
+        BindingKind::ComparedDepth(shape(Dimension::Cube, false, false, Component::Float)),
     ];
     assert_eq!(kinds, expected);
+}
+
+#[test]
+fn matrices_in_blocks_say_how_they_lie() {
+    let interface = reflected(
+        "layout(set = 0, binding = 0) uniform Params { mat2 small; layout(row_major) mat2x4 rows; } params;
+        layout(location = 0) out vec4 color; void main() { color = params.rows[0] + params.small[0].xyxy; }",
+    );
+    let BindingKind::UniformBlock(block) = &interface.bindings[0].kind else { panic!("{interface:?}") };
+    let layout = |row_major| Some(MatrixLayout { stride: 16, row_major });
+    let members: Vec<_> = block.members.iter().map(|it| (it.offset, it.ty.as_str(), it.matrix)).collect();
+    assert_eq!(members, [(0, "mat2", layout(false)), (32, "mat2x4", layout(true))]);
+    // Two columns of two; four rows of two.
+    assert_eq!(block.bytes, 32 + 64);
 }
 
 #[test]
@@ -124,11 +140,10 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
     fs::write(folder.path().join("more.glsl"), "\nlayout(set = 0, binding = 9) uniform samplerBuffer texels;\n")
         .expect("a file");
     let declared = "#version 460
-        /* uniform sampler2DShadow shadow;
-        */ layout(set = 0, binding = 5) uniform sampler2DShadow shadow;
+        /* uniform sampler alone;
+        */ layout(set = 0, binding = 5) uniform sampler alone;
         layout(set = 0, binding = 6) uniform sampler2D many[2];
-        layout(set = 0, binding = 7, rgba8_snorm) uniform writeonly image2D signed_one;
-        layout(set = 0, binding = 8, rg16) uniform writeonly image2D wide;
+        layout(set = 0, binding = 7, rgb10_a2ui) uniform writeonly uimage2D packed_one;
         #include \"more.glsl\"\n";
     fs::write(folder.path().join("test.frag"), format!("{declared}{rest}")).expect("a file");
     let interface = library(folder.path()).draw_shader("test", Draw::FullScreen, &Variant::default());
@@ -140,10 +155,9 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
     };
     let told: Vec<String> = interface.expect("it compiles").bindings.into_iter().map(told).collect();
     let expected = [
-        "test.frag:3 a sampler that compares depth",
+        "test.frag:3 a sampler without image",
         "test.frag:4 an array of resources",
-        "test.frag:5 a storage image of the format `Rgba8Snorm`, which no image of a pipeline has",
-        "test.frag:6 a storage image of the format `Rg16`, which no image of a pipeline has",
+        "test.frag:5 a storage image of the format `Rgb10a2ui`, which no image of a pipeline has",
         "more.glsl:2 a texel buffer",
     ];
     assert_eq!(told, expected);

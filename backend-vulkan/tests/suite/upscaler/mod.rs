@@ -6,7 +6,7 @@ use crate::testing::{device, findings};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Jitter;
 use framewright_graph::plan::Plan;
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::{SceneDrawSource, interfaces};
 use framewright_passes::scene::{Scene, load};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{Setup, floats, in_repository, plan};
@@ -54,7 +54,7 @@ impl Program {
 fn frames(device: &Device, scene: &Scene, external: &str, count: u32) -> (Vec<Frame>, Vec<[f64; 2]>) {
     let set = [("external", external)];
     let setup = Setup { pipeline: "tests/pipelines/upscaler.ron", set: &set, scene, extent: EXTENT };
-    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
     let plan = plan(device, &setup, &mut shaders, &Options::default()).expect("a Plan");
     let Program { mut executor, mut upscaler } = Program::new(device, scene, &plan, &mut shaders);
     let mut frames = Vec::new();
@@ -120,7 +120,7 @@ fn the_program_s_upscaler_is_told_what_is_rendered_where_that_changes_from_frame
     let Some(device) = device() else { return };
     let scene = scene();
     for external in ["true", "false"] {
-        let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+        let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
         let mut planned = |pipeline, scale| {
             let set = [("external", external), ("scale", scale)];
             let setup = Setup { pipeline, set: &set, scene: &scene, extent: EXTENT };

@@ -28,7 +28,7 @@ pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
         Some(FrameWork::Blit { filter }) => Work::Blit(transfer(results, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {
             let (name, cause, target) = (name(results, op), cause(results, op), filled(results, number));
-            Work::Fill(Fill { name, cause, target, value: *value })
+            Work::Fill(Fill { name, cause, target, value: value.clone() })
         }
         Some(FrameWork::Custom { .. }) => Work::Custom(pass(results, number)),
         Some(FrameWork::Dispatch { .. } | FrameWork::Draw { .. } | FrameWork::Forward { .. }) => {
@@ -141,7 +141,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     }
     if !declared.params.is_empty() {
         let params = declared.params.iter();
-        planned.params = params.map(|(name, value)| Param { name: name.clone(), value: *value }).collect();
+        planned.params = params.map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect();
     }
     planned
 }
@@ -171,7 +171,11 @@ fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, nam
         redraws: Some(declared.name.clone()),
         view: view(results, declared.view),
         blend: Vec::new(),
-        params: declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect(),
+        params: declared
+            .params
+            .iter()
+            .map(|(name, value)| Param { name: name.clone(), value: value.clone() })
+            .collect(),
         accesses: uses.iter().map(|used| access(results, used, None)).collect(),
         merged: results.scoped.merged(results.frame, results.adapted, number),
         ..planned

@@ -50,7 +50,7 @@ fn pass_values(results: &StageResults<'_>, op: u32, planned: &mut Pass) {
     if !declared.params.is_empty() || !planned.params.is_empty() {
         planned.params.clear();
         let params = declared.params.iter();
-        planned.params.extend(params.map(|(name, value)| Param { name: name.clone(), value: *value }));
+        planned.params.extend(params.map(|(name, value)| Param { name: name.clone(), value: value.clone() }));
     }
 }
 

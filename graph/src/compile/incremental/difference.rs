@@ -2,8 +2,8 @@
 
 use crate::base::Span;
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, ParamValue, Pass, Sampled,
-    StencilState, Storage, View, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Sampled, StencilState, Storage,
+    View, Work,
 };
 use crate::vulkan::{FillValue, Sampler, Subresources};
 use std::sync::Arc;
@@ -172,7 +172,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         (Some(old), Some(new)) => depth_target(old, new),
         _ => Structure,
     };
-    let same_params = same_lists(&old.params, params, |old, new| same_name(&old.0, &new.0) && same_param(old.1, new.1));
+    let same_params = same_lists(&old.params, params, |old, new| same_name(&old.0, &new.0) && old.1.is_same(&new.1));
     unless(same_params, Values).max(works(&old.work, work)).max(of_lists(&old.color, color, color_target)).max(depth)
 }
 
@@ -181,8 +181,9 @@ fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     // Most are the same, so comparing all at once takes fewer branches.
     let same_access =
         same_access((old.image, old.range, old.frames_ago, old.span), (*image, *range, *frames_ago, *span));
-    let bytes = |Sampler { filter, mips, address }: Sampler, own_pixel| {
-        [filter as u8, mips as u8, address as u8, u8::from(own_pixel)]
+    let bytes = |Sampler { filter, mips, address, compare }: Sampler, own_pixel| {
+        let compare = compare.map_or(u8::MAX, |compare| compare as u8);
+        [filter as u8, mips as u8, address as u8, compare, u8::from(own_pixel)]
     };
     let same_way = (bytes(old.sampler, old.own_pixel) == bytes(*sampler, *own_pixel)) & (old.stages == *stages);
     (same_access & same_way & (old.eye == *eye) & (old.face == *face))
@@ -240,13 +241,6 @@ fn same_fill(old: &FillValue, new: &FillValue) -> bool {
     match (old, new) {
         (FillValue::Color(old), FillValue::Color(new)) => old.map(f32::to_bits) == new.map(f32::to_bits),
         (FillValue::Depth(old, a), FillValue::Depth(new, b)) => (old.to_bits(), a) == (new.to_bits(), b),
-        _ => old == new,
-    }
-}
-
-fn same_param(old: ParamValue, new: ParamValue) -> bool {
-    match (old, new) {
-        (ParamValue::Number(old), ParamValue::Number(new)) => old.to_bits() == new.to_bits(),
         _ => old == new,
     }
 }

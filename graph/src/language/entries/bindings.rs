@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::firsts::Firsts;
 use super::parts::{self, Either, Selected};
+use super::targets;
 use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
@@ -39,6 +40,9 @@ fields! {
         /// Beyond the edges: the texels at the edge, the image again, or the image mirrored, again and again; `Clamp` if left
         /// out.
         address: Option<Leaf<'src>> => ADDRESS,
+        /// How the shader's depth is compared with that of the image, which it declares as `sampler2DShadow`: 1 where it passes, and
+        /// with `filter: Linear` the share of four texels where it does.
+        compare: Option<Leaf<'src>> => COMPARE,
         /// A promise that each fragment reads only the texel at its own position.
         own_pixel: Option<Leaf<'src>> => Form::Truth,
         /// A condition: if it is false, the shader is compiled without it.
@@ -85,6 +89,9 @@ const SAMPLER_FILTER: Form = Form::Either(&[FILTER, Form::Expression("a filter")
 const ADDRESS: Form =
     Form::Either(&[Form::Choice("an address mode", || names(&ADDRESSES)), Form::Expression("an address mode")]);
 
+/// The comparison of a sampler.
+const COMPARE: Form = Form::Either(&[targets::TEST, Form::Expression("a comparison")]);
+
 /// Storage images and buffers, by the shader's names.
 pub(crate) const STORAGE: Form =
     Form::Map("shader's name", &Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(StorageFields::<'static>::table)]));
@@ -93,7 +100,7 @@ pub(crate) const STORAGE: Form =
 pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
 
 /// Parameters, by the shader's names.
-pub(crate) const PARAMS: Form = Form::Map("shader's name", &Form::Either(&[Form::Number, Form::Truth]));
+pub(crate) const PARAMS: Form = Form::Map("shader's name", &values::PARAM);
 
 fields! {
     /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it.
@@ -171,22 +178,24 @@ impl Context<'_> {
 
     fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<FieldValue<Sample>> {
         let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
-        let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
+        let SampleFields { filter, mip_filter, address, compare, own_pixel, .. } = fields;
         let selected = Selected { mip, mips, layer, layers, plane, previous };
         let image = face(self.reader, image).map(|(name, face)| (self.selected_image(name, selected), face));
         let filter = self.sampler_word(filter, "a filter", &FILTERS);
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
         let address = self.sampler_word(address, "an address mode", &ADDRESSES);
+        let compare = self.sampler_word(compare, "a comparison", &targets::TESTS);
         let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (part, face) = image?;
-        let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, own_pixel?));
-        Some(combined(parts, move |(part, filter, mip_filter, address, own_pixel)| Sample {
+        let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, compare?, own_pixel?));
+        Some(combined(parts, move |(part, filter, mip_filter, address, compare, own_pixel)| Sample {
             binding: binding.clone(),
             part,
             face,
             filter,
             mip_filter,
             address,
+            compare,
             own_pixel,
         }))
     }
@@ -298,6 +307,7 @@ impl<'src> SampleFields<'src> {
             filter: None,
             mip_filter: None,
             address: None,
+            compare: None,
             own_pixel: None,
             when: None,
         }

@@ -58,7 +58,7 @@ fields! {
         pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
         /// Images and buffers, or parts of them, that it writes by transfer; all of each is written.
         pub(crate) writes: Option<Leaf<'src>> => transfer::TRANSFERRED,
-        /// Values for the members of the shader's block `params`, by name.
+        /// Values for the members of the shader's block `params`, by name: vectors and columns of matrices in `(…, …)`.
         pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
         /// `true`: it is kept although nothing in the frame needs it.
         pub(crate) side_effect: Option<Leaf<'src>> => Form::Truth,

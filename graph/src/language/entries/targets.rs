@@ -80,7 +80,7 @@ pub(crate) const COLOR: Form =
 /// The form of `depth`: a target.
 pub(crate) const DEPTH: Form = Form::Either(&[parts::EYE_IMAGE, Form::Fields(DepthTargetFields::<'static>::table)]);
 
-const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
+pub(crate) const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
 
 const BYTE: Form = Form::Whole(0, 255);
 
@@ -91,7 +91,7 @@ const BLENDS: [(&str, Blend); 4] = [
     ("Additive", Blend::Additive),
 ];
 
-const TESTS: [(&str, CompareOp); 8] = [
+pub(crate) static TESTS: [(&str, CompareOp); 8] = [
     ("Never", CompareOp::Never),
     ("Less", CompareOp::Less),
     ("Equal", CompareOp::Equal),

@@ -4,7 +4,7 @@
 use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
 use crate::frame::ParamValue;
-use crate::language::model::{Decided, Fill, SettingKind};
+use crate::language::model::{Decided, Decisions, Fill, SettingKind};
 use crate::language::scope::{Context, FieldValue, Kept, Quoted, all, combined, decided, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
@@ -102,6 +102,42 @@ impl Context<'_> {
 
     /// A value for a shader's parameter, and the words for it in the file.
     pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<ParamValue>>> {
+        self.param_within(leaf, PARAM_DEPTH)
+    }
+
+    /// As [`Context::param`], a list of at most so many dimensions.
+    fn param_within(&mut self, leaf: Leaf<'_>, dimensions: u32) -> Option<FieldValue<Decided<ParamValue>>> {
+        if dimensions == 0 || !matches!(leaf.shape(), Shape::Parentheses) {
+            return self.param_alone(leaf, dimensions == PARAM_DEPTH);
+        }
+        // Named fields are no components.
+        let Some(leaves) = leaf.values() else { return self.param_alone(leaf, dimensions == PARAM_DEPTH) };
+        let leaves: Vec<Leaf<'_>> = leaves.collect();
+        if !COMPONENTS.contains(&leaves.len()) {
+            let (least, most) = (COMPONENTS.start(), COMPONENTS.end());
+            let what = if dimensions == PARAM_DEPTH { "a vector or matrix" } else { "a column of a matrix" };
+            let message = format!("{what} has {least} to {most} values in `(…, …)`; here are {}", leaves.len());
+            self.reader.wrong(leaf, message, "");
+            return None;
+        }
+        // All of them are read, so that all mistakes are told.
+        let read: Vec<_> = leaves.into_iter().map(|leaf| self.param_within(leaf, dimensions - 1)).collect();
+        let (read, span) = (read.into_iter().collect::<Option<Vec<_>>>()?, leaf.span());
+        Some(combined(read, move |values: Vec<Decided<ParamValue>>| {
+            let mut words: Vec<Arc<str>> = Vec::new();
+            for because in values.iter().filter_map(|value| value.because.as_ref()) {
+                if !words.contains(because) {
+                    words.push(because.clone());
+                }
+            }
+            let because = (!words.is_empty()).then(|| words.join(", ").into());
+            let value = ParamValue::list(values.into_iter().map(|value| value.value));
+            Decided { value, span, because, by: Decisions::default() }
+        }))
+    }
+
+    /// A single value for a shader's parameter. `lists`: a list could stand there too.
+    fn param_alone(&mut self, leaf: Leaf<'_>, lists: bool) -> Option<FieldValue<Decided<ParamValue>>> {
         match leaf.shape() {
             Shape::Text => {}
             Shape::Word("true" | "false", None) => {
@@ -115,7 +151,8 @@ impl Context<'_> {
                 return Some(FieldValue::said(leaf, value));
             }
             _ => {
-                self.reader.expected(leaf, "a number, `true`, `false`, or an expression in quotes");
+                let more = if lists { "several of them in `(…, …)`, " } else { "" };
+                self.reader.expected(leaf, &format!("a number, `true`, `false`, {more}or an expression in quotes"));
                 return None;
             }
         }
@@ -284,6 +321,19 @@ pub(crate) const FILL: Form = Form::Either(&[Form::Number, Form::Tuple(&[Form::N
 
 /// Red, green, blue and alpha.
 pub(crate) const COLOR: Form = Form::Tuple(&[Form::Number, Form::Number, Form::Number, Form::Number]);
+
+/// Dimensions of a matrix.
+const PARAM_DEPTH: u32 = 2;
+
+/// How many components vectors have, and columns matrices.
+const COMPONENTS: RangeInclusive<usize> = 2..=4;
+
+/// A value for a shader's parameter: a scalar, a vector, or a matrix as a list of its columns.
+pub(crate) const PARAM: Form = Form::Either(&[
+    Form::Number,
+    Form::Truth,
+    Form::Several(&Form::Either(&[Form::Number, Form::Truth, Form::Several(&Form::Number, 2, 4)]), 2, 4),
+]);
 
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";
 

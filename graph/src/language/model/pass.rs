@@ -204,6 +204,8 @@ pub struct Sample {
     pub mip_filter: Option<Spanned<Filter>>,
     /// Address mode beyond the edges, if the file chooses one.
     pub address: Option<Spanned<AddressMode>>,
+    /// How the shader's depth is compared with the image's, if the file says so.
+    pub compare: Option<Spanned<CompareOp>>,
     /// Whether each fragment reads only the texel at its own position, if the file says so.
     pub own_pixel: Option<Spanned<bool>>,
 }

@@ -7,9 +7,7 @@ use super::outline::{About, Outline};
 use super::words::{
     bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of, words_of_list,
 };
-use crate::frame::{
-    Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, Property, StencilState, Stereo, Subject,
-};
+use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
 use crate::plan::names::Shown;
 use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
@@ -255,12 +253,7 @@ impl Tree<'_> {
         parts.extend(pass.accesses.iter().filter_map(|access| self.binding(access)));
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
         for param in &pass.params {
-            let value = match param.value {
-                ParamValue::Bool(value) => value.to_string(),
-                ParamValue::Integer(value) => value.to_string(),
-                ParamValue::Number(value) => value.to_string(),
-            };
-            parts.push(Outline::leaf(format!("{} = {value}", Shown(&param.name))));
+            parts.push(Outline::leaf(format!("{} = {}", Shown(&param.name), param.value)));
         }
         if let Some(merged) = &pass.merged {
             parts.push(Outline::leaf(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));

@@ -53,6 +53,9 @@ pub(super) fn words_of(sampler: &Sampler) -> String {
     if sampler.address != AddressMode::default() {
         words += &format!(", {}", name_of(&sampler.address));
     }
+    if let Some(compare) = &sampler.compare {
+        words += &format!(", compared by {}", name_of(compare));
+    }
     words
 }
 

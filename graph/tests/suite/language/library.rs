@@ -112,7 +112,7 @@ fn tone_mapping_has_a_curve_for_each_operator() {
             );
             let frame = frame([8, 8], "tone_mapping", &uses);
             let params = &frame.passes.last().expect("it maps").params;
-            let found = params.iter().find(|(name, _)| &**name == "operator").map(|(_, value)| *value);
+            let found = params.iter().find(|(name, _)| &**name == "operator").map(|(_, value)| value.clone());
             assert_eq!(found, Some(ParamValue::Integer(number as i64)), "{fragment}, {operator}");
         }
     }

@@ -40,7 +40,9 @@ impl Seen {
                 _ => words.or.iter().for_each(|or| self.form(leaf, or)),
             },
             Form::Tuple(forms) => self.each(leaf, forms),
-            Form::List(of) => leaf.values().into_iter().flatten().for_each(|value| self.form(value, of)),
+            Form::List(of) | Form::Several(of, ..) => {
+                leaf.values().into_iter().flatten().for_each(|value| self.form(value, of))
+            }
             Form::Map(_, of) => leaf.entries().into_iter().flatten().for_each(|(_, value)| self.form(value, of)),
             Form::Either(forms) => match forms.iter().max_by_key(|form| known(leaf, form)) {
                 Some(form) if known(leaf, form) > 0 => self.form(leaf, form),

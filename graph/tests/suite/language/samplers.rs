@@ -1,7 +1,7 @@
 //! How a pass looks up what it samples: filters between texels and mip levels, and what lies beyond the edges.
 
 use crate::testing::pipelines::{INPUTS, right};
-use framewright_graph::vulkan::{AddressMode, Filter, Sampler};
+use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Sampler};
 
 /// The sampler of a pass that samples an image of this format, with these fields beside its name.
 fn sampler(format: &str, fields: &str) -> Sampler {
@@ -46,6 +46,29 @@ fn an_expression_chooses_a_filter_and_an_address_mode_by_their_words() {
     let wanted =
         Sampler { mips: Filter::Linear, address: AddressMode::MirroredRepeat, ..Sampler::new(Filter::Nearest) };
     assert_eq!(sampler("R8_UNORM", chosen), wanted);
+}
+
+#[test]
+fn a_sampler_compares_where_shader_and_file_say_so() {
+    let compared = |fields: &str| {
+        let text = format!(
+            r#"Pipeline(
+                version: 1,
+                images: [(name: "screen", format: Output, size: Output), (name: "depth", format: Depth, size: Output)],
+                passes: [
+                    (name: "fill", fill: (to: "depth", value: 0)),
+                    (name: "show", draw: FullScreen("shadowed"), sample: {{"shadow": (image: "depth", {fields})}},
+                        color: ["screen"]),
+                ],
+                outputs: ["screen"],
+            )"#
+        );
+        right(&text, &INPUTS).passes[1].sampled[0].sampler
+    };
+    let nearest = Sampler::new(Filter::Nearest);
+    assert_eq!(compared("compare: Less"), Sampler { compare: Some(CompareOp::Less), ..nearest });
+    let linear = Sampler { compare: Some(CompareOp::GreaterOrEqual), ..Sampler::new(Filter::Linear) };
+    assert_eq!(compared("compare: \"'GreaterOrEqual'\", filter: Linear"), linear);
 }
 
 #[test]

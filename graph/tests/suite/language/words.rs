@@ -257,6 +257,30 @@ fn parameters_take_the_type_that_the_shader_declares() {
 }
 
 #[test]
+fn parameters_are_vectors_and_matrices_with_settings_and_expressions_within() {
+    let settings = r#"(name: "on", value: Bool(default: true)), (name: "steps", value: Integer(default: 3, min: 1, max: 5)),
+                      (name: "red", value: Number(default: 0.25, min: 0.0, max: 1.0))"#;
+    let images = r#"(name: "color", format: Color, size: Output),"#;
+    let passes = r#"(name: "a", draw: FullScreen("vectors"), params: {
+                        "tint": ("red", 1, "red * 2"), "cell": (-7, "steps"), "flags": (true, "on"),
+                        "turn": ((1, 0, 0.5), (0, "red", "steps"))}, color: ["color"]),
+                    (name: "b", custom: "program", params: {"any": ((1, 2), (true, "red"))}, side_effect: true),"#;
+    let frame = right(&pipeline(settings, images, passes), &INPUTS);
+    let numbers = |numbers: &[f64]| ParamValue::list(numbers.iter().map(|number| ParamValue::Number(*number)));
+    let turn = ParamValue::list([numbers(&[1.0, 0.0, 0.5]), numbers(&[0.0, 0.25, 3.0])]);
+    let expected = [
+        ("tint".into(), numbers(&[0.25, 1.0, 0.5])),
+        ("cell".into(), ParamValue::list([-7, 3].map(ParamValue::Integer))),
+        ("flags".into(), ParamValue::list([true, true].map(ParamValue::Bool))),
+        ("turn".into(), turn.clone()),
+    ];
+    assert_eq!(frame.passes[0].params, expected);
+    assert_eq!(turn.to_string(), "((1, 0, 0.5), (0, 0.25, 3))");
+    // A program is given what the file says.
+    assert_eq!(frame.passes[1].params[0].1.to_string(), "((1, 2), (true, 0.25))");
+}
+
+#[test]
 fn of_several_choices_for_a_setting_the_last_counts() {
     let settings = r#"(name: "steps", value: Integer(default: 3, min: 1, max: 5))"#;
     let set = set(&[("steps", "1"), ("steps", "5")]);

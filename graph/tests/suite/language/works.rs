@@ -1,7 +1,7 @@
 //! Passes besides those that draw the scene: dispatches, transfers, draws of their own, the program's own; and the parts of
 //! images and buffers that they use.
 
-use crate::testing::pipelines::{INPUTS, frame, set};
+use crate::testing::pipelines::{INPUTS, frame, right, set, wrong};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{
     BufferIndex, BufferRole, Draw, Frame, Groups, ImageIndex, ParamValue, Pass, Resource, StencilState, Work,
@@ -185,6 +185,33 @@ fn copies_blits_and_fills_read_before_they_write() {
     assert_eq!(fill.transfers[0].resource, Resource::Buffer(BufferIndex(3)));
     let fill = pass(r#"fill: (to: (image: "hdr", mip: 2), value: (1, 2, 3, 4))"#);
     assert_eq!(fill.work, Work::Fill { value: FillValue::Color([1.0, 2.0, 3.0, 4.0]) });
+}
+
+#[test]
+fn signed_integers_are_filled_with_negative_numbers_and_no_others_are() {
+    let filled = |format: &str, value: &str| {
+        format!(
+            r#"Pipeline(
+                version: 1,
+                images: [(name: "a", format: {format}, size: Output)],
+                passes: [(name: "fill", fill: (to: "a", value: {value}))],
+                outputs: ["a"],
+            )"#
+        )
+    };
+    let value = |format, value| right(&filled(format, value), &INPUTS).passes[0].work.clone();
+    let bits = |numbers: [i32; 4]| Work::Fill { value: FillValue::Bits(numbers.map(i32::cast_unsigned)) };
+    assert_eq!(value("R8G8_SINT", "(-128, 127, 0, 0)"), bits([-128, 127, 0, 0]));
+    assert_eq!(value("R32_SINT", "-2147483648"), bits([i32::MIN; 4]));
+    assert_eq!(value("R16_UINT", "65535"), bits([65535; 4]));
+    for (format, number, said) in [
+        ("R8_SINT", "-129", "whole numbers from -128 to 127 are allowed"),
+        ("R16G16_SINT", "32768", "whole numbers from -32768 to 32767 are allowed"),
+        ("R32G32_UINT", "-1", "whole numbers from 0 to 4294967295 are allowed"),
+    ] {
+        let told = wrong(&filled(format, number), &INPUTS);
+        assert!(told.contains(said), "{told}");
+    }
 }
 
 #[test]

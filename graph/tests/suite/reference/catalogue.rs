@@ -79,7 +79,7 @@ impl Catalogue {
                 assert_eq!(*known, words(), "there are two choices called {what}");
             }
             Form::Tuple(forms) | Form::Either(forms) => forms.iter().for_each(|form| self.form(form)),
-            Form::List(of) | Form::Map(_, of) => self.form(of),
+            Form::List(of) | Form::Several(of, ..) | Form::Map(_, of) => self.form(of),
             Form::Anything
             | Form::Open(_)
             | Form::Plain(_)

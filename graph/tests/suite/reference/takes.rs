@@ -34,6 +34,7 @@ pub(crate) fn takes(form: &Form, places: &Places) -> String {
             let values: Vec<String> = values.iter().map(|value| takes(value, places)).collect();
             format!("({})", values.join(", "))
         }
+        Form::Several(of, least, most) => format!("({least} to {most} values, each {})", takes(of, places)),
         Form::List(of) => format!("a list, each {}", takes(of, places)),
         Form::Map(of, form) => format!("a map from each {of} to {}", takes(form, places)),
         Form::Either(forms) => any_of(forms.iter().map(|form| takes(form, places)).collect()),

@@ -30,6 +30,7 @@ fn params(members: &[(&str, &str)]) -> Binding {
         name: (*name).to_owned(),
         offset: 4 * at,
         ty: (*ty).to_owned(),
+        matrix: None,
     });
     let block = Block { bytes: 16, members: members.collect() };
     let kind = BindingKind::UniformBlock(block);
@@ -331,6 +332,21 @@ impl ShaderInterfaces for Table {
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
             "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
+            "shadowed" => {
+                let mut interface = full_screen(vec![texture("shadow", 0, false, float)]);
+                if let BindingKind::SampledImage(shape) = interface.bindings[0].kind {
+                    interface.bindings[0].kind = BindingKind::ComparedDepth(shape);
+                    interface.asks_part.push("shadow".to_owned());
+                }
+                interface
+            }
+            "vectors" => full_screen(vec![params(&[
+                ("tint", "vec3"),
+                ("cell", "ivec2"),
+                ("flags", "uvec2"),
+                ("turn", "mat2x3"),
+            ])]),
+            "listed" => full_screen(vec![params(&[("weights", "vec4[2]")])]),
             "scalars" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int")])]),
             "cube" => {
                 let mut interface = full_screen(vec![source()]);
@@ -412,12 +428,13 @@ impl ShaderInterfaces for Table {
         })
     }
 
-    fn brought_along(&self, draw: Draw) -> DrawInterface {
+    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
         let supplied = |set, binding, name, kind| Supplied::new(set, binding, name, kind);
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
-            Draw::Objects(_) | Draw::Casters(_) => DrawInterface {
+            None => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
+            Some(Draw::Objects(_) | Draw::Casters(_)) => DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
                     Attribute::new("position", 3, 0),
@@ -431,9 +448,9 @@ impl ShaderInterfaces for Table {
                     supplied(2, 0, "base_color_texture", SuppliedKind::SampledImage),
                 ],
             },
-            Draw::Sky => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
-            Draw::FullScreen => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
-            Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
+            Some(Draw::Sky) => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
+            Some(Draw::FullScreen) => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
+            Some(Draw::Vertices { .. } | Draw::Indirect | Draw::Custom) => DrawInterface::default(),
         }
     }
 }

@@ -7,8 +7,8 @@ use framewright_graph::plan::{
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{
-    Accesses, AddressMode, Component, Dimension, Format, ImageShape, Layout, LoadOp, ResolveMode, Rotation, Shape,
-    Stages, StoreOp, Subresources, Usage,
+    Accesses, AddressMode, CompareOp, Component, Dimension, Filter, Format, ImageShape, Layout, LoadOp, ResolveMode,
+    Rotation, Sampler, Shape, Stages, StoreOp, Subresources, Usage,
 };
 use serde_json::Value;
 
@@ -51,6 +51,14 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.views.push(shifted([f64::NAN, 0.0])), "view `main` is shifted by no texel, never"),
         (|plan| plan.images[1].name = "color".into(), "`color`: has the name of another image"),
         (|plan| plan.images[0].extent[0] = 0, "`color`: is empty"),
+        (
+            |plan| {
+                let binding = scope(plan, 1).passes[0].accesses[0].binding.as_mut().expect("it is sampled");
+                binding.kind =
+                    BindingKind::Sampled(Sampler { compare: Some(CompareOp::Less), ..Sampler::new(Filter::Nearest) });
+            },
+            "`color.resolved`: is compared with a depth, and holds none",
+        ),
         (|plan| plan.images[2].allocated = Some([1, 4096]), "`color.resolved`: uses more than it has room for"),
         (|plan| plan.images[2].allocated = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
         (
@@ -286,8 +294,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 11", "\"format_version\": 12"),
-        "the Plan has format version 12, this program reads version 11: compile it again"
+        changed("\"format_version\": 12", "\"format_version\": 13"),
+        "the Plan has format version 13, this program reads version 12: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");

@@ -59,7 +59,7 @@ pub(crate) fn make(text: &str) -> String {
 }
 
 fn shaders() -> Vec<Shader> {
-    let mut library = ShaderLibrary::new(Vec::new(), SHADERS, draw::interface);
+    let mut library = ShaderLibrary::new(Vec::new(), SHADERS, draw::interfaces());
     let files = SHADERS.iter().filter(|(file, _)| !file.contains('/'));
     files
         .filter_map(|(file, text)| match file.rsplit_once('.')? {

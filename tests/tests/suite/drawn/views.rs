@@ -8,7 +8,7 @@ use framewright_graph::frame::{
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{CompareOp, Format, Subresources};
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::{SceneDrawSource, interfaces};
 use framewright_passes::scene::{Camera, NamedCamera, Scene};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{device, silent};
@@ -66,7 +66,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
 fn pictures(device: &Device, frame: &Frame, scene: &Scene, extent: [u32; 2]) -> Vec<Vec<u8>> {
     let plan = compile(frame, &device.profile(), &mut device.memory(), &Options::default()).expect("a Plan");
     assert_eq!(verify(&plan), []);
-    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
     let mut source = SceneDrawSource::for_plan(device, scene, extent, &plan).expect("a source");
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
     executor.frame(&mut source).expect("a frame");

@@ -1,0 +1,72 @@
+//! How a draw source binds its sets for a compute pass.
+
+use super::held::HeldResources;
+use super::supplied::BoundSets;
+use crate::gpu::Gpu;
+use crate::prepare::SuppliedSets;
+use crate::resources::BindGroup;
+use ash::vk;
+use framewright_graph::plan;
+
+/// Binds what the draw source brings along to one compute pass. The Plan says how many workgroups are dispatched afterwards.
+///
+/// No method fails at once: the first misuse is kept, what follows is ignored, and [`crate::Executor::frame`] returns it
+/// as [`crate::Error::Recording`].
+pub struct DispatchRecorder<'f> {
+    commands: vk::CommandBuffer,
+    sets: BoundSets<'f>,
+    plan: &'f plan::Pass,
+    frame: u64,
+    misuse: Option<String>,
+}
+
+impl<'f> DispatchRecorder<'f> {
+    pub(super) fn new(
+        gpu: &'f Gpu,
+        commands: vk::CommandBuffer,
+        supplied: &'f SuppliedSets,
+        held: &'f mut HeldResources,
+        (plan, frame): (&'f plan::Pass, u64),
+    ) -> DispatchRecorder<'f> {
+        let sets = BoundSets::new(gpu, vk::PipelineBindPoint::COMPUTE, supplied, held);
+        DispatchRecorder { commands, sets, plan, frame, misuse: None }
+    }
+
+    /// The pass's name.
+    #[must_use]
+    pub fn pass(&self) -> &str {
+        &self.plan.name
+    }
+
+    /// The view that the pass works for, in the list of the Plan; `None` if the Plan has none. A compute pass never works for both
+    /// eyes at once: its view is that of one eye, or that of both if nothing that it touches is an eye's own.
+    #[must_use]
+    pub fn view(&self) -> Option<plan::ViewId> {
+        self.plan.view
+    }
+
+    /// The name of the pass's shader.
+    #[must_use]
+    pub fn shader(&self) -> &str {
+        &self.plan.shader
+    }
+
+    /// The number of the frame, from 0.
+    #[must_use]
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
+    /// Binds a group to the set number `set`, from 1 on.
+    pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
+        if self.misuse.is_none() {
+            self.misuse = self.sets.bind(self.commands, set, group).err();
+        }
+    }
+
+    /// The first misuse if there was any. That a set is missing is one.
+    pub(super) fn finish(self) -> Result<(), String> {
+        let missing = self.sets.missing().map(|set| format!("a dispatch without a bind group for set {set}"));
+        self.misuse.or(missing).map_or(Ok(()), Err)
+    }
+}

@@ -1,0 +1,58 @@
+//! The draw source's sets, bound for a pass.
+
+use super::bindings::bind_set;
+use super::held::HeldResources;
+use crate::gpu::Gpu;
+use crate::prepare::SuppliedSets;
+use crate::resources::BindGroup;
+use ash::vk;
+
+/// The sets from 1 on of a pass that is being recorded, and which of them were bound.
+pub(super) struct BoundSets<'f> {
+    gpu: &'f Gpu,
+    point: vk::PipelineBindPoint,
+    supplied: &'f SuppliedSets,
+    pub(super) held: &'f mut HeldResources,
+}
+
+impl<'f> BoundSets<'f> {
+    /// The sets of another pass: none is bound.
+    pub(super) fn new(
+        gpu: &'f Gpu,
+        point: vk::PipelineBindPoint,
+        supplied: &'f SuppliedSets,
+        held: &'f mut HeldResources,
+    ) -> BoundSets<'f> {
+        held.bound.clear();
+        held.bound.extend(supplied.sets.iter().map(|(_, needed)| !needed));
+        BoundSets { gpu, point, supplied, held }
+    }
+
+    /// Binds a group to the set number `set`, from 1 on.
+    ///
+    /// # Errors
+    /// In words: a group of another device, or one that doesn't fit.
+    pub(super) fn bind(&mut self, commands: vk::CommandBuffer, set: u32, group: &BindGroup) -> Result<(), String> {
+        if !group.0.set.is_of(self.gpu) {
+            return Err("the bind group belongs to another device".to_owned());
+        }
+        let index = (set as usize).wrapping_sub(1);
+        match self.supplied.sets.get(index) {
+            None => Err(format!("the draw interface has no set {set}")),
+            Some((layout, _)) if *layout != group.0.set.layout => {
+                Err(format!("the bind group was made for another set than {set}, or another draw interface"))
+            }
+            Some(_) => {
+                self.held.bound[index] = true;
+                self.held.groups.hold(&group.0);
+                bind_set(self.gpu, commands, self.point, self.supplied.layout, set, group.0.set.raw);
+                Ok(())
+            }
+        }
+    }
+
+    /// The first set that the shader reads and that isn't bound.
+    pub(super) fn missing(&self) -> Option<usize> {
+        self.held.bound.iter().position(|bound| !bound).map(|index| index + 1)
+    }
+}

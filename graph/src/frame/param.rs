@@ -1,0 +1,69 @@
+//! Values for parameters of shaders.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::Arc;
+
+/// A value for a shader parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ParamValue {
+    /// A truth value, given to the shader as a 32-bit 0 or 1.
+    Bool(bool),
+    /// A whole number.
+    Integer(i64),
+    /// A number.
+    Number(f64),
+    /// The components of a vector, or the columns of a matrix, each a list of components.
+    List(Arc<[ParamValue]>),
+}
+
+impl ParamValue {
+    /// A list of values.
+    #[must_use]
+    pub fn list(values: impl IntoIterator<Item = ParamValue>) -> ParamValue {
+        ParamValue::List(values.into_iter().collect())
+    }
+
+    /// Whether all its numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        match self {
+            ParamValue::Bool(_) | ParamValue::Integer(_) => true,
+            ParamValue::Number(number) => number.is_finite(),
+            ParamValue::List(values) => values.iter().all(ParamValue::is_finite),
+        }
+    }
+
+    /// Whether it is the other value, bit by bit.
+    pub(crate) fn is_same(&self, other: &ParamValue) -> bool {
+        match (self, other) {
+            (ParamValue::Number(one), ParamValue::Number(other)) => one.to_bits() == other.to_bits(),
+            (ParamValue::List(one), ParamValue::List(other)) => {
+                one.len() == other.len() && one.iter().zip(&**other).all(|(one, other)| one.is_same(other))
+            }
+            _ => self == other,
+        }
+    }
+}
+
+/// As pipeline files write it: `(1, 0.5, true)`.
+impl fmt::Display for ParamValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParamValue::Bool(value) => write!(f, "{value}"),
+            ParamValue::Integer(value) => write!(f, "{value}"),
+            ParamValue::Number(value) => write!(f, "{value}"),
+            ParamValue::List(values) => {
+                f.write_str("(")?;
+                for (at, value) in values.iter().enumerate() {
+                    if at > 0 {
+                        f.write_str(", ")?;
+                    }
+                    write!(f, "{value}")?;
+                }
+                f.write_str(")")
+            }
+        }
+    }
+}
