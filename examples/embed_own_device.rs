@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     // SAFETY: all of it belongs together, and is destroyed below, after everything that was made from the adopted device.
     let device = unsafe { Device::adopt(&program, None)? };
-    draw(&device)?;
+    draw(&device, queue)?;
     drop(device);
     // SAFETY: nothing made from the device or the instance is left.
     unsafe {
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Draws a scene with a shipped pipeline, layer by layer; `Renderer` does all of it in one.
-fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
+fn draw(device: &Device, queue: vk::Queue) -> Result<(), Box<dyn Error>> {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let scene = scene::load(&examples.join("scenes/spheres_and_cubes.ron"))?;
     let file = examples.join("pipelines/forward.ron");
@@ -101,10 +101,45 @@ fn draw(device: &Device) -> Result<(), Box<dyn Error>> {
     let plan = compile::compile(&frame, &profile, &mut device.memory(), &compile::Options::default())
         .map_err(|mistakes| base::render(&sources, &mistakes))?;
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
-    executor.frame(&mut SceneDrawSource::new(device, &scene, EXTENT)?)?;
+    record_and_submit(device, queue, &mut executor, &mut SceneDrawSource::new(device, &scene, EXTENT)?)?;
     let texels = executor.read(0)?;
     std::fs::create_dir_all("out")?;
     image::save_buffer("out/own_device.png", &texels.bytes, EXTENT[0], EXTENT[1], image::ExtendedColorType::Rgba8)?;
     println!("drawn by {} with the program's own device; out/own_device.png", device.summary().name);
+    Ok(())
+}
+
+/// Records a frame into a command buffer of the program's, submits it, and waits for it.
+fn record_and_submit(
+    device: &Device,
+    queue: vk::Queue,
+    executor: &mut Executor,
+    objects: &mut SceneDrawSource,
+) -> Result<(), Box<dyn Error>> {
+    let raw = device.raw();
+    let mut timeline = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+    let pool = vk::CommandPoolCreateInfo::default().queue_family_index(device.graphics_queue_family());
+    // SAFETY: the device lives. The command buffer is recorded outside of a rendering scope, submitted once, to the queue of its
+    // family, and waited for before it is destroyed; the semaphore is signalled as the executor was told.
+    unsafe {
+        let done = raw.create_semaphore(&vk::SemaphoreCreateInfo::default().push_next(&mut timeline), None)?;
+        let pool = raw.create_command_pool(&pool, None)?;
+        let commands = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        let commands = raw.allocate_command_buffers(&commands)?[0];
+        raw.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
+        // The engine's own commands may stand before and after.
+        let frame = executor.record_into(commands, SemaphorePoint::timeline(done, 1), &[], objects)?;
+        raw.end_command_buffer(commands)?;
+        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
+        let signals = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(done)
+            .value(1)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let submit = vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signals);
+        raw.queue_submit2(queue, &[submit], vk::Fence::null())?;
+        executor.wait(frame)?;
+        raw.destroy_command_pool(pool, None);
+        raw.destroy_semaphore(done, None);
+    }
     Ok(())
 }

@@ -3,12 +3,18 @@
 use crate::testing::difference;
 use framewright::{Device, DeviceOptions};
 use framewright_tests::render::{self, Setup, in_repository};
+use framewright_tests::x_server::XServer;
 use image::RgbaImage;
 use std::path::Path;
 use std::process::Command;
 
 /// Runs an example in a folder of its own, and returns what it printed. Nothing where the machine has no driver.
 fn run(example: &str, arguments: &[&str], look: impl FnOnce(&str, &Path)) {
+    run_with(&[], example, arguments, look);
+}
+
+/// The same with some variables set; those that are empty aren't.
+fn run_with(variables: &[(&str, &str)], example: &str, arguments: &[&str], look: impl FnOnce(&str, &Path)) {
     if render::device().is_none() {
         return;
     }
@@ -16,7 +22,14 @@ fn run(example: &str, arguments: &[&str], look: impl FnOnce(&str, &Path)) {
     let built = tests.parent().and_then(Path::parent).expect("a folder").join("examples").join(example);
     assert!(built.exists(), "{} isn't built: cargo build --examples -p framewright", built.display());
     let folder = tempfile::tempdir().expect("a folder");
-    let out = Command::new(built).args(arguments).current_dir(folder.path()).output().expect("it runs");
+    let mut command = Command::new(built);
+    for (name, value) in variables {
+        match value.is_empty() {
+            true => command.env_remove(name),
+            false => command.env(name, value),
+        };
+    }
+    let out = command.args(arguments).current_dir(folder.path()).output().expect("it runs");
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     look(&String::from_utf8_lossy(&out.stdout), folder.path());
 }
@@ -92,4 +105,17 @@ fn a_file_that_changes_is_drawn_on_with_its_history() {
         assert!(count([0, 0], [60, 30]) > 900, "{}", count([0, 0], [60, 30]));
         assert!(count([160, 90], [320, 180]) < 100, "{}", count([160, 90], [320, 180]));
     });
+}
+
+#[test]
+fn a_window_of_the_programs_own_shows_frames_and_ends() {
+    let server = match XServer::start() {
+        Ok(server) => server,
+        Err(missing) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {missing}");
+            return eprintln!("SKIPPED: {missing}");
+        }
+    };
+    let variables = [("DISPLAY", server.display()), ("WAYLAND_DISPLAY", ""), ("WAYLAND_SOCKET", "")];
+    run_with(&variables, "own_window", &["40"], |said, _| assert_eq!(said, "40 frames were shown\n"));
 }
