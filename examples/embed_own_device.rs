@@ -8,7 +8,9 @@ use framewright_graph::{compile, expand, frame, language};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
 use framewright_vulkan::ash::{self, vk};
-use framewright_vulkan::{AdoptedDevice, Device, Executor, ExecutorOptions, MINIMUM_VERSION, ShaderLibrary};
+use framewright_vulkan::{
+    AdoptedDevice, Device, Executor, ExecutorOptions, MINIMUM_VERSION, SemaphorePoint, ShaderLibrary,
+};
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;

@@ -10,7 +10,7 @@ use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
 use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::present::SwapchainHandle;
-use crate::record::{DrawSource, FrameReport};
+use crate::record::{DrawSource, FrameReport, Guarded};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
@@ -168,12 +168,12 @@ impl Executor {
     /// for the oldest first.
     ///
     /// # Errors
-    /// The errors of `source`, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`], [`Error::DeviceLost`],
+    /// The errors of `source`, [`Error::Recording`] if it misused its recorder or panicked, [`Error::OutOfMemory`], [`Error::DeviceLost`],
     /// [`Error::Timeout`].
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.submit(&frame, prepared, source, &extras, &Submission::default())?;
+        frames.submit(&frame, prepared, &mut Guarded(source), &extras, &Submission::default())?;
         Ok(number)
     }
 
@@ -191,7 +191,7 @@ impl Executor {
     pub unsafe fn submit_with(&mut self, source: &mut dyn DrawSource, among: &Submission<'_>) -> Result<u64, Error> {
         let number = self.next_frame(among.images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.submit(&frame, prepared, source, &extras, among)?;
+        frames.submit(&frame, prepared, &mut Guarded(source), &extras, among)?;
         Ok(number)
     }
 
@@ -221,7 +221,7 @@ impl Executor {
     ) -> Result<u64, Error> {
         let number = self.next_frame(images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.record_into((commands, done), &frame, prepared, source, &extras)?;
+        frames.record_into((commands, done), &frame, prepared, &mut Guarded(source), &extras)?;
         Ok(number)
     }
 

@@ -41,7 +41,6 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
     }
     all_memory(gpu, plan)?;
     layouts(gpu, plan)?;
-    queues(gpu, plan)?;
     plan.steps.iter().try_for_each(|step| executable(gpu, plan, step))
 }
 
@@ -150,25 +149,6 @@ fn layouts(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
                 return bad(format!("`{name}` is read locally, and {device} has no local reads"));
             }
             _ => {}
-        }
-    }
-    Ok(())
-}
-
-/// Images are handed over between queue families only: where the Plan has an image change queues, the device must have
-/// both, in two families.
-fn queues(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let families = &gpu.queues.families;
-    for step in &plan.steps {
-        for barrier in step.image_barriers.iter().chain(&step.releases) {
-            let Some([from, to]) = barrier.ownership else { continue };
-            if families.family(from) == families.family(to) {
-                let image = &plan.image(barrier.image).name;
-                let (device, missing) = (&gpu.summary.name, if to == Queue::Graphics { from } else { to });
-                return bad(format!(
-                    "it hands `{image}` over to another queue, and {device} has no {missing:?} queue beside the first"
-                ));
-            }
         }
     }
     Ok(())

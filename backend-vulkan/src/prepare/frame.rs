@@ -9,7 +9,7 @@ use crate::gpu::Gpu;
 use crate::memory::{Image, RawBuffer};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side};
+use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side, Step};
 use framewright_graph::vulkan::{Layout, Subresources};
 use std::sync::Arc;
 
@@ -38,6 +38,18 @@ impl Frame<'_> {
         self.physical.turn(self.number)
     }
 
+    /// The barriers that release images of a step to other queues. To a queue of the same family nothing is released: the barrier that
+    /// acquires does all of it.
+    pub(super) fn releases(&self, step: &Step) -> impl Iterator<Item = vk::ImageMemoryBarrier2<'static>> {
+        step.releases.iter().filter(|barrier| self.handed_over(barrier).is_some()).map(|it| self.image_barrier(it))
+    }
+
+    /// The two families between which a barrier hands an image over, if they are two.
+    fn handed_over(&self, barrier: &ImageBarrier) -> Option<[u32; 2]> {
+        let [from, to] = barrier.ownership?.map(|queue| self.gpu.queues.families.family(queue).index);
+        (from != to).then_some([from, to])
+    }
+
     /// A barrier of the Plan.
     pub(super) fn image_barrier(&self, barrier: &ImageBarrier) -> vk::ImageMemoryBarrier2<'static> {
         let recorded = vk::ImageMemoryBarrier2::default()
@@ -51,14 +63,11 @@ impl Frame<'_> {
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .image(self.image(barrier.image).raw)
             .subresource_range(convert::range(part(self.plan.image(barrier.image), barrier.range)));
-        match barrier.ownership {
-            None => recorded,
-            Some([from, to]) => {
-                let families = &self.gpu.queues.families;
-                recorded
-                    .src_queue_family_index(families.family(from).index)
-                    .dst_queue_family_index(families.family(to).index)
-            }
+        match (barrier.ownership, self.handed_over(barrier)) {
+            (None, _) => recorded,
+            (Some(_), Some([from, to])) => recorded.src_queue_family_index(from).dst_queue_family_index(to),
+            // It goes on from the semaphore that the step waited for, in all stages.
+            (Some(_), None) => recorded.src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS),
         }
     }
 

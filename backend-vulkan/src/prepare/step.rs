@@ -65,7 +65,7 @@ impl PreparedStep {
                     }
                 }
             }
-            list.push_barriers(frame.gpu, [], step.releases.iter().map(|it| frame.image_barrier(it)));
+            list.push_barriers(frame.gpu, [], frame.releases(step));
             Ok(())
         })
     }

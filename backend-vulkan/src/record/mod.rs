@@ -6,6 +6,7 @@ mod custom;
 mod dispatch;
 mod draw_source;
 mod fragments;
+mod guarded;
 mod held;
 mod recorder;
 mod scope;
@@ -22,6 +23,7 @@ pub use state::{CullMode, FrontFace};
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use fragments::FragmentCounts;
+pub(crate) use guarded::Guarded;
 pub(crate) use state::CommandState;
 pub(crate) use step::{Recorded, Recording};
 pub(crate) use timing::{Timing, report};

@@ -207,6 +207,19 @@ fn a_custom_pass_that_writes_and_records_nothing_is_refused_by_name() {
 }
 
 #[test]
+fn a_custom_pass_whose_program_panics_is_told_by_name_and_the_next_frame_is_drawn() {
+    everywhere(&custom().frame, SHADERS, |executor| {
+        for words in ["no grass today", "no grass tomorrow"] {
+            let mut source = Custom(|_: &mut CustomRecorder<'_>| panic!("{words}"));
+            let told = executor.frame(&mut source).expect_err("it panics").to_string();
+            assert_eq!(told, format!("pass `by hand`, while recording: the program panicked: {words}"));
+        }
+        let mut source = Custom(|recorder: &mut CustomRecorder<'_>| recorder.copy("a", "b"));
+        executor.frame(&mut source).expect("a frame");
+    });
+}
+
+#[test]
 fn a_fill_happens_in_the_stage_of_clears_and_not_of_copies() {
     let mut small = Small::default();
     let [filled, copied] = [small.buffer("filled", 4), small.buffer("copied", 4)];

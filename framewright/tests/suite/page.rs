@@ -6,16 +6,26 @@ use framewright_tests::render::{self, in_repository};
 fn the_page_on_embedding_holds_the_examples() {
     let text = |path: &str| std::fs::read_to_string(in_repository(path)).expect("a text");
     let page = text("docs/embedding.md");
-    for example in
-        ["embed_minimal.rs", "embed_changing.rs", "custom_pass.rs", "embedding/settings.rs", "embedding/imports.rs"]
-    {
+    for example in [
+        "embed_minimal.rs",
+        "embed_changing.rs",
+        "custom_pass.rs",
+        "own_window.rs",
+        "embedding/settings.rs",
+        "embedding/imports.rs",
+    ] {
         let example = format!("examples/{example}");
         assert!(page.contains(&format!("```rust\n{}```", text(&example))), "docs/embedding.md doesn't hold {example}");
     }
     assert!(page.contains("examples/headless_batch.rs"));
-    for example in
-        ["embed_minimal.rs", "embed_changing.rs", "headless_batch.rs", "custom_pass.rs", "embed_own_device.rs"]
-    {
+    for example in [
+        "embed_minimal.rs",
+        "embed_changing.rs",
+        "headless_batch.rs",
+        "custom_pass.rs",
+        "own_window.rs",
+        "embed_own_device.rs",
+    ] {
         assert!(text(&format!("examples/{example}")).lines().count() < 150, "{example} is long");
     }
 }

@@ -2,6 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 use framewright_graph::compile::Order;
+use framewright_graph::vulkan::Sharing;
 use framewright_tests::drivers::Driver;
 use framewright_tests::random_pipelines::allowed::Allowed;
 use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, frames, options};
@@ -30,6 +31,9 @@ struct Line {
     /// Order of execution; without it all four.
     #[arg(long, value_enum)]
     order: Option<ChosenOrder>,
+    /// Compile for three queues, however many the driver has: `shared` between them, or `handed-over` from one to another.
+    #[arg(long, value_enum)]
+    queues: Option<ThreeQueues>,
     /// Most passes of a pipeline.
     #[arg(long, default_value_t = 24, value_name = "MAX", value_parser = clap::value_parser!(u32).range(1..=200))]
     passes: u32,
@@ -103,6 +107,30 @@ impl ChosenOrder {
             ChosenOrder::Default => Order::Default,
             ChosenOrder::LowMemory => Order::LowMemory,
             ChosenOrder::Random => Order::Random(seed),
+        }
+    }
+}
+
+/// What three queues do with images.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ThreeQueues {
+    Shared,
+    HandedOver,
+}
+
+impl ThreeQueues {
+    const fn sharing(self) -> Sharing {
+        match self {
+            ThreeQueues::Shared => Sharing::Concurrent,
+            ThreeQueues::HandedOver => Sharing::Exclusive,
+        }
+    }
+
+    /// Its name, as the command line has it.
+    const fn name(self) -> &'static str {
+        match self {
+            ThreeQueues::Shared => "shared",
+            ThreeQueues::HandedOver => "handed-over",
         }
     }
 }
@@ -181,7 +209,11 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
     // A panic of the compiler is reported as a fault, and may come a hundred times while it is shrunk.
     std::panic::set_hook(Box::new(|_| ()));
     ctrlc::set_handler(|| ASKED_TO_STOP.store(true, Ordering::Relaxed))?;
-    let mut judge = Judge::new()?;
+    let judge = Judge::new()?;
+    let mut judge = match line.queues {
+        Some(queues) => judge.with_three_queues(queues.sharing()),
+        None => judge,
+    };
     judge.spoil = line.spoil;
     let driver = line.driver.map_or("?", Driver::name);
     let orders = line.order.map_or(ChosenOrder::ALL.to_vec(), |order| vec![order]);
@@ -259,8 +291,9 @@ fn smaller(
 /// The command that does one pipeline again.
 fn replay(line: &Line, seed: u64, driver: &str, order: ChosenOrder) -> String {
     let frames = line.frames.map_or(String::new(), |frames| format!(" --frames {frames}"));
+    let queues = line.queues.map_or(String::new(), |queues| format!(" --queues {}", queues.name()));
     format!(
-        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {}{frames} \
+        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {}{frames}{queues} \
          --driver {driver} --order {}",
         line.passes,
         order.name()

@@ -8,13 +8,13 @@ use super::spoil::Spoil;
 use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::base::{self, Diagnostic, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Profile;
+use framewright_graph::device::{Profile, Queues};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{self, Frame, Stereo};
 use framewright_graph::language::{self, Facts};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::Rotation;
+use framewright_graph::vulkan::{Rotation, Sharing};
 use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
@@ -139,6 +139,13 @@ impl Judge {
             findings: 0,
             spoil: None,
         })
+    }
+
+    /// Has Plans made for a device with three queues, which share images or hand them over. They run on the queues that there are.
+    #[must_use]
+    pub fn with_three_queues(mut self, sharing: Sharing) -> Judge {
+        self.profile.queues = Queues { compute: true, transfer: true, sharing, wait_bytes: 0 };
+        self
     }
 
     /// The device's name.

@@ -246,12 +246,16 @@ fn shrinking_leaves_what_makes_it_fail() {
 /// Runs the command for pipelines of these seeds, and fails with its words unless it is content; says so where there is no such
 /// driver.
 fn agree(driver: Driver, seeds: Range<u64>, passes: &str) {
+    agree_by(driver, seeds, &["--passes", passes]);
+}
+
+fn agree_by(driver: Driver, seeds: Range<u64>, more: &[&str]) {
     if !driver.is_tested() {
         return eprintln!("skipped: FRAMEWRIGHT_TEST_DEVICE asks for another driver than {}", driver.name());
     }
     let mut command = Command::new(env!("CARGO_BIN_EXE_random_pipelines"));
     let [first, count] = [seeds.start, seeds.end - seeds.start].map(|number| number.to_string());
-    command.args(["--driver", driver.name(), "--seed", &first, "--count", &count, "--passes", passes]);
+    command.args(["--driver", driver.name(), "--seed", &first, "--count", &count]).args(more);
     let output = command.args(["--write", env!("CARGO_TARGET_TMPDIR")]).output().expect("the command starts");
     let words = [output.stdout, output.stderr].map(|words| String::from_utf8_lossy(&words).into_owned()).concat();
     let absent = output.status.code() == Some(3) && std::env::var_os("CI").is_none();
@@ -270,6 +274,16 @@ fn lavapipe_draws_bit_for_bit_what_random_pipelines_mean() {
 #[test]
 fn swiftshader_draws_bit_for_bit_what_random_pipelines_mean() {
     agree(Driver::SwiftShader, sweep::row("pipelines on SwiftShader", 1001..1251, 40), "24");
+}
+
+#[test]
+fn plans_for_three_queues_draw_the_same_on_the_one_that_there_is() {
+    for (queues, first) in [("shared", 3001), ("handed-over", 4001)] {
+        for driver in Driver::ALL {
+            let seeds = sweep::row(&format!("pipelines {queues} on {}", driver.name()), first..first + 250, 15);
+            agree_by(driver, seeds, &["--passes", "24", "--queues", queues]);
+        }
+    }
 }
 
 #[test]
