@@ -341,7 +341,8 @@ impl Error {
             Error::Interrupted { .. }
                 | Error::InterruptedMeasuring { .. }
                 | Error::Vulkan(framewright_vulkan::Error::Timeout { .. })
-        )
+        ) || matches!(self, Error::Vulkan(framewright_vulkan::Error::AtStep { error, .. })
+                if matches!(**error, framewright_vulkan::Error::Timeout { .. }))
     }
 
     /// The exit code of a command that this ended.

@@ -115,6 +115,14 @@ pub enum Error {
         /// How long it was waited for.
         seconds: u64,
     },
+    /// An error while a frame was executed step by step.
+    #[error("{error}, at {}", escape(step))]
+    AtStep {
+        /// The step: its number in the Plan, and its passes.
+        step: String,
+        /// The error.
+        error: Box<Error>,
+    },
     /// The program asked for the wait to be given up ([`Device::cancel_when`](crate::Device::cancel_when)).
     #[error("{doing} was cancelled before the device was done")]
     Cancelled {
@@ -256,6 +264,7 @@ impl Error {
             | Error::SurfaceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,
+            Error::AtStep { error, .. } => error.blame(),
             Error::Shader { .. }
             | Error::Texture { .. }
             | Error::Mismatch { .. }

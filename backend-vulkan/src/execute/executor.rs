@@ -8,7 +8,7 @@ use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
-use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
+use crate::prepare::{Debugging, Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::present::SwapchainHandle;
 use crate::record::{DrawSource, FrameReport, Guarded};
 use crate::shaders::ShaderLibrary;
@@ -24,6 +24,12 @@ pub struct ExecutorOptions {
     /// Whether each transient image and buffer is filled with conspicuous values when the frame takes it into use, which
     /// must not change the picture. Needs a Plan that was compiled with poison.
     pub poison: bool,
+    /// Whether each step waits for all that its queue did before, whatever the Plan's barriers say. The picture must be the same:
+    /// if it isn't, a barrier is missing without this.
+    pub full_barriers: bool,
+    /// Whether each step is submitted by itself and waited for before the next. The picture must be the same, and a device that
+    /// is lost or doesn't answer is told with its step ([`Error::AtStep`]). Such a frame goes into no command buffer of the program's.
+    pub step_by_step: bool,
     /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
     /// can be used any more.
     pub timeout: Duration,
@@ -40,11 +46,19 @@ pub struct ExecutorOptions {
     pub fragment_counts: bool,
 }
 
+impl ExecutorOptions {
+    fn debugging(&self) -> Debugging {
+        Debugging { poison: self.poison, full_barriers: self.full_barriers }
+    }
+}
+
 impl Default for ExecutorOptions {
     fn default() -> Self {
         let timeout = Duration::from_secs(120);
         ExecutorOptions {
             poison: false,
+            full_barriers: false,
+            step_by_step: false,
             timeout,
             frames_in_flight: 1,
             readback: false,
@@ -142,7 +156,7 @@ impl Executor {
             gpu: gpu.clone(),
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
-            prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
+            prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
             shown: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),

@@ -7,7 +7,7 @@ use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::commands::{Readback, Timeline};
 use crate::gpu::{Gpu, PendingWork};
-use crate::prepare::{Batch, Frame, PreparedPlan, batches};
+use crate::prepare::{Batch, Frame, PreparedPlan, batches, title};
 use crate::record::{DrawSource, FrameReport, report};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
@@ -22,6 +22,8 @@ pub(crate) struct Frames {
     gpu: Arc<Gpu>,
     timeout: Duration,
     batches: Vec<Batch>,
+    /// Whether each batch, then a step, is waited for before the next is submitted.
+    step_by_step: bool,
     /// One for each of the Plan's queues that it uses.
     timelines: Vec<(Queue, Timeline)>,
     /// Where the Plan uses no queue or several, the order of a frame and the program's semaphores: twice the frame's number and 1 when
@@ -49,7 +51,7 @@ impl Frames {
         options: &ExecutorOptions,
     ) -> Result<Frames, Error> {
         let extras: Vec<_> = imports.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
-        let batches = batches(plan, &extras);
+        let batches = batches(plan, &extras, options.step_by_step);
         let mut timelines = Vec::new();
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
@@ -63,6 +65,7 @@ impl Frames {
         Ok(Frames {
             gpu: gpu.clone(),
             timeout: options.timeout,
+            step_by_step: options.step_by_step,
             timelines,
             outer,
             values_per_frame: plan.steps.len() as u64 + 1,
@@ -116,11 +119,24 @@ impl Frames {
                     self.expect(part.saturating_sub(1).min(self.batches.len()), frame.number, outer);
                     self.gpu.abandon(&self.pending);
                 }
-                return Err(Error::vulkan(DRAWING)(result));
+                return Err(self.at_step(frame.plan, part, Error::vulkan(DRAWING)(result)));
+            }
+            if self.step_by_step && (1..=self.batches.len()).contains(&part) {
+                self.expect(part, frame.number, outer);
+                let done = self.gpu.wait_for(DRAWING, &self.pending, self.timeout);
+                done.map_err(|error| self.at_step(frame.plan, part, error))?;
             }
         }
         self.end(at, frame.number, FrameEnd::Own { outer });
         Ok(())
+    }
+
+    /// The error of a part of a frame, with its step if each step is a part.
+    fn at_step(&self, plan: &Plan, part: usize, error: Error) -> Error {
+        let batch = part.checked_sub(1).and_then(|batch| self.batches.get(batch)).filter(|_| self.step_by_step);
+        let Some(step) = batch.map(|batch| batch.steps.start) else { return error };
+        let title = format!("step {step}: {}", title(plan, &plan.steps[step]));
+        Error::AtStep { step: title, error: Box::new(error) }
     }
 
     /// Records the next frame into a command buffer of the program's, which tells by `done` when the device is done with it. Else as
@@ -140,7 +156,10 @@ impl Frames {
             }
             [] => {}
             _ => {
-                let what = "it uses other queues than the one for graphics, and one command buffer goes to one queue";
+                let what = match self.step_by_step {
+                    true => "it is executed step by step, and a command buffer is submitted at once",
+                    false => "it uses other queues than the one for graphics, and one command buffer goes to one queue",
+                };
                 return Err(Error::BadPlan { what: what.to_owned() });
             }
         }

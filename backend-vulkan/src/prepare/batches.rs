@@ -17,8 +17,9 @@ pub(crate) struct Batch {
     pub(crate) last: bool,
 }
 
-/// The batches of a frame, in the order in which they are submitted. `extra_waits` are waits that the Plan doesn't have.
-pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)]) -> Vec<Batch> {
+/// The batches of a frame, in the order in which they are submitted. `extra_waits` are waits that the Plan doesn't have; with
+/// `step_by_step` each step is a batch that is waited for.
+pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)], step_by_step: bool) -> Vec<Batch> {
     let planned = plan.steps.iter().flat_map(|step| &step.waits);
     let awaited: HashSet<StepId> =
         planned.chain(extra_waits.iter().map(|(_, wait)| wait)).map(|wait| wait.step).collect();
@@ -27,7 +28,7 @@ pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)]) -> Vec<Batch>
         let mut waits = step.waits.clone();
         waits.extend(extra_waits.iter().filter(|(of, _)| *of == id).map(|(_, wait)| *wait));
         match batches.last_mut() {
-            Some(batch) if batch.queue == step.queue && waits.is_empty() && !batch.awaited => {
+            Some(batch) if batch.queue == step.queue && waits.is_empty() && !batch.awaited && !step_by_step => {
                 batch.steps.end = index + 1;
                 batch.awaited = awaited.contains(&id);
             }
@@ -35,7 +36,7 @@ pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)]) -> Vec<Batch>
                 queue: step.queue,
                 steps: index..index + 1,
                 waits,
-                awaited: awaited.contains(&id),
+                awaited: step_by_step || awaited.contains(&id),
                 last: false,
             }),
         }

@@ -11,32 +11,40 @@ use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
 
+/// What is recorded beside the Plan, to look for mistakes. None of it may change a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Debugging {
+    /// Images and buffers are filled with garbage when they are taken into use.
+    pub(crate) poison: bool,
+    /// Each step waits for all that its queue did before.
+    pub(crate) full_barriers: bool,
+}
+
 /// Everything that a Plan needs on a device.
 pub(crate) struct PreparedPlan {
     pub(crate) physical: PhysicalResources,
     /// By step.
     pub(crate) steps: Vec<PreparedStep>,
     pub(crate) list: CommandList,
-    poison: bool,
+    debugging: Debugging,
     /// The frame from which on all is prepared anew; `None`: the next one.
     first: Option<u64>,
 }
 
 impl PreparedPlan {
-    /// Makes everything that the first frame needs; with `poison`, images and buffers are filled with garbage when they are taken
-    /// into use. The Plan must have passed [`crate::prepare::check()`].
+    /// Makes everything that the first frame needs. The Plan must have passed [`crate::prepare::check()`].
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
         shaders: &mut ShaderLibrary,
-        poison: bool,
+        debugging: Debugging,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
         let frame = Frame { gpu, plan, physical: &physical, number: 0 };
         let steps = plan.steps.iter().map(|step| PreparedStep::new(&frame, step, shaders));
         let steps = steps.collect::<Result<Vec<PreparedStep>, _>>()?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
-        let mut prepared = PreparedPlan { physical, steps, list, poison, first: None };
+        let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
@@ -45,11 +53,11 @@ impl PreparedPlan {
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
         let repeats = number - first >= self.list.period;
-        let (frame, poison) = (Frame { gpu, plan, physical: &self.physical, number }, self.poison);
+        let (frame, debugging) = (Frame { gpu, plan, physical: &self.physical, number }, self.debugging);
         let (list, steps) = (&mut self.list, &mut self.steps);
         let mut prepare = |list: &mut CommandList, index: usize| {
             let (step, made) = (&plan.steps[index], &mut steps[index]);
-            list.prepare(index, frame.turn(), |list| made.push_commands(list, &frame, (index, step), poison))
+            list.prepare(index, frame.turn(), |list| made.push_commands(list, &frame, (index, step), debugging))
         };
         if repeats {
             return (0..list.chosen.len()).try_for_each(|number| prepare(list, list.chosen[number]));

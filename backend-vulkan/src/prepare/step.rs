@@ -6,6 +6,7 @@ use super::frame::Frame;
 use super::pass::{PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
 use super::poison::push_poisoned_barriers;
+use super::prepared::Debugging;
 use super::rings::Period;
 use super::scope::{prepare_scope, push_scope};
 use super::uses::touched;
@@ -13,6 +14,7 @@ use crate::base::{Error, convert};
 use crate::commands::{TransferCommand, TransferSide, memory_barrier};
 use crate::gpu::c_string;
 use crate::shaders::ShaderLibrary;
+use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
 
@@ -42,11 +44,14 @@ impl PreparedStep {
         list: &mut CommandList,
         frame: &Frame<'_>,
         (index, step): (usize, &Step),
-        poison: bool,
+        debugging: Debugging,
     ) -> Result<(), Error> {
         let label = || c_string(&format!("step {index}: {}", title(frame.plan, step)));
         list.push_labelled(frame.gpu, label, |list| {
-            if poison {
+            if debugging.full_barriers {
+                list.push_barriers(frame.gpu, [everything()], []);
+            }
+            if debugging.poison {
                 push_poisoned_barriers(list, frame, index, step);
             } else {
                 let memory = step.memory_barriers.iter().map(memory_barrier);
@@ -127,8 +132,19 @@ fn transfer(frame: &Frame<'_>, work: &Work) -> Option<TransferCommand> {
     })
 }
 
-/// The label of a step in a debugger.
-fn title(plan: &Plan, step: &Step) -> String {
+/// A barrier between all that was recorded before and all that comes after.
+fn everything() -> vk::MemoryBarrier2<'static> {
+    let (stages, accesses) =
+        (vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE);
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(stages)
+        .src_access_mask(accesses)
+        .dst_stage_mask(stages)
+        .dst_access_mask(accesses)
+}
+
+/// A step in words, for debuggers and messages.
+pub(crate) fn title(plan: &Plan, step: &Step) -> String {
     let name = |resource: Resource| name_and_role(plan, resource).0;
     match &step.work {
         Work::Render(scope) => scope.passes.iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", "),

@@ -9,6 +9,7 @@ use framewright_graph::compile::Options;
 use framewright_graph::frame::{Buffer, BufferIndex, Draw, Frame, Groups, Image, Lifetime, Output, Resource, Work};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
+use framewright_tests::sweep;
 use framewright_tests::x_server::XServer;
 use framewright_vulkan::raw_window_handle::{RawDisplayHandle, XcbDisplayHandle, XcbWindowHandle};
 use framewright_vulkan::{
@@ -194,6 +195,39 @@ fn a_window_is_resized_a_hundred_times_and_each_picture_is_right() {
         }
         drop(before);
         assert_eq!(device.memory_in_use(), live);
+    });
+}
+
+#[test]
+fn many_frames_with_resizes_take_no_more_memory_and_allocate_nothing_in_between() {
+    let frames = if sweep::is_long() { 10_000 } else { 600 };
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        let mut settled = None;
+        for frame in 1..=frames {
+            // Now and then another size, and back.
+            if frame % 100 == 0 {
+                window.resize([64 + frame / 100 % 2 * 16, 48]);
+                assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+                let mut next = executor_for(device, &swapchain);
+                next.migrate_from(executor).expect("the count goes on");
+                executor = next;
+            }
+            let counted = allocation_counter::measure(|| {
+                let shown = executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+                assert!(matches!(shown, Presentation::Shown(_)), "{shown:?} at {frame}");
+            });
+            // By then each image was drawn into, on each place of a frame in flight.
+            if frame % 100 > 20 {
+                assert_eq!(counted.count_total, 0, "frame {frame}");
+            }
+            if frame % 200 == 199 {
+                let now = device.memory_in_use();
+                assert_eq!(*settled.get_or_insert(now), now, "frame {frame}");
+            }
+        }
+        assert_eq!(words(&mut executor, "count"), [frames]);
     });
 }
 

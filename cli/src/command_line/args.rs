@@ -12,6 +12,7 @@ use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE, Dump, OutputFile, 
 use crate::command_line::windows::WindowArguments;
 use crate::system::text;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use framewright_vulkan::ExecutorOptions;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -152,7 +153,7 @@ pub(crate) struct InspectArguments {
 }
 
 /// The arguments of `run` that a Plan leaves nothing to choose of.
-const SAID_BY_PLAN: [&str; 14] = [
+const SAID_BY_PLAN: [&str; 15] = [
     "preset",
     "settings",
     "set",
@@ -167,6 +168,7 @@ const SAID_BY_PLAN: [&str; 14] = [
     "one_queue",
     "no_alias",
     "rotate",
+    "bisect",
 ];
 
 /// `framewright run`.
@@ -206,6 +208,15 @@ pub(crate) struct RunArguments {
     /// File for the report: device, memory, barriers, passes and every validation message, as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
+    /// Have each step wait for all before it, whatever its barriers say. If that changes the picture, a barrier is missing.
+    #[arg(long)]
+    pub(crate) full_barriers: bool,
+    /// Submit each step by itself and wait for it. A device that is lost or stops is told with its step.
+    #[arg(long)]
+    pub(crate) step_by_step: bool,
+    /// Draw every image after every pass that wrote it twice, once in this mode too, and name the first that differs.
+    #[arg(long, value_enum, conflicts_with_all = ["output", "dump", "dump_all", "save_plan", "validate"])]
+    pub(crate) bisect: Option<DebugMode>,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
@@ -213,7 +224,34 @@ pub(crate) struct RunArguments {
     pub(crate) device: Option<OsString>,
 }
 
+/// A way to plan or to execute that may not change a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DebugMode {
+    /// Each step waits for all before it.
+    FullBarriers,
+    /// Each step is submitted by itself and waited for.
+    StepByStep,
+    /// Memory that changes hands is filled with garbage.
+    Poison,
+    /// Each image and buffer has memory of its own.
+    NoAlias,
+    /// Passes run in the order of the file.
+    FileOrder,
+    /// There is one queue.
+    OneQueue,
+}
+
 impl RunArguments {
+    /// How Plans are executed, but for times.
+    pub(crate) fn executor_options(&self) -> ExecutorOptions {
+        ExecutorOptions {
+            poison: self.planning.poison,
+            full_barriers: self.full_barriers,
+            step_by_step: self.step_by_step,
+            ..ExecutorOptions::default()
+        }
+    }
+
     /// Files that are written.
     pub(crate) fn written(&self) -> impl Iterator<Item = &Path> + Clone {
         let outputs = self.output.iter().map(|output| &*output.file);

@@ -67,7 +67,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             let captures = match (&drawn_on, &scene, &arguments.output) {
                 (Some(device), Some(scene), Some(page)) => {
                     let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
-                    captured(Drawing { device, pipeline, made, scene, options, frames: 1 }, page, &read)?
+                    captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?
                 }
                 _ => Vec::new(),
             };

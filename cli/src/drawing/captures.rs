@@ -1,6 +1,6 @@
 //! Every image after every pass that wrote it.
 //!
-//! Captures are drawn by Plans of their own, in which nothing shares memory. A Plan holds so many captures as fit a bound of memory;
+//! Captures are drawn by Plans of their own. A Plan holds so many captures as fit a bound of memory;
 //! the frames are drawn anew for each.
 
 use super::Prepared;
@@ -31,7 +31,10 @@ pub(crate) struct Drawing<'a> {
     /// The Plan whose images are captured, and the frame that it was made of.
     pub(crate) made: (&'a Plan, &'a Frame),
     pub(crate) scene: &'a Scene,
+    /// How the Plans are made. Captures of images that share memory show what that does.
     pub(crate) options: Options,
+    /// How they are executed.
+    pub(crate) executor: ExecutorOptions,
     /// The captures are those of the last of this many frames.
     pub(crate) frames: u32,
 }
@@ -86,23 +89,36 @@ impl Captured {
     }
 }
 
+impl<'a> Drawing<'a> {
+    /// Captures of one frame of this Plan, in which nothing shares memory.
+    pub(crate) fn new(
+        device: &'a Device,
+        pipeline: &'a mut Loaded,
+        made: (&'a Plan, &'a Frame),
+        scene: &'a Scene,
+        options: Options,
+    ) -> Drawing<'a> {
+        let options = Options { alias: false, ..options };
+        Drawing { device, pipeline, made, scene, options, executor: ExecutorOptions::default(), frames: 1 }
+    }
+}
+
 /// Draws all captures, and hands each to `take`.
 ///
 /// # Errors
 /// Those of planning and drawing, and of `take`.
 pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Result<(), Error>) -> Result<usize, Error> {
-    let Drawing { device, pipeline, made: (plan, frame), scene, options, frames } = drawing;
+    let Drawing { device, pipeline, made: (plan, frame), scene, options, executor, frames } = drawing;
     let flow = Dataflow::of(plan);
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
     let captures = frame.captures(|pass| runs.contains(pass));
-    let options = Options { alias: false, ..options };
     let mut done = 0;
     for batch in batches(&captures) {
         let frame = frame.with_captures(batch);
         let plan = pipeline.compile(&frame, &device.profile(), &mut device.memory(), &options)?;
         let first = plan.outputs.len() - batch.len();
         let assets = &mut pipeline.assets;
-        let mut prepared = Prepared::new(device, (&plan, Some(&frame)), assets, scene, &ExecutorOptions::default())?;
+        let mut prepared = Prepared::new(device, (&plan, Some(&frame)), assets, scene, &executor)?;
         for drawn in 0..frames {
             if interrupt::asked() {
                 return Err(Error::Interrupted { frames: drawn, wanted: frames });

@@ -249,7 +249,7 @@ fn drawn(
     let mut thumbnails: Vec<Thumbnail> = Vec::new();
     if arguments.capture {
         let (made, frames) = ((&planned.plan, &planned.frame), arguments.frames);
-        captures::draw(Drawing { device, pipeline, made, scene, options, frames }, |captured| {
+        captures::draw(Drawing { frames, ..Drawing::new(device, pipeline, made, scene, options) }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
             thumbnails.push(captured.thumbnail(address));
             Ok(())

@@ -1,5 +1,6 @@
 //! `framewright run`: draws a scene through a pipeline.
 
+mod bisect;
 mod report;
 mod subject;
 
@@ -63,6 +64,9 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     diagnostics::cameras(&plan, frame.as_ref(), &scene)?;
     // Now its shaders are known.
     spare()?;
+    if let (Some(mode), Subject::Pipeline(pipeline), Some(frame)) = (arguments.bisect, &mut subject, &frame) {
+        return bisect::bisect(arguments, mode, &device, pipeline, (&plan, frame), &scene, &read);
+    }
     let requests = pictures::requests(arguments, (&plan, frame.as_ref()))?;
     let modes = &arguments.pipeline.stereo.0;
     if modes.len() > 1 {
@@ -100,7 +104,8 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     };
     if let (Some(folder), Subject::Pipeline(pipeline), Some(frame)) = (&arguments.dump_all, &mut subject, frame) {
         let (options, frames) = (arguments.planning.options(), arguments.frames);
-        let drawing = Drawing { device: &device, pipeline, made: (&plan, &frame), scene: &scene, options, frames };
+        let drawing = Drawing::new(&device, pipeline, (&plan, &frame), &scene, options);
+        let drawing = Drawing { frames, ..drawing };
         dump_all(drawing, folder, &read)?;
     }
     // The layer may have something to say about the device's end too.
@@ -201,7 +206,7 @@ fn draw(
     scene: &Scene,
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
-    let options = ExecutorOptions { poison: arguments.planning.poison, timestamps: true, ..ExecutorOptions::default() };
+    let options = ExecutorOptions { timestamps: true, ..arguments.executor_options() };
     let mut prepared = Prepared::new(device, (plan, frame), assets, scene, &options)?;
     let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
