@@ -58,7 +58,11 @@ fn a_steady_frame_allocates_nothing() {
         passes: [(name: "opaque", draw: Objects(Opaque), shader: "lit", color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))])],
         outputs: ["screen"])"#;
     let mut renderer = renderer(device, place.file("steady.ron", text));
-    let frames = |renderer: &mut Renderer| (0..4).for_each(|_| drop(renderer.frame(&mut Nothing).expect("drawn")));
+    let frames = |renderer: &mut Renderer| {
+        for _ in 0..4 {
+            renderer.frame(&mut Nothing).expect("drawn");
+        }
+    };
     frames(&mut renderer);
     assert_eq!(allocation_counter::measure(|| frames(&mut renderer)).count_total, 0);
 }
