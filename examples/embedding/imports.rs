@@ -38,6 +38,7 @@ pub(crate) fn draw(device: &Device, scene: &Scene) -> Result<Texels, Box<dyn Err
     // SAFETY: the image is as the Plan says, lives longer than the renderer, and each frame finds it in any state (`UNDEFINED`).
     unsafe { renderer.executor_mut()?.import_image("screen", image)? };
     renderer.frame(&mut objects)?;
+    assert_eq!(renderer.executor_mut()?.raw_image("screen"), Some(image));
     let texels = renderer.read("screen")?;
 
     drop(renderer);

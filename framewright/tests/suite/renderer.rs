@@ -1,8 +1,8 @@
 //! What a renderer plans and draws, and when (EM-1).
 
-use crate::testing::{EXTENT, difference, draw, renderer, scene};
+use crate::testing::{EXTENT, Place, difference, draw, renderer, scene};
 use framewright::graph::language::Facts;
-use framewright::{Change, Rotation, SceneDrawSource, Stereo};
+use framewright::{Change, Draw, DrawSource, Recorder, Renderer, Rotation, SceneDrawSource, Stereo};
 use framewright_tests::render::{self, Setup};
 
 fn is_new(change: &Change) -> bool {
@@ -41,12 +41,38 @@ fn frames_without_a_change_plan_nothing() {
     assert_eq!(renderer.prepare().expect("planned").change, Change::Nothing);
 }
 
+/// Draws nothing, and allocates nothing.
+struct Nothing;
+
+impl DrawSource for Nothing {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, framewright::vulkan::Error> {
+        Ok(0)
+    }
+}
+
+#[test]
+fn a_steady_frame_allocates_nothing() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    let text = r#"Pipeline(version: 1, images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "opaque", draw: Objects(Opaque), shader: "lit", color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))])],
+        outputs: ["screen"])"#;
+    let mut renderer = renderer(device, place.file("steady.ron", text));
+    let frames = |renderer: &mut Renderer| {
+        for _ in 0..4 {
+            renderer.frame(&mut Nothing).expect("drawn");
+        }
+    };
+    frames(&mut renderer);
+    assert_eq!(allocation_counter::measure(|| frames(&mut renderer)).count_total, 0);
+}
+
 #[test]
 fn values_stay_with_the_executor_and_all_else_gets_a_new_one() {
     let Some(device) = render::device() else { return };
     let mut changing = renderer(device, "forward");
     draw(&mut changing, 1);
-    let fresh = |choose: &dyn Fn(&mut framewright::Renderer)| {
+    let fresh = |choose: &dyn Fn(&mut Renderer)| {
         let mut fresh = renderer(device, "forward");
         choose(&mut fresh);
         draw(&mut fresh, 1).1
