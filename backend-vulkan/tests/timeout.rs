@@ -61,6 +61,19 @@ fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
 }
 
 #[test]
+fn a_frame_that_takes_too_long_is_told_with_its_step_when_each_is_waited_for() {
+    let Some(device) = testing::open() else { return };
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let plan = resolve_then_sample(&device, ("white", Draw::Objects(DrawList::Opaque)), "show");
+    let timeout = Duration::from_millis(1);
+    let options = ExecutorOptions { timeout, step_by_step: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(&device, &plan, &mut shaders, &options).expect("an executor");
+    let Err(Error::AtStep { step, error }) = executor.frame(&mut Busy) else { panic!("it is told with its step") };
+    assert!(step.starts_with("step 0: ") && matches!(*error, Error::Timeout { .. }), "{step}: {error}");
+    drop((executor, device));
+}
+
+#[test]
 fn a_wait_that_the_program_cancels_is_an_error_and_the_device_is_given_up() {
     let Some(device) = testing::open() else { return };
     let stop = Arc::new(AtomicBool::new(false));

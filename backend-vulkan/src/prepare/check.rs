@@ -8,7 +8,7 @@ use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
-use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
+use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, Usage};
 

@@ -292,11 +292,20 @@ pub(crate) fn library(shaders: Shaders) -> ShaderLibrary {
     ShaderLibrary::new(Vec::new(), all, |_| DrawInterface::default())
 }
 
-/// Executes a frame in three ways that must not show: plainly, with memory shared, and with shared memory poisoned.
+/// Executes a frame in ways that must not show: plainly, with memory shared, with shared memory poisoned, and step by step with full
+/// barriers.
 pub(crate) fn in_each_way(device: &Device, frame: &Frame, shaders: Shaders, test: impl Fn(&mut Executor)) {
-    for (alias, poison) in [(false, false), (true, false), (true, true)] {
+    for (alias, poison, slowly) in
+        [(false, false, false), (true, false, false), (true, true, false), (true, false, true)]
+    {
         let plan = planned(device, frame, &Options { alias, poison, ..Options::default() });
-        let options = ExecutorOptions { poison, timestamps: poison, ..ExecutorOptions::default() };
+        let options = ExecutorOptions {
+            poison,
+            full_barriers: slowly,
+            step_by_step: slowly,
+            timestamps: poison || slowly,
+            ..ExecutorOptions::default()
+        };
         test(&mut Executor::new(device, &plan, &mut library(shaders), &options).expect("an executor"));
     }
 }

@@ -10,6 +10,7 @@ mod adopted;
 mod allocations;
 mod blending;
 mod compute;
+mod debugging;
 mod depth;
 mod formats;
 mod geometry;

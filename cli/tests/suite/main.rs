@@ -3,6 +3,7 @@
 mod bad_input;
 mod bad_shaders;
 mod beginning;
+mod bisect;
 mod book;
 mod broken_environment;
 mod budgets;
