@@ -129,6 +129,12 @@ pub enum Error {
         /// The operation that was under way.
         doing: &'static str,
     },
+    /// No driver can show anything on the display that the device was to be opened for.
+    #[error("the driver shows nothing on this display: it lacks {}; choose another driver, or install one: {INSTALL}", missing.join(", "))]
+    NoSurfaces {
+        /// The instance extensions that are missing.
+        missing: Vec<String>,
+    },
     /// Nothing can be shown in a window, or in this one.
     #[error("{} can't show anything in this window: {why}", escape(device))]
     CantPresent {
@@ -261,6 +267,7 @@ impl Error {
             | Error::Vulkan { .. }
             | Error::DeviceLost { .. }
             | Error::CantPresent { .. }
+            | Error::NoSurfaces { .. }
             | Error::SurfaceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,

@@ -57,7 +57,13 @@ impl Instance {
         let mut extensions: Vec<&CStr> = Vec::new();
         extensions.extend(labels.then_some(ext::debug_utils::NAME));
         extensions.extend(surfaces.then_some(khr::surface::NAME));
-        extensions.extend(window_system(display)?.into_iter().filter(|name| *name != khr::surface::NAME));
+        let of_display = window_system(display)?;
+        let missing = of_display.iter().filter(|name| !has(name)).map(|name| name.to_string_lossy().into_owned());
+        let missing: Vec<String> = missing.collect();
+        if !missing.is_empty() {
+            return Err(Error::NoSurfaces { missing });
+        }
+        extensions.extend(of_display.into_iter().filter(|name| *name != khr::surface::NAME));
         let mut raw = create(&entry, &extensions, validation.as_ref(), &SETTINGS)?;
         if let Some(validation) = &mut validation {
             let known = known_settings(&validation.messages.list());

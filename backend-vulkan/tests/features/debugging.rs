@@ -49,7 +49,7 @@ fn full_barriers_stand_in_for_one_that_a_plan_lacks() {
     on_each_driver_with(|device| {
         let mut plan = planned(&device, &handed_on(), &Options::default());
         plan.steps.iter_mut().for_each(|step| step.memory_barriers.clear());
-        let mut heard = |full_barriers| {
+        let heard = |full_barriers| {
             let before = findings(&device.messages()).len();
             let options = ExecutorOptions { full_barriers, ..ExecutorOptions::default() };
             // SAFETY: software drivers execute commands in order.

@@ -4,7 +4,7 @@ use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver,
 use crate::testing::Nothing;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Profile, Queues};
-use framewright_graph::frame::{Draw, Frame, Groups};
+use framewright_graph::frame::{Draw, Frame, Groups, ImageIndex, Pass};
 use framewright_graph::plan::{Plan, Queue, StepId, Totals, Wait};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Format, Sharing, Stages, Subresources};
@@ -44,6 +44,17 @@ const SHADERS: &[(&str, &str)] = &[
         layout(set = 0, binding = 1) readonly buffer Words { uint word[]; };
         layout(location = 0) out uint color;
         void main() { color = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r + word[2]; }",
+    ),
+    (
+        "all.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        layout(set = 0, binding = 1) readonly buffer Words { uint word[]; };
+        layout(set = 0, binding = 2) uniform usampler2D image;
+        layout(location = 0) out uint color;
+        void main() {
+            color = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r + word[2] + 1000 * texelFetch(image, ivec2(0), 0).r;
+        }",
     ),
     (
         "multiply.comp",
@@ -104,6 +115,20 @@ fn a_device_with_one_queue_runs_a_plan_for_two() {
 
 /// A chain of dispatches runs beside draws that are many texels large; at the end a pass reads what both made.
 fn beside() -> Frame {
+    let (mut small, last, _) = nearly_beside();
+    small.pass(last("both"));
+    small.frame
+}
+
+/// The same, and the last pass samples an image that a dispatch made too.
+fn handed_over() -> Frame {
+    let (mut small, last, image) = nearly_beside();
+    small.pass(last("all").samples("image", image, Subresources::WHOLE));
+    small.frame
+}
+
+/// All but the last pass, the last pass by the name of its shader, and an image that dispatches use.
+fn nearly_beside() -> (Small, impl Fn(&str) -> Pass, ImageIndex) {
     let mut small = Small::default();
     let image = small.image("i", Format::R32_UINT, [1, 1]);
     let [from, to] = [small.buffer("from", 3), small.buffer("to", 3)];
@@ -116,10 +141,12 @@ fn beside() -> Frame {
     small.pass(pass.draws(larger, Subresources::WHOLE, None));
     let pass = dispatch("multiply", ONE).loads("image", image, Subresources::WHOLE);
     small.pass(pass.block("From", from, (true, false)).block("To", to, (false, true)));
-    let pass = draw("both", Draw::FullScreen).samples("source", larger, Subresources::WHOLE);
-    small.pass(pass.block("Words", to, (true, false)).draws(shown, Subresources::WHOLE, None));
     small.image_output(shown);
-    small.frame
+    let last = move |shader: &str| {
+        let pass = draw(shader, Draw::FullScreen).samples("source", larger, Subresources::WHOLE);
+        pass.block("Words", to, (true, false)).draws(shown, Subresources::WHOLE, None)
+    };
+    (small, last, image)
 }
 
 /// An executor of [`beside`], compiled for a device that shares between its three queues.
@@ -157,12 +184,13 @@ fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_shares_between_th
 #[test]
 fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_hands_images_over() {
     on_each_driver(|device| {
-        let mut executor = executor_of(device, &beside(), Sharing::Exclusive, 2);
+        let mut executor = executor_of(device, &handed_over(), Sharing::Exclusive, 2);
         let handed_over = |step: &framewright_graph::plan::Step| !step.releases.is_empty();
         assert!(executor.plan().steps.iter().any(handed_over), "{}", executor.plan().tree());
         for _ in 0..4 {
             executor.submit(&mut Nothing).expect("a frame");
         }
-        assert_eq!(texels(&mut executor, "shown", 0), drawn_beside());
+        let expected: Vec<u32> = drawn_beside().iter().map(|texel| texel + 20_000).collect();
+        assert_eq!(texels(&mut executor, "shown", 0), expected);
     });
 }

@@ -214,7 +214,7 @@ fn a_custom_pass_whose_program_panics_is_told_by_name_and_the_next_frame_is_draw
             let told = executor.frame(&mut source).expect_err("it panics").to_string();
             assert_eq!(told, format!("pass `by hand`, while recording: the program panicked: {words}"));
         }
-        let mut source = Custom(|recorder: &mut CustomRecorder<'_>| recorder.copy("a", "b"));
+        let mut source = Custom(|recorder: &mut CustomRecorder<'_>| recorder.copy("squares", "b"));
         executor.frame(&mut source).expect("a frame");
     });
 }
