@@ -2,9 +2,7 @@
 
 use framewright_graph::base;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{
-    BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, SHIPPED_PROFILES,
-};
+use framewright_graph::device::{BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
 use framewright_graph::plan::{DeviceUsed, Plan};
 use framewright_graph::vulkan::{BufferUsage, Shape, Sharing, Usage};
 use framewright_tests::render::device;
