@@ -65,7 +65,7 @@ pub(crate) fn steps(format: Format, encoding: Option<Encoding>) -> Option<u16> {
     match format {
         _ if FileFormat::OpenExr.holds(format) => None,
         Format::A2B10G10R10_UNORM_PACK32 if encoding.is_some() => Some(1023),
-        Format::R16G16B16A16_UNORM if encoding.is_some() => Some(u16::MAX),
+        Format::R16_UNORM | Format::R16G16_UNORM | Format::R16G16B16A16_UNORM if encoding.is_some() => Some(u16::MAX),
         _ => Some(255),
     }
 }

@@ -87,7 +87,8 @@ fn bits(word: u32, shift: u32, count: u32) -> f32 {
 
 /// Whether shares of colour are stored in more than 8 bits.
 pub(super) fn is_wide(format: Format) -> bool {
-    matches!(format, Format::A2B10G10R10_UNORM_PACK32 | Format::R16G16B16A16_UNORM)
+    use Format as F;
+    matches!(format, F::A2B10G10R10_UNORM_PACK32 | F::R16_UNORM | F::R16G16_UNORM | F::R16G16B16A16_UNORM)
 }
 
 /// Red, green and blue of one texel as they are stored, as shares of 65535; a grey is in the first. `None` of formats that
@@ -105,6 +106,7 @@ pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
         F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]].map(byte),
         F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]].map(byte),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(ten),
+        F::R16_UNORM | F::R16G16_UNORM => [short(0), 0, 0],
         F::R16G16B16A16_UNORM => [0, 2, 4].map(short),
         _ => return None,
     })

@@ -7,6 +7,7 @@
 
 mod accesses;
 mod casters;
+mod compared;
 mod decided;
 mod depth_only;
 mod eyes;

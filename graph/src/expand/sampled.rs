@@ -4,7 +4,7 @@ use super::images::FrameImage;
 use super::parts::{self, Cells};
 use super::resources::Resources;
 use super::shader::{self, component_words, shape_words};
-use super::{storage, variant};
+use super::{compared, storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
 use crate::language::{self, Face};
@@ -151,7 +151,8 @@ pub(super) fn check<'i>(
             check.component(errors);
             check.samples(errors);
             check.filters(errors);
-            check.compare(errors);
+            let format = resources.declared(sample.part.image.index).format.span;
+            compared::check(pass, sample, declared.compares, (&image.image, format), errors);
             check.address(errors);
             check.own_pixel(resources, lowered, sampled.own_pixel, errors);
             check.part(interface, errors);
@@ -290,38 +291,6 @@ impl Check<'_> {
             if filter.value == Filter::Linear {
                 errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
             }
-        }
-    }
-
-    /// Shader and pass agree on whether depth is compared, and it is depth.
-    fn compare(&self, errors: &mut Vec<Diagnostic>) {
-        let (name, image, shader) = (&self.sample.binding.text, &self.image.image, self.shader);
-        let place = self.sample.part.image.span;
-        match self.sample.compare {
-            None if self.declared.compares => {
-                let message = format!(
-                    "shader `{shader}` compares a depth with `{name}`, and pass `{}` doesn't say how",
-                    self.pass.name.text
-                );
-                let help = format!(
-                    "`(image: \"{}\", compare: GreaterOrEqual)` gives 1 where the shader's depth is no farther than the image's",
-                    image.name
-                );
-                errors.push(Diagnostic::new(place, message).help(help));
-            }
-            Some(compare) if !self.declared.compares => {
-                let message = format!("shader `{shader}` reads `{name}`, and compares nothing with it");
-                let help = format!("leave `compare` out, or declare `{name}` in the shader as `sampler2DShadow`");
-                errors.push(Diagnostic::new(compare.span, message).help(help));
-            }
-            // That stencil and integers are no depth is said already.
-            Some(_) if !image.format.is_depth() && !image.format.is_integer() => {
-                let message =
-                    format!("shader `{shader}` compares a depth with `{name}`, and `{}` holds colour", image.name);
-                let declared = self.resources.declared(self.sample.part.image.index).format.span;
-                errors.push(Diagnostic::new(place, message).label(declared, "its format"));
-            }
-            None | Some(_) => {}
         }
     }
 

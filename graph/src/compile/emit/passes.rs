@@ -28,7 +28,7 @@ pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
         Some(FrameWork::Blit { filter }) => Work::Blit(transfer(results, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {
             let (name, cause, target) = (name(results, op), cause(results, op), filled(results, number));
-            Work::Fill(Fill { name, cause, target, value: value.clone() })
+            Work::Fill(Fill { name, cause, target, value: *value })
         }
         Some(FrameWork::Custom { .. }) => Work::Custom(pass(results, number)),
         Some(FrameWork::Dispatch { .. } | FrameWork::Draw { .. } | FrameWork::Forward { .. }) => {

@@ -9,7 +9,7 @@ use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::{Camera, Scene, load};
 use framewright_tests::render::{Setup, Ways, device, floats, in_repository, library, plan_for, silent};
 use framewright_vulkan::{Device, Executor, ExecutorOptions, Texels};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat3, DVec2, DVec3, DVec4};
 use std::error::Error;
 
 /// Odd, so that no middle of a pixel lies on an axis.
@@ -155,7 +155,7 @@ fn a_compute_pass_that_runs_once_sees_the_camera_between_the_eyes() -> Result<()
         assert_eq!(seen.plan.steps.iter().filter(culls).count(), 1, "{}", seen.plan.tree());
         assert_eq!(seen.places.len(), scene.objects.len());
         for (place, object) in seen.places.iter().zip(&scene.objects) {
-            let wanted = world_to_clip * DMat4::from(object.transform).w_axis;
+            let wanted = world_to_clip * object.transform.w_axis;
             assert!(place.abs_diff_eq(wanted, 1e-4), "{stereo:?}: {place} instead of {wanted}");
         }
     }

@@ -86,7 +86,7 @@ fn with_a_linear_filter_it_is_the_share_of_four_texels_where_the_device_filters_
     }
     let [drawn, computed, by_hand] = compared(device, &set, Stereo::Off)?;
     let between = by_hand[0].iter().filter(|share| **share > 0.0 && **share < 1.0).count();
-    assert!(between > 200, "{between} lie between");
+    assert!(between > 30, "{between} lie between");
     // Drivers round the shares to 1/256 at least.
     assert_eq!(apart(&drawn[0], &by_hand[0], 1.0 / 128.0), 0);
     assert_eq!(apart(&computed[0], &by_hand[0], 1.0 / 128.0), 0);

@@ -2,11 +2,9 @@
 
 use framewright_graph::base;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{
-    BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, SHIPPED_PROFILES,
-};
+use framewright_graph::device::{BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
 use framewright_graph::plan::{DeviceUsed, Plan};
-use framewright_graph::vulkan::{BufferUsage, Format, Shape, Sharing, Usage};
+use framewright_graph::vulkan::{BufferUsage, Shape, Sharing, Usage};
 use framewright_tests::render::device;
 use framewright_tests::shipped::frames;
 use framewright_tests::sweep;
@@ -122,19 +120,4 @@ fn images(profile: &Profile) -> impl Iterator<Item = ImageDescriptor> {
             sharing: Sharing::Exclusive,
         }
     })
-}
-
-/// What each format may be used for, whether it is filtered and blended.
-fn formats(profile: &Profile) -> Vec<(Format, Usage, [bool; 2])> {
-    profile.formats.iter().map(|it| (it.format, it.usage, [it.linear_filter, it.blend])).collect()
-}
-
-#[test]
-fn the_shipped_profile_lists_the_formats_that_its_device_has() {
-    let Some(device) = device() else { return };
-    let shipped = if is_modelled(device) { "lavapipe" } else { "swiftshader" };
-    let (_, text) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == shipped).expect("it is shipped");
-    let shipped = Profile::from_ron(text).expect("a profile");
-    assert_eq!(formats(&shipped), formats(&device.profile()));
-    assert!(shipped.format(Format::R16_UNORM).is_some() && shipped.format(Format::R32G32_UINT).is_some());
 }
