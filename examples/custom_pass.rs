@@ -6,7 +6,9 @@
 use framewright::graph::frame::DrawList;
 use framewright::graph::vulkan::FillValue;
 use framewright::vulkan::{BindGroup, Buffer, BufferUsage, Error, Resource};
-use framewright::{CustomRecorder, Device, DeviceOptions, Draw, DrawSource, Recorder, Renderer, RendererOptions};
+use framewright::{
+    CustomRecorder, Device, DeviceOptions, DispatchRecorder, Draw, DrawSource, Recorder, Renderer, RendererOptions,
+};
 use std::path::Path;
 
 #[path = "engine/interface.rs"]
@@ -54,6 +56,12 @@ impl DrawSource for Engine {
         }
         recorder.draw(0..3, 0..1);
         Ok(1)
+    }
+
+    /// Binds what a compute pass sees of the engine. The dispatch follows by itself.
+    fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        recorder.bind_group(1, &self.camera);
+        Ok(())
     }
 
     /// Records a custom pass outside of rendering scopes. The Plan has the barriers around it.

@@ -47,8 +47,8 @@ pub use framewright_graph::vulkan::Rotation;
 pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
-    CustomRecorder, Device, DeviceOptions, DrawSource, Executor, ExecutorOptions, Helper, Presentation, Recorder,
-    ShaderLibrary, Surface, Swapchain, SwapchainOptions, Texels,
+    CustomRecorder, Device, DeviceOptions, DispatchRecorder, DrawSource, Executor, ExecutorOptions, Helper,
+    Presentation, Recorder, ShaderLibrary, Surface, Swapchain, SwapchainOptions, Texels,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, shaders, textures};

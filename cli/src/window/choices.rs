@@ -43,10 +43,14 @@ mod tests {
 
     /// The settings of a pipeline.
     fn settings(text: &str) -> Vec<Setting> {
-        let text = format!("Pipeline(version: 1, settings: [{text}], images: [], passes: [], outputs: [])");
+        let text = format!(
+            r#"Pipeline(version: 1, settings: [{text}], images: [(name: "screen", format: Output, size: Output)],
+            passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])], outputs: ["screen"])"#
+        );
         let mut sources = Sources::default();
         let read = language::read(&mut sources, "a.ron", "a.ron", text);
-        read.map(|document| document.settings.clone()).unwrap_or_default()
+        let mistakes = |mistakes: Vec<_>| panic!("{}", framewright_graph::base::render(&sources, &mistakes));
+        read.map_or_else(mistakes, |document| document.settings.clone())
     }
 
     /// The values that a key goes through, from the first on.
