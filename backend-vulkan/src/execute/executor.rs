@@ -4,69 +4,19 @@ use super::frame_slot::FrameExtras;
 use super::frames::Frames;
 use super::import::Import;
 use super::initial_contents::initialise;
+use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
-use crate::prepare::{Debugging, Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
-use crate::present::SwapchainHandle;
+use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport, Guarded};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
 use framewright_graph::plan::Plan;
+use std::any::Any;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// How a Plan is executed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ExecutorOptions {
-    /// Whether each transient image and buffer is filled with conspicuous values when the frame takes it into use, which
-    /// must not change the picture. Needs a Plan that was compiled with poison.
-    pub poison: bool,
-    /// Whether each step waits for all that its queue did before, whatever the Plan's barriers say. The picture must be the same:
-    /// if it isn't, a barrier is missing without this.
-    pub full_barriers: bool,
-    /// Whether each step is submitted by itself and waited for before the next. The picture must be the same, and a device that
-    /// is lost or doesn't answer is told with its step ([`Error::AtStep`]). Such a frame goes into no command buffer of the program's.
-    pub step_by_step: bool,
-    /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
-    /// can be used any more.
-    pub timeout: Duration,
-    /// How many frames may be on their way before [`Executor::submit`] waits for the oldest; 0 counts as 1.
-    pub frames_in_flight: u32,
-    /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
-    /// [`Executor::read_back_image`] and [`Executor::read_back_buffer`].
-    pub readback: bool,
-    /// Whether the device notes when each step and pass begins and ends, for [`Executor::report`]. That takes commands of its own,
-    /// and some devices finish one pass before they begin the next to tell the time.
-    pub timestamps: bool,
-    /// Whether the device counts how often fragment shaders run, for [`Executor::report`]. Custom passes can't make queries of the
-    /// same kind then.
-    pub fragment_counts: bool,
-}
-
-impl ExecutorOptions {
-    fn debugging(&self) -> Debugging {
-        Debugging { poison: self.poison, full_barriers: self.full_barriers }
-    }
-}
-
-impl Default for ExecutorOptions {
-    fn default() -> Self {
-        let timeout = Duration::from_secs(120);
-        ExecutorOptions {
-            poison: false,
-            full_barriers: false,
-            step_by_step: false,
-            timeout,
-            frames_in_flight: 1,
-            readback: false,
-            timestamps: false,
-            fragment_counts: false,
-        }
-    }
-}
 
 /// A Plan on a device, ready to draw frames.
 ///
@@ -82,8 +32,8 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: PreparedPlan,
-    /// The swapchains whose images are in use, by the output that is shown. Dropped after the frames, and the views of the images.
-    pub(crate) shown: Vec<(String, Arc<SwapchainHandle>)>,
+    /// What imported images belong to, by the name of the image. Dropped after the frames, and the views of the images.
+    pub(crate) owners: Vec<(String, Arc<dyn Any + Send + Sync>)>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -157,7 +107,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
-            shown: Vec::new(),
+            owners: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             options: options.clone(),

@@ -1,7 +1,7 @@
 //! The place of one frame in flight: its command buffers, and what is kept until the device is done with it.
 
-use super::executor::ExecutorOptions;
 use super::import::Import;
+use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
 use super::submission::SemaphorePoint;
 use crate::base::Error;

@@ -1,8 +1,8 @@
 //! Frames on their way: recorded, submitted to their queues, and waited for.
 
-use super::executor::ExecutorOptions;
 use super::frame_slot::{FrameEnd, FrameExtras, FrameSlot};
 use super::import::Import;
+use super::options::ExecutorOptions;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::commands::{Readback, Timeline};

@@ -3,13 +3,16 @@
 mod change;
 mod exchange;
 mod executor;
+mod external;
 mod frame_slot;
 mod frames;
 mod import;
 mod initial_contents;
 mod migrate;
+mod options;
 mod output_readback;
 mod submission;
 
-pub use executor::{Executor, ExecutorOptions};
+pub use executor::Executor;
+pub use options::ExecutorOptions;
 pub use submission::{ExternalStates, ResourceState, SemaphorePoint, Submission};

@@ -1,11 +1,8 @@
 //! A frame among the program's own work: the semaphores that it waits for and signals, which of the program's images it uses, and
 //! the states in which it finds and leaves them.
 
-use super::executor::Executor;
-use crate::base::{Error, convert};
-use crate::prepare::name_and_role;
+use crate::base::convert;
 use ash::vk;
-use framewright_graph::plan::{Resource, Role};
 use framewright_graph::vulkan::State;
 
 /// A semaphore of the program's, and stages that wait for it or that it waits for.
@@ -22,7 +19,7 @@ pub struct SemaphorePoint {
 /// What a frame has to do with the program's own work. The default: nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Submission<'s> {
-    /// For external images by name: which of those that [`Executor::import_images`] took the frame uses. An image that isn't listed
+    /// For external images by name: which of those that [`import_images`](crate::Executor::import_images) took the frame uses. An image that isn't listed
     /// is the one of the frame before.
     pub images: &'s [(&'s str, usize)],
     /// What the frame waits for before it begins.
@@ -71,39 +68,11 @@ impl SemaphorePoint {
 }
 
 impl ResourceState {
-    fn of(state: State) -> ResourceState {
+    pub(super) fn of(state: State) -> ResourceState {
         ResourceState {
             stages: convert::stages(state.stages),
             accesses: convert::accesses(state.accesses),
             layout: convert::layout(state.layout),
         }
-    }
-}
-
-impl Executor {
-    /// The states of the external image or buffer `name`: an output, or one that is imported. `None` if the Plan has no such one.
-    #[must_use]
-    pub fn external_states(&self, name: &str) -> Option<ExternalStates> {
-        let resource = self.external(name)?;
-        let Role::External { before, after } = name_and_role(&self.plan, resource).1 else { return None };
-        Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
-    }
-
-    /// Chooses among the program's images for the next frame.
-    pub(super) fn choose_images(&mut self, images: &[(&str, usize)]) -> Result<(), Error> {
-        for (name, choice) in images {
-            let chosen = self.external(name).is_some_and(|it| self.prepared.physical.choose(it, *choice));
-            if !chosen {
-                let what = format!("`{name}` has no image {choice} of the program's");
-                return Err(Error::BadResource { what });
-            }
-        }
-        Ok(())
-    }
-
-    /// The external image or buffer of this name.
-    fn external(&self, name: &str) -> Option<Resource> {
-        let mut all = self.imports.iter().map(|import| import.resource);
-        all.find(|it| name_and_role(&self.plan, *it).0 == name)
     }
 }

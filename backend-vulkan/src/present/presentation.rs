@@ -4,6 +4,7 @@ use super::swapchain::{Shown, Swapchain, SwapchainHandle};
 use crate::base::Error;
 use crate::execute::{Executor, SemaphorePoint, Submission};
 use crate::record::DrawSource;
+use std::any::Any;
 use std::sync::Arc;
 
 /// What became of a frame that was to be shown.
@@ -58,7 +59,8 @@ impl Executor {
 
     /// Takes the images of a swapchain for the output `name`, unless it has them.
     fn show_in(&mut self, swapchain: &Arc<SwapchainHandle>, name: &str) -> Result<(), Error> {
-        if self.shown.iter().any(|(of, shown)| of == name && Arc::ptr_eq(shown, swapchain)) {
+        let owner: Arc<dyn Any + Send + Sync> = swapchain.clone();
+        if self.owners.iter().any(|(of, shown)| of == name && Arc::ptr_eq(shown, &owner)) {
             return Ok(());
         }
         let bad = |why: String| Error::BadResource { what: format!("`{name}` can't be shown: {why}") };
@@ -77,8 +79,8 @@ impl Executor {
         // SAFETY: the images are as the Plan describes them and are kept as long as this executor may use them. Each is chosen
         // only when it is free.
         unsafe { self.import_images(name, &swapchain.images) }?;
-        self.shown.retain(|(of, _)| of != name);
-        self.shown.push((name.to_owned(), swapchain.clone()));
+        self.owners.retain(|(of, _)| of != name);
+        self.owners.push((name.to_owned(), owner));
         Ok(())
     }
 }

@@ -3,6 +3,7 @@
 mod assets;
 pub(crate) mod device;
 pub(crate) mod helper;
+pub(crate) mod layer;
 mod loaded;
 pub(crate) mod notes;
 mod other_devices;

@@ -12,6 +12,7 @@ use framewright::{Presentation, ReadFiles, Renderer, RendererOptions, Scene, Sce
 use framewright_graph::language::Setting;
 use framewright_graph::vulkan::Rotation;
 use framewright_vulkan::{Device, Helper, Surface, SwapchainOptions};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -40,6 +41,8 @@ pub(super) struct Session<'a> {
     refit: bool,
     /// The setting that keys turn.
     setting: usize,
+    /// Values that keys gave to settings since the frame that is shown was planned.
+    turned: BTreeMap<String, String>,
     /// The last frame that was shown.
     last: Option<u64>,
     /// How many were shown.
@@ -114,6 +117,7 @@ impl<'a> Session<'a> {
             size,
             refit: false,
             setting: 0,
+            turned: BTreeMap::new(),
             last: None,
             shown: 0,
             wrong: None,
@@ -183,6 +187,8 @@ impl<'a> Session<'a> {
     fn prepare(&mut self) -> Result<(), Error> {
         use framewright::Change;
         let device = self.renderer.device().clone();
+        // They are in the Plan now, or were refused.
+        self.turned.clear();
         let framewright::Prepared { plan, change, .. } = self.renderer.prepare()?;
         match (&mut self.source, change) {
             (Some(_), Change::Nothing) => {}
@@ -309,14 +315,20 @@ impl<'a> Session<'a> {
         let (name, next) = (setting.name.text.to_string(), choices::next(setting, value, forwards));
         let Some(next) = next else { return Ok(()) };
         let set = self.renderer.set(&name, &next).map_err(Error::from);
-        text::say(&text::escape(&format!("{name} = {next}")));
+        if set.is_ok() {
+            text::say(&text::escape(&format!("{name} = {next}")));
+            self.turned.insert(name, next);
+        }
         self.note(set)
     }
 
-    /// The setting that keys turn, and its value in the frame that is shown.
+    /// The setting that keys turn, and its value: in the next frame, or in the one that is shown.
     fn setting(&self) -> Option<(&Setting, &str)> {
         let settings = &self.renderer.document().settings;
         let setting = settings.get(self.setting.min(settings.len().checked_sub(1)?))?;
+        if let Some(value) = self.turned.get(&*setting.name.text) {
+            return Some((setting, value));
+        }
         let used = &self.renderer.plan()?.settings;
         let used = used.iter().find(|used| *used.name == *setting.name.text)?;
         Some((setting, &used.value))

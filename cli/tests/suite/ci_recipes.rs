@@ -207,7 +207,7 @@ fn what_the_machine_or_the_command_line_lacks_is_said() {
     let low = [("VARIANTS", "--set msaa=1"), ("OPTIONS", "--set msaa=1"), ("MAX_FLIP", "1"), ("GOLDENS", "more")];
     check(&place, &["--accept", "pipelines/four.ron"], &low).exits(0);
     // A pipeline for the draws of an engine: it is checked and shown, and not drawn.
-    for file in ["engine.ron", "grass.frag", "grass.vert", "terrain.frag", "terrain.vert"] {
+    for file in ["engine.ron", "gust.comp", "grass.frag", "grass.vert", "terrain.frag", "terrain.vert"] {
         std::fs::copy(repository("examples/engine").join(file), place.path("pipelines").join(file)).expect("copied");
     }
     check(&place, &["pipelines/engine.ron"], &[]).exits(1);

@@ -59,7 +59,7 @@ fn a_device_that_lists_a_format_for_storage_takes_it_and_another_is_told_which_i
         .exits(1)
         .mentions("error: `kept` can't be R8_UNORM on `mine`: no STORAGE")
         .mentions("a shader stores it here")
-        .mentions("write another `format` of `kept`: `R8G8_UNORM`, `R8G8B8A8_UNORM`, ");
+        .mentions("write another `format` of `kept`: `R8_SNORM`, `R8G8_UNORM`, ");
 }
 
 #[test]

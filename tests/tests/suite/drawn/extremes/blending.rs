@@ -88,10 +88,12 @@ fn every_format_of_colour_holds_guarded_light_up_to_its_largest_number() -> Resu
             R32_SFLOAT | R32G32_SFLOAT | R32G32B32A32_SFLOAT => (LARGEST_HALF, 0.0, f64::from(f32::MIN_POSITIVE)),
             R16_SFLOAT | R16G16_SFLOAT | R16G16B16A16_SFLOAT => (LARGEST_HALF, 1.0 / 1024.0, 2_f64.powi(-24)),
             B10G11R11_UFLOAT_PACK32 => (65024.0, 1.0 / 64.0, 2_f64.powi(-20)),
-            R16G16B16A16_UNORM => (1.0, 0.0, 1.0 / 65535.0),
+            R16_UNORM | R16G16_UNORM | R16G16B16A16_UNORM => (1.0, 0.0, 1.0 / 65535.0),
+            R16_SNORM | R16G16_SNORM | R16G16B16A16_SNORM => (1.0, 0.0, 1.0 / 32767.0),
             A2B10G10R10_UNORM_PACK32 => (1.0, 0.0, 1.0 / 1023.0),
             R8G8B8A8_SRGB | B8G8R8A8_SRGB => (1.0, 0.02, 1.0 / 255.0),
             R8_UNORM | R8G8_UNORM | R8G8B8A8_UNORM | B8G8R8A8_UNORM => (1.0, 0.0, 1.0 / 255.0),
+            R8_SNORM | R8G8_SNORM | R8G8B8A8_SNORM => (1.0, 0.0, 1.0 / 127.0),
             other => return Err(format!("{} is no format of this test", other.name()).into()),
         };
         let format = format.name();

@@ -1,0 +1,35 @@
+//! External images and buffers: the states in which frames find and leave them, and the choice among those that were imported.
+
+use super::executor::Executor;
+use super::submission::{ExternalStates, ResourceState};
+use crate::base::Error;
+use crate::prepare::name_and_role;
+use framewright_graph::plan::{Resource, Role};
+
+impl Executor {
+    /// The states of the external image or buffer `name`: an output, or one that is imported. `None` if the Plan has no such one.
+    #[must_use]
+    pub fn external_states(&self, name: &str) -> Option<ExternalStates> {
+        let resource = self.external(name)?;
+        let Role::External { before, after } = name_and_role(&self.plan, resource).1 else { return None };
+        Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
+    }
+
+    /// Chooses among the program's images for the next frame.
+    pub(super) fn choose_images(&mut self, images: &[(&str, usize)]) -> Result<(), Error> {
+        for (name, choice) in images {
+            let chosen = self.external(name).is_some_and(|it| self.prepared.physical.choose(it, *choice));
+            if !chosen {
+                let what = format!("`{name}` has no image {choice} of the program's");
+                return Err(Error::BadResource { what });
+            }
+        }
+        Ok(())
+    }
+
+    /// The external image or buffer of this name.
+    fn external(&self, name: &str) -> Option<Resource> {
+        let mut all = self.imports.iter().map(|import| import.resource);
+        all.find(|it| name_and_role(&self.plan, *it).0 == name)
+    }
+}

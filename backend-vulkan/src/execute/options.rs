@@ -1,0 +1,55 @@
+//! How a Plan is executed.
+
+use crate::prepare::Debugging;
+use std::time::Duration;
+
+/// How a Plan is executed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExecutorOptions {
+    /// Whether each transient image and buffer is filled with conspicuous values when the frame takes it into use, which
+    /// must not change the picture. Needs a Plan that was compiled with poison.
+    pub poison: bool,
+    /// Whether each step waits for all that its queue did before, whatever the Plan's barriers say. The picture must be the same:
+    /// if it isn't, a barrier is missing without this.
+    pub full_barriers: bool,
+    /// Whether each step is submitted by itself and waited for before the next. The picture must be the same, and a device that
+    /// is lost or doesn't answer is told with its step ([`AtStep`](crate::Error::AtStep)). Such a frame goes into no command buffer of the program's.
+    pub step_by_step: bool,
+    /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
+    /// can be used any more.
+    pub timeout: Duration,
+    /// How many frames may be on their way before [`submit`](crate::Executor::submit) waits for the oldest; 0 counts as 1.
+    pub frames_in_flight: u32,
+    /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
+    /// [`read_back_image`](crate::Executor::read_back_image) and [`read_back_buffer`](crate::Executor::read_back_buffer).
+    pub readback: bool,
+    /// Whether the device notes when each step and pass begins and ends, for [`report`](crate::Executor::report). That takes commands of its own,
+    /// and some devices finish one pass before they begin the next to tell the time.
+    pub timestamps: bool,
+    /// Whether the device counts how often fragment shaders run, for [`report`](crate::Executor::report). Custom passes can't make queries of the
+    /// same kind then.
+    pub fragment_counts: bool,
+}
+
+impl ExecutorOptions {
+    /// What is recorded beside the Plan.
+    pub(super) fn debugging(&self) -> Debugging {
+        Debugging { poison: self.poison, full_barriers: self.full_barriers }
+    }
+}
+
+impl Default for ExecutorOptions {
+    fn default() -> Self {
+        let timeout = Duration::from_secs(120);
+        ExecutorOptions {
+            poison: false,
+            full_barriers: false,
+            step_by_step: false,
+            timeout,
+            frames_in_flight: 1,
+            readback: false,
+            timestamps: false,
+            fragment_counts: false,
+        }
+    }
+}
