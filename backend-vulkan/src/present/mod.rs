@@ -7,5 +7,3 @@ mod swapchain;
 pub use presentation::Presentation;
 pub use surface::Surface;
 pub use swapchain::{PresentMode, Swapchain, SwapchainOptions};
-
-pub(crate) use swapchain::SwapchainHandle;

@@ -202,7 +202,7 @@ impl<'a> App<'a> {
                 "e" => session.turn_eyes()?,
                 "t" => session.turn_screen()?,
                 "r" => session.orbit().reset(),
-                "p" => session.screenshot()?,
+                "p" => session.take_picture(),
                 _ => {}
             },
             _ => {}

@@ -47,6 +47,8 @@ pub(super) struct Session<'a> {
     last: Option<u64>,
     /// How many were shown.
     shown: u32,
+    /// Whether the next one is to be written.
+    picture_wanted: bool,
     /// What keeps the newest choices or files from being shown.
     wrong: Option<String>,
     looked: Instant,
@@ -120,6 +122,7 @@ impl<'a> Session<'a> {
             turned: BTreeMap::new(),
             last: None,
             shown: 0,
+            picture_wanted: false,
             wrong: None,
             looked: Instant::now(),
             title: Title { since: Instant::now(), frames: 0, milliseconds: 0.0 },
@@ -256,7 +259,7 @@ impl<'a> Session<'a> {
         {
             self.title.milliseconds = report.milliseconds;
         }
-        Ok(())
+        if std::mem::take(&mut self.picture_wanted) { self.write_by_a_free_name() } else { Ok(()) }
     }
 
     /// How many frames were shown.
@@ -361,11 +364,13 @@ impl<'a> Session<'a> {
         self.note(fitted)
     }
 
-    /// Writes the picture that was shown last beside where the command was called, by a name that is free.
-    ///
-    /// # Errors
-    /// Those of [`Session::picture`].
-    pub(super) fn screenshot(&mut self) -> Result<(), Error> {
+    /// Has the next frame that is shown written beside where the command was called.
+    pub(super) fn take_picture(&mut self) {
+        self.picture_wanted = true;
+    }
+
+    /// Writes the picture that was shown last, by a name that is free.
+    fn write_by_a_free_name(&mut self) -> Result<(), Error> {
         let stem = self.arguments.pipeline.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let mut names = (1..1000).map(|number| PathBuf::from(format!("{stem}-{number:03}.png")));
         if let (Some(path), Some(picture)) = (names.find(|path| !path.exists()), self.picture()?) {
