@@ -41,22 +41,25 @@ impl Gpu {
     /// Waits until all semaphores have reached their values. After a wait that fails the device is given up: nothing is
     /// freed any more.
     pub(crate) fn wait_for(&self, doing: &'static str, work: &PendingWork, timeout: Duration) -> Result<(), Error> {
+        self.wait_until(doing, work, timeout).inspect_err(|_| self.abandon(work))
+    }
+
+    /// Waits until all semaphores have reached their values. After a wait that fails the caller gives the device up.
+    pub(crate) fn wait_until(&self, doing: &'static str, work: &PendingWork, timeout: Duration) -> Result<(), Error> {
         let info = vk::SemaphoreWaitInfo::default().semaphores(&work.semaphores).values(&work.values);
         let begun = Instant::now();
-        let error = loop {
+        loop {
             let left = timeout.saturating_sub(begun.elapsed());
             let nanoseconds = u64::try_from(left.min(SLICE).as_nanos()).unwrap_or(u64::MAX);
             // SAFETY: the semaphores live.
             match unsafe { self.raw.wait_semaphores(&info, nanoseconds) } {
                 Ok(()) => return Ok(()),
-                Err(vk::Result::TIMEOUT) if self.is_cancelled() => break Error::Cancelled { doing },
+                Err(vk::Result::TIMEOUT) if self.is_cancelled() => return Err(Error::Cancelled { doing }),
                 Err(vk::Result::TIMEOUT) if left > SLICE => {}
-                Err(vk::Result::TIMEOUT) => break Error::Timeout { doing, seconds: timeout.as_secs() },
-                Err(result) => break Error::vulkan(doing)(result),
+                Err(vk::Result::TIMEOUT) => return Err(Error::Timeout { doing, seconds: timeout.as_secs() }),
+                Err(result) => return Err(Error::vulkan(doing)(result)),
             }
-        };
-        self.abandon(work);
-        Err(error)
+        }
     }
 
     /// Records commands for `queue`, submits them and waits until they are done.

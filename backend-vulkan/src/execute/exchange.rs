@@ -52,6 +52,12 @@ impl Executor {
     }
 
     fn read_plane(&mut self, id: ImageId, plane: Aspects, mip: u32) -> Result<Texels, Error> {
+        let name = &*self.plan.image(id).name;
+        if self.owners.iter().any(|(of, _)| of == name) {
+            let what =
+                format!("`{name}` can't be read: it is shown in a window; `read_back_image` has what a frame left");
+            return Err(Error::BadResource { what });
+        }
         self.check_part(id, plane, mip)?;
         let (frame, state, queue) = self.left(Resource::Image(id))?;
         self.frames.wait_for_all()?;
@@ -172,6 +178,7 @@ impl Executor {
             return Err(Error::BadResource { what: format!("no images were given for `{name}`") });
         }
         self.frames.wait_for_all()?;
+        self.owners.retain(|(of, _)| of != name);
         let descriptor = descriptor(self.plan.image(id));
         // SAFETY: the caller's promise.
         let images: Vec<_> = images.iter().map(|raw| unsafe { Image::foreign(&self.gpu, &descriptor, *raw) }).collect();

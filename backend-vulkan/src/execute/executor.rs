@@ -146,7 +146,8 @@ impl Executor {
     ///
     /// # Errors
     /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such image. After an error nothing was waited for and
-    /// nothing will be signalled, unless the device is lost.
+    /// nothing will be signalled, unless the device was lost or given up: a part of the frame may be on its way then, and each later
+    /// frame is [`Error::DeviceLost`].
     ///
     /// # Safety
     /// The semaphores must be of this executor's device, be in the state that Vulkan demands of what is waited for or signalled,
@@ -174,7 +175,7 @@ impl Executor {
     /// # Safety
     /// The command buffer must be of this executor's device, of the family of its graphics queue, primary, recording, and outside
     /// of a rendering scope. It must be submitted once, to the graphics queue, after the frames before this one, and `done` must
-    /// then be signalled. Semaphore and command buffer must live until the frame was waited for. The promises on images are those
+    /// then be signalled; or it must be given to [`Executor::discard`]. Semaphore and command buffer must live until the frame was waited for. The promises on images are those
     /// of [`Executor::submit_with`].
     pub unsafe fn record_into(
         &mut self,
@@ -187,6 +188,21 @@ impl Executor {
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.record_into((commands, done), &frame, prepared, &mut Guarded(source), &extras)?;
         Ok(number)
+    }
+
+    /// How many frames were submitted, or recorded for the program to submit.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.frames.next()
+    }
+
+    /// Takes back a frame that [`Executor::record_into`] recorded and that the program never submitted: nothing waits for it. What it
+    /// was to leave for later frames isn't there.
+    ///
+    /// # Safety
+    /// Its command buffer must never have been submitted, and must not be.
+    pub unsafe fn discard(&mut self, frame: u64) {
+        self.frames.discard(frame);
     }
 
     /// Waits for the oldest frame on its way, if as many are as may be.
@@ -202,6 +218,11 @@ impl Executor {
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number.
     fn next_frame(&mut self, images: &[(&str, usize)]) -> Result<u64, Error> {
+        let of_window = self.owners.iter().find(|(name, _)| images.iter().all(|(chosen, _)| chosen != name));
+        if let Some((name, _)) = of_window {
+            let what = format!("`{name}` is shown in a window: `present` draws it, or another image is imported first");
+            return Err(Error::BadResource { what });
+        }
         self.frames.make_room()?;
         self.choose_images(images)?;
         self.ready()?;

@@ -17,11 +17,16 @@ impl Executor {
 
     /// Chooses among the program's images for the next frame.
     pub(super) fn choose_images(&mut self, images: &[(&str, usize)]) -> Result<(), Error> {
+        let physical = &self.prepared.physical;
+        let none =
+            |(name, choice): &&(&str, usize)| !self.external(name).is_some_and(|it| physical.has_choice(it, *choice));
+        if let Some((name, choice)) = images.iter().find(none) {
+            let what = format!("`{name}` has no image {choice} of the program's");
+            return Err(Error::BadResource { what });
+        }
         for (name, choice) in images {
-            let chosen = self.external(name).is_some_and(|it| self.prepared.physical.choose(it, *choice));
-            if !chosen {
-                let what = format!("`{name}` has no image {choice} of the program's");
-                return Err(Error::BadResource { what });
+            if let Some(resource) = self.external(name) {
+                self.prepared.physical.choose(resource, *choice);
             }
         }
         Ok(())

@@ -333,11 +333,20 @@ impl Frames {
             }
             FrameEnd::Given(SemaphorePoint { semaphore, value, .. }) => {
                 (self.given.semaphores[0], self.given.values[0]) = (semaphore, value);
-                self.gpu.wait_for(DRAWING, &self.given, self.timeout)?;
+                // The semaphore is the program's, and may be gone when the device ends: it is not kept.
+                let done = self.gpu.wait_until(DRAWING, &self.given, self.timeout);
+                done.inspect_err(|_| self.gpu.abandon(&PendingWork::default()))?;
             }
         }
         self.slots[at].finished = true;
         Ok(())
+    }
+
+    /// Waits no more for a frame that the program was to submit.
+    pub(crate) fn discard(&mut self, frame: u64) {
+        let at = self.slot_of(frame);
+        let slot = &mut self.slots[at];
+        slot.finished |= matches!(slot.frame, Some((there, FrameEnd::Given(_))) if there == frame);
     }
 
     /// Waits for every frame that was submitted.

@@ -94,7 +94,7 @@ impl Device {
         (&self.gpu.instance.raw, self.gpu.physical)
     }
 
-    /// The index of the queue family that frames are submitted to, of which the queue number 0 is used. Command buffers for
+    /// The index of the queue family that frames are submitted to, of which the queue number 0 is used unless the device was adopted. Command buffers for
     /// [`Executor::record_into`](crate::Executor::record_into) are of this family.
     #[must_use]
     pub fn graphics_queue_family(&self) -> u32 {

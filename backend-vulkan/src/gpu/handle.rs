@@ -219,7 +219,7 @@ impl Gpu {
 impl Drop for Gpu {
     fn drop(&mut self) {
         if let Some(PendingWork { semaphores, values }) = self.abandoned.get() {
-            if self.is_cancelled() {
+            if self.is_cancelled() || semaphores.is_empty() {
                 return;
             }
             // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.

@@ -64,6 +64,10 @@ impl Frame<'_> {
             .image(self.image(barrier.image).raw)
             .subresource_range(convert::range(part(self.plan.image(barrier.image), barrier.range)));
         match (barrier.ownership, self.handed_over(barrier)) {
+            // An image that the program hands in goes on from the semaphore that the frame waited for.
+            (None, _) if barrier.src_stages.is_empty() && self.image(barrier.image).is_foreign() => {
+                recorded.src_stage_mask(recorded.dst_stage_mask)
+            }
             (None, _) => recorded,
             (Some(_), Some([from, to])) => recorded.src_queue_family_index(from).dst_queue_family_index(to),
             // It goes on from the semaphore that the step waited for, in all stages.

@@ -73,9 +73,14 @@ impl PhysicalResources {
         self.rings.turn(frame)
     }
 
-    /// Chooses among what the program handed in for an external image or buffer. Returns whether there is such a one.
-    pub(crate) fn choose(&mut self, resource: Resource, choice: usize) -> bool {
-        self.rings.choose(resource, choice)
+    /// Whether the program handed in so many for an external image or buffer that there is such a one.
+    pub(crate) fn has_choice(&self, resource: Resource, choice: usize) -> bool {
+        self.rings.has_choice(resource, choice)
+    }
+
+    /// Chooses among what the program handed in for an external image or buffer, if there is such a one.
+    pub(crate) fn choose(&mut self, resource: Resource, choice: usize) {
+        self.rings.choose(resource, choice);
     }
 
     /// Takes the contents of another Plan's image for the first frame.

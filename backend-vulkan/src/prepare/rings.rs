@@ -103,14 +103,19 @@ impl ResourceRings {
         self.rings[ring] = Ring { members, turns: Turns::Chosen { now: 0, count } };
     }
 
-    /// Chooses the member number `choice` for an external image or buffer. Returns whether there is one.
-    pub(crate) fn choose(&mut self, resource: Resource, choice: usize) -> bool {
+    /// Whether an external image or buffer has a member of this number to choose.
+    pub(crate) fn has_choice(&self, resource: Resource, choice: usize) -> bool {
+        let ring = self.position(resource).ring;
+        matches!(self.rings[ring].turns, Turns::Chosen { count, .. } if choice < count)
+    }
+
+    /// Chooses the member of this number for an external image or buffer, if it has one.
+    pub(crate) fn choose(&mut self, resource: Resource, choice: usize) {
         let ring = self.position(resource).ring;
         match &mut self.rings[ring].turns {
             Turns::Chosen { now, count } if choice < *count => *now = choice,
-            _ => return false,
+            _ => {}
         }
-        true
     }
 
     fn position(&self, resource: Resource) -> RingPosition {
@@ -264,7 +269,8 @@ mod tests {
         let mut made = 0;
         for frame in 0..12 {
             let choice = [1, 0, 2, 2, 1, 0, 0, 1, 2, 1, 0, 2][frame];
-            assert!(rings.choose(handed_in, choice));
+            assert!(rings.has_choice(handed_in, choice));
+            rings.choose(handed_in, choice);
             assert_eq!(rings.image(2, frame as u64), 2 + choice);
             let turn = rings.turn(frame as u64);
             let make = || {
@@ -274,7 +280,7 @@ mod tests {
             assert_eq!(*cache.prepare(turn, make).expect("nothing fails"), (frame % 2, choice), "frame {frame}");
         }
         assert_eq!(made, 6, "two of history, each with three choices");
-        assert!(!rings.choose(handed_in, 3) && !rings.choose(Resource::Image(ImageId(0)), 0));
+        assert!(!rings.has_choice(handed_in, 3) && !rings.has_choice(Resource::Image(ImageId(0)), 0));
     }
 
     #[test]

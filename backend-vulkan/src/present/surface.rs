@@ -5,7 +5,7 @@ use crate::gpu::{Device, Gpu};
 use ash::{khr, vk};
 use raw_window_handle::{HasDisplayHandle, HasWindowHandle, RawDisplayHandle, RawWindowHandle};
 use std::any::Any;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The surface of a window. Clones share it; it is destroyed when the last clone and the last
 /// swapchain made for it are gone.
@@ -19,6 +19,10 @@ pub(super) struct SurfaceHandle {
     pub(super) gpu: Arc<Gpu>,
     pub(super) functions: khr::surface::Instance,
     pub(super) raw: vk::SurfaceKHR,
+    /// For one thread at a time.
+    alone: Mutex<()>,
+    /// The loader that its functions are of.
+    _entry: ash::Entry,
     /// Outlives the surface.
     _window: Option<Arc<dyn Any + Send + Sync>>,
 }
@@ -99,7 +103,10 @@ impl Device {
             result => Error::Vulkan { doing: "making a surface", result },
         })?;
         let functions = khr::surface::Instance::new(&entry, &gpu.instance.raw);
-        let surface = Surface { handle: Arc::new(SurfaceHandle { gpu: gpu.clone(), functions, raw, _window: owner }) };
+        let (gpu, alone) = (gpu.clone(), Mutex::new(()));
+        let handle = SurfaceHandle { gpu, functions, raw, alone, _entry: entry, _window: owner };
+        let surface = Surface { handle: Arc::new(handle) };
+        let gpu = &self.gpu;
         let family = gpu.queues.families.graphics.index;
         // SAFETY: the surface is of the same instance as the device, which has the queue family.
         let supported =
@@ -116,6 +123,11 @@ impl Device {
 }
 
 impl SurfaceHandle {
+    /// The surface for one thread at a time, which makes a swapchain for it.
+    pub(super) fn alone(&self) -> MutexGuard<'_, ()> {
+        self.alone.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// What swapchains for it can be.
     pub(super) fn capabilities(&self) -> Result<vk::SurfaceCapabilitiesKHR, Error> {
         // SAFETY: the surface lives, and is of the same instance as the device.

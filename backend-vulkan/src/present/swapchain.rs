@@ -61,6 +61,8 @@ pub struct Swapchain {
     options: SwapchainOptions,
     /// `None`: the surface has no area, as that of a minimised window.
     current: Option<Arc<SwapchainHandle>>,
+    /// The images before, while the surface has no area.
+    before: Option<Arc<SwapchainHandle>>,
     /// How many images were asked for.
     acquired: u64,
     /// Whether an image was taken that is never shown.
@@ -114,7 +116,7 @@ pub(crate) enum Shown {
 }
 
 impl Swapchain {
-    /// A swapchain for a surface. One without an area, as that of a minimised window, gets it later, by [`Swapchain::resize`].
+    /// A swapchain for a surface, which has one at a time: drop another one first, and the executors that draw into it. One without an area, as that of a minimised window, gets it later, by [`Swapchain::resize`].
     ///
     /// # Errors
     /// [`Error::BadResource`] if the surface has none of the formats; [`Error::SurfaceLost`], [`Error::OutOfMemory`].
@@ -123,6 +125,7 @@ impl Swapchain {
             surface: surface.clone(),
             options: options.clone(),
             current: None,
+            before: None,
             acquired: 0,
             broken: false,
             pending: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
@@ -140,8 +143,13 @@ impl Swapchain {
     /// Those of [`Swapchain::new`]. Nothing can be shown then until it succeeds.
     pub fn resize(&mut self, extent: [u32; 2]) -> Result<bool, Error> {
         self.options.extent = extent;
-        let old = self.current.take();
+        // A surface has one swapchain at a time: the one before is known until another takes its place.
+        let old = self.current.take().or_else(|| self.before.take());
+        self.before.clone_from(&old);
         self.current = SwapchainHandle::new(&self.surface.handle, &self.options, old.as_deref())?.map(Arc::new);
+        if self.current.is_some() {
+            self.before = None;
+        }
         (self.acquired, self.broken) = (0, false);
         Ok(self.current.is_some())
     }
@@ -286,8 +294,10 @@ impl SwapchainHandle {
             .old_swapchain(old.map_or(vk::SwapchainKHR::null(), |old| old.raw));
         let functions = khr::swapchain::Device::new(&gpu.instance.raw, &gpu.raw);
         let done = Timeline::new(gpu)?;
-        // SAFETY: the surface lives, can be presented to, and offers all that is asked for.
+        let alone = surface.alone();
+        // SAFETY: the surface lives, can be presented to, offers all that is asked for, and no other thread has it meanwhile.
         let raw = unsafe { functions.create_swapchain(&info, None) }.map_err(presenting("making a swapchain"))?;
+        drop(alone);
         let mut made = SwapchainHandle {
             gpu: gpu.clone(),
             functions,

@@ -1,5 +1,6 @@
 //! Images and buffers of the embedding program.
 
+use framewright_graph::vulkan::Format;
 use framewright_vulkan::Device;
 use framewright_vulkan::ash::vk;
 
@@ -14,10 +15,19 @@ fn memory(device: &Device, needs: vk::MemoryRequirements) -> vk::DeviceMemory {
 
 /// An image of the program's own, of 2 by 2 texels of `R32_UINT`, with every usage that tests ask for.
 pub(crate) fn own_image(device: &Device) -> (vk::Image, vk::DeviceMemory) {
+    own_image_like(device, Format::R32_UINT, [2, 2])
+}
+
+/// An image of the program's own of another format and size.
+pub(crate) fn own_image_like(
+    device: &Device,
+    format: Format,
+    [width, height]: [u32; 2],
+) -> (vk::Image, vk::DeviceMemory) {
     let info = vk::ImageCreateInfo::default()
         .image_type(vk::ImageType::TYPE_2D)
-        .format(vk::Format::R32_UINT)
-        .extent(vk::Extent3D { width: 2, height: 2, depth: 1 })
+        .format(vk::Format::from_raw(format.vulkan()))
+        .extent(vk::Extent3D { width, height, depth: 1 })
         .mip_levels(1)
         .array_layers(1)
         .samples(vk::SampleCountFlags::TYPE_1)

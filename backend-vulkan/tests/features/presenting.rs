@@ -1,5 +1,6 @@
 //! Frames that are shown in windows of an X server that nobody sees.
 
+use crate::foreign::{destroy_image, own_image_like};
 use crate::frames::{
     Small, Uses, dispatch, draw, library, on_each_driver_for, on_each_driver_with, planned, transfer, words,
 };
@@ -290,6 +291,29 @@ fn an_image_of_a_frame_that_failed_is_given_up_and_new_ones_are_shown() {
         let shown = executor.present(&mut GivesUp(false), &mut swapchain, "screen").expect("shown");
         assert_eq!(shown, Presentation::Shown(0));
         window.shows([64, 48], 1);
+    });
+}
+
+#[test]
+fn an_image_of_a_window_is_neither_read_nor_drawn_into_behind_its_back() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+        let refused = executor.read(0).expect_err("it is shown").to_string();
+        assert!(refused.starts_with("`screen` can't be read: it is shown in a window"), "{refused}");
+        let refused = executor.submit(&mut Nothing).expect_err("it is shown").to_string();
+        assert!(refused.starts_with("`screen` is shown in a window"), "{refused}");
+        // The program's own image in its place, and then the window's again.
+        let (own, memory) = own_image_like(device, swapchain.format().expect("an area"), [64, 48]);
+        // SAFETY: the image is made as the Plan says, and outlives the executor.
+        unsafe { executor.import_image("screen", own) }.expect("it is external");
+        executor.submit(&mut Nothing).expect("a frame");
+        executor.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+        window.shows([64, 48], 3);
+        drop(executor);
+        // SAFETY: the executor was dropped.
+        unsafe { destroy_image(device, (own, memory)) };
     });
 }
 

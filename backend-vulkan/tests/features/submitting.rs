@@ -408,6 +408,22 @@ fn a_frame_that_the_program_submits_is_over_when_its_semaphore_says_so() {
 }
 
 #[test]
+fn a_frame_that_was_recorded_and_never_submitted_is_taken_back() {
+    on_each_driver(|device| {
+        let (commands, done) = (Commands::new(device, 1), Semaphore::timeline(device));
+        let mut executor = executor(device, &planned(device, &counting(), &Options::default()), 1);
+        // SAFETY: the command buffer is never submitted.
+        unsafe {
+            let record = |commands| executor.record_into(commands, done.at(1), &[], &mut Nothing);
+            let recorded = commands.record(0, record).expect("a frame");
+            executor.discard(recorded);
+        }
+        frame(&mut executor);
+        assert_eq!(words(&mut executor, "count"), [1]);
+    });
+}
+
+#[test]
 fn a_frame_of_several_queues_is_in_no_command_buffer_of_the_program_s() {
     on_each_driver(|device| {
         let mut executor = executor_beside(device, 1);

@@ -21,7 +21,7 @@ pub(crate) struct WindowArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) frames: Option<u32>,
     /// Picture of the last frame, to write when the window closes: a .png file.
-    #[arg(short, long, value_name = "FILE.png")]
+    #[arg(short, long, value_name = "FILE.png", value_parser = png_file)]
     pub(crate) output: Option<PathBuf>,
     /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
     #[arg(long)]
@@ -31,4 +31,13 @@ pub(crate) struct WindowArguments {
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) device: Option<OsString>,
+}
+
+/// The name of a PNG file.
+fn png_file(name: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(name);
+    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        true => Ok(path),
+        false => Err("a window's picture is a .png file".to_owned()),
+    }
 }

@@ -19,11 +19,15 @@ pub(super) fn next(setting: &Setting, value: &str, forwards: bool) -> Option<Str
         }
         SettingKind::Number { min, max, step, .. } => {
             let (now, range): (f64, f64) = (value.parse().ok()?, max - min);
+            let one = if forwards { 1.0 } else { -1.0 };
             let step = step.unwrap_or(range / STEPS);
-            let at = ((now - min) / step).round() + if forwards { 1.0 } else { -1.0 };
-            // Of a range without end the next whole number.
-            let number = if step.is_finite() { min + at * step } else { now + if forwards { 1.0 } else { -1.0 } };
-            number.clamp(*min, min + (range / step + 1e-9).floor() * step).min(*max).to_string()
+            let steps = (range / step + 1e-9).floor();
+            // Of a range that is longer than any number the next whole number.
+            let number = match steps.is_finite() {
+                true => min + (((now - min) / step).round() + one).clamp(0.0, steps) * step,
+                false => now + one,
+            };
+            number.max(*min).min(*max).to_string()
         }
     };
     (other != value).then_some(other)
@@ -70,9 +74,11 @@ mod tests {
         let all = settings(
             r#"(name: "a", value: Bool(default: true)), (name: "b", value: OneOf(default: 4, of: [1, 2, 4, 8])),
                (name: "c", value: Number(default: 1.0, min: 0.25, max: 1.0)),
-               (name: "d", value: Integer(default: 3, min: 1, max: 10, step: 2))"#,
+               (name: "d", value: Integer(default: 3, min: 1, max: 10, step: 2)),
+               (name: "e", value: Number(default: 1.0, min: 1.0, max: 1.0)),
+               (name: "f", value: Number(default: 0.0, min: -1e308, max: 1e308))"#,
         );
-        let [a, b, c, d] = all.as_slice() else { panic!("{all:?}") };
+        let [a, b, c, d, e, f] = all.as_slice() else { panic!("{all:?}") };
         assert_eq!(walk(a, "true", true), ["true", "false"]);
         assert_eq!(walk(b, "4", true), ["4", "8", "1", "2"]);
         assert_eq!(walk(b, "4", false), ["4", "2", "1", "8"]);
@@ -81,5 +87,8 @@ mod tests {
         assert_eq!(walk(c, "0.25", true).last().map(|last| &**last), Some("1"));
         assert_eq!(walk(d, "3", true), ["3", "5", "7", "9"]);
         assert_eq!(walk(d, "3", false), ["3", "1"]);
+        assert_eq!(walk(e, "1", true), ["1"]);
+        assert_eq!(walk(f, "0", true)[1..3], ["1", "2"]);
+        assert_eq!(walk(f, "1e308", true).len(), 1);
     }
 }

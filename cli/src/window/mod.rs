@@ -27,7 +27,7 @@ const MINIMISED: Duration = Duration::from_millis(50);
 /// A step of a wheel, in the pixels that touch pads tell.
 const WHEEL_STEP: f64 = 40.0;
 
-const KEYS: &str = "keys: up, down: choose a setting; left, right: turn it; E: eyes; T: turn the screen; R: the scene's own camera; \
+const KEYS: &str = "keys: up, down: choose a setting; left, right: change it; E: one eye or two; T: rotate the screen; R: the scene's own camera; \
                     P: write a picture; Esc: end. The mouse turns the camera, with the right button it shifts it, the wheel \
                     goes nearer";
 
@@ -140,23 +140,24 @@ impl<'a> App<'a> {
             open.window.set_title(&title);
         }
         if self.arguments.frames.is_some_and(|most| open.session.shown() >= most) {
-            if let Some(path) = &self.arguments.output {
-                open.session.write(path)?;
-            }
-            self.end(events, Ok(()));
+            self.close(events);
         }
         Ok(())
+    }
+
+    /// Closes the window, and writes the last picture if the command line asks for it.
+    fn close(&mut self, events: &ActiveEventLoop) {
+        let written = match (&mut self.open, &self.arguments.output) {
+            (Some(open), Some(path)) if self.ended.is_none() => open.session.write(path),
+            _ => Ok(()),
+        };
+        self.end(events, written);
     }
 
     fn happens(&mut self, events: &ActiveEventLoop, event: WindowEvent) -> Result<(), Error> {
         let Some(Open { session, held, cursor, window, .. }) = &mut self.open else { return Ok(()) };
         match event {
-            WindowEvent::CloseRequested => {
-                if let Some(path) = &self.arguments.output {
-                    session.write(path)?;
-                }
-                self.end(events, Ok(()));
-            }
+            WindowEvent::CloseRequested => self.close(events),
             WindowEvent::Resized(PhysicalSize { width, height }) => session.resized([width, height]),
             WindowEvent::CursorMoved { position, .. } => {
                 let moved = [position.x - cursor[0], position.y - cursor[1]];
@@ -183,8 +184,9 @@ impl<'a> App<'a> {
                 MouseScrollDelta::PixelDelta(pixels) => pixels.y / WHEEL_STEP,
             }),
             WindowEvent::KeyboardInput {
-                event: KeyEvent { logical_key, state: ElementState::Pressed, .. }, ..
-            } => return self.pressed(events, &logical_key),
+                event: KeyEvent { logical_key, state: ElementState::Pressed, repeat, .. },
+                ..
+            } if !repeat || matches!(logical_key, Key::Named(_)) => return self.pressed(events, &logical_key),
             _ => {}
         }
         Ok(())
@@ -229,7 +231,7 @@ impl ApplicationHandler for App<'_> {
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
         if interrupt::asked() {
-            return self.end(events, Ok(()));
+            return self.close(events);
         }
         if self.ended.is_none()
             && let Err(error) = self.draw(events)

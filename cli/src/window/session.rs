@@ -10,6 +10,7 @@ use crate::planning::draws;
 use crate::system::{Exit, text};
 use framewright::{Presentation, ReadFiles, Renderer, RendererOptions, Scene, SceneDrawSource, Stereo, Swapchain};
 use framewright_graph::language::Setting;
+use framewright_graph::plan::Resource;
 use framewright_graph::vulkan::Rotation;
 use framewright_vulkan::{Device, Helper, Surface, SwapchainOptions};
 use std::collections::BTreeMap;
@@ -49,8 +50,10 @@ pub(super) struct Session<'a> {
     shown: u32,
     /// Whether the next one is to be written.
     picture_wanted: bool,
-    /// What keeps the newest choices or files from being shown.
-    wrong: Option<String>,
+    /// What keeps the files from being shown as they are, until they are read again.
+    mistake: Option<String>,
+    /// What keeps the newest choices from being shown, until a frame is.
+    refused: Option<String>,
     looked: Instant,
     title: Title,
 }
@@ -105,7 +108,6 @@ impl<'a> Session<'a> {
         renderer.set_scene(&scene);
         let stereo = Stereo::first_fit(&arguments.pipeline.stereo.0, &device.profile());
         let stereo = stereo.map_err(|why| Error::Stereo { why })?;
-        renderer.set_stereo(stereo)?;
         let swapchain = SwapchainOptions { extent: size, turned: true, ..SwapchainOptions::default() };
         let mut session = Session {
             arguments,
@@ -123,7 +125,8 @@ impl<'a> Session<'a> {
             last: None,
             shown: 0,
             picture_wanted: false,
-            wrong: None,
+            mistake: None,
+            refused: None,
             looked: Instant::now(),
             title: Title { since: Instant::now(), frames: 0, milliseconds: 0.0 },
             renderer,
@@ -150,7 +153,7 @@ impl<'a> Session<'a> {
         self.follow_files()?;
         let prepared = self.prepare();
         self.note(prepared)?;
-        let Some(source) = &mut self.source else { return Ok(true) };
+        let Some(source) = &mut self.source else { return Ok(false) };
         source.set_camera(self.orbit.camera())?;
         match self.renderer.present(source, &mut self.swapchain) {
             Ok(Presentation::Shown(frame)) => self.count(frame)?,
@@ -164,7 +167,9 @@ impl<'a> Session<'a> {
                 return Ok(false);
             }
             // The last good frame has another size or form than the window has now.
-            Err(framewright::Error::Vulkan(error @ framewright_vulkan::Error::BadResource { .. })) => {
+            Err(framewright::Error::Vulkan(error @ framewright_vulkan::Error::BadResource { .. }))
+                if self.shown > 0 =>
+            {
                 self.note(Err(error.into()))?;
                 return Ok(false);
             }
@@ -175,12 +180,18 @@ impl<'a> Session<'a> {
 
     /// Fits the frame to the window's images.
     fn fit(&mut self) -> Result<(), Error> {
+        let Some(extent) = self.swapchain.extent() else { return Ok(()) };
+        // A preview: the window isn't turned, and shows the picture as a turned screen would be given it.
+        let [width, height] = self.rotation.extent(extent);
+        let two = self.stereo != Stereo::Off;
+        if two && width % 2 == 1 {
+            text::say("note: a picture of an odd width can't be halved for two eyes: one is shown");
+        }
+        let two = two && width.is_multiple_of(2);
+        self.renderer.set_stereo(if two { self.stereo } else { Stereo::Off })?;
         self.renderer.fit(&self.swapchain)?;
-        if let (true, Some(extent)) = (self.rotation.turns(), self.swapchain.extent()) {
-            // A preview: the window isn't turned, and shows the picture as a turned screen would be given it.
-            let [width, height] = self.rotation.extent(extent);
-            let eyes = if self.stereo == Stereo::Off { 1 } else { 2 };
-            self.renderer.set_extent([(width / eyes).max(1), height])?;
+        if self.rotation.turns() {
+            self.renderer.set_extent([if two { width / 2 } else { width }, height])?;
             self.renderer.set_rotation(self.rotation);
         }
         Ok(())
@@ -199,26 +210,15 @@ impl<'a> Session<'a> {
             (source, _) => {
                 let mut made = SceneDrawSource::for_plan(&device, &self.scene, plan.extent, plan)?;
                 made.set_camera(self.orbit.camera())?;
-                *source = Some(made);
+                (*source, self.last) = (Some(made), None);
             }
         }
         Ok(())
     }
 
-    /// Keeps what a change to a file or another choice can mend, and says it once. The last good frame stays.
+    /// Keeps what another choice can mend, and says it once. The last good frame stays.
     fn note(&mut self, result: Result<(), Error>) -> Result<(), Error> {
-        match result {
-            Ok(()) => self.wrong = None,
-            Err(error) if error.can_be_mended_in_files() || matches!(error, Error::Vulkan(_)) && !is_fatal(&error) => {
-                let shown = error.shown();
-                if self.wrong.as_ref() != Some(&shown) {
-                    text::say(&shown);
-                    self.wrong = Some(shown);
-                }
-            }
-            Err(error) => return Err(error),
-        }
-        Ok(())
+        keep(result, &mut self.refused)
     }
 
     /// Reads files anew that have changed.
@@ -229,10 +229,17 @@ impl<'a> Session<'a> {
         self.looked = Instant::now();
         if self.renderer.files_changed() {
             std::thread::sleep(AT_REST);
-            let reloaded = self.renderer.reload().map(|_| self.source = None).map_err(Error::from);
+            let reloaded = self.renderer.reload().map_err(Error::from);
+            // What was chosen while the file was wrong counts again.
+            let reloaded = reloaded.and_then(|_| {
+                self.source = None;
+                self.renderer.set_scene(&self.scene);
+                self.fit()
+            });
             let fine = reloaded.is_ok();
-            self.note(reloaded)?;
+            keep(reloaded, &mut self.mistake)?;
             if fine {
+                self.mistake = None;
                 text::say(&format!("`{}` is drawn as it is now", text::path(&self.arguments.pipeline.file)));
             }
         }
@@ -245,13 +252,17 @@ impl<'a> Session<'a> {
                 self.orbit.follow(&scene);
                 (self.scene, self.source) = (scene, None);
             });
-            self.note(read)?;
+            if read.is_ok() {
+                self.mistake = None;
+            }
+            keep(read, &mut self.mistake)?;
         }
         Ok(())
     }
 
     fn count(&mut self, frame: u64) -> Result<(), Error> {
         (self.last, self.shown) = (Some(frame), self.shown.saturating_add(1));
+        self.refused = None;
         self.title.frames += 1;
         // The frame before is done, or nearly: nothing waits for the one that was just begun.
         if let Some(before) = frame.checked_sub(1)
@@ -280,7 +291,11 @@ impl<'a> Session<'a> {
         let milliseconds = self.title.milliseconds;
         let setting = self.setting().map(|(setting, value)| format!(" · {} = {value}", setting.name.text));
         let setting = setting.unwrap_or_default();
-        let wrong = if self.wrong.is_some() { " · the last good frame is shown: see the terminal" } else { "" };
+        let wrong = if self.mistake.is_some() || self.refused.is_some() {
+            " · the last good frame is shown: see the terminal"
+        } else {
+            ""
+        };
         let title =
             format!("{name} · {width}×{height} · {milliseconds:.1} ms · {each_second:.0} frames/s{setting}{wrong}");
         Some(text::escape(&title))
@@ -342,14 +357,23 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_eyes(&mut self) -> Result<(), Error> {
-        let other = if self.stereo == Stereo::Off { Stereo::DoubleWide } else { Stereo::Off };
-        let set = self.renderer.set_stereo(other).map_err(Error::from);
-        if set.is_ok() {
-            (self.stereo, self.source) = (other, None);
-            text::say(if other == Stereo::Off { "one eye" } else { "both eyes beside each other" });
+        self.stereo = if self.stereo == Stereo::Off { Stereo::DoubleWide } else { Stereo::Off };
+        let mut fitted = self.fit().and_then(|()| self.prepare());
+        if self.stereo != Stereo::Off && fitted.is_ok() && !self.shows_two_eyes() {
+            text::say("note: the first output has no picture for each eye: one is shown");
+            self.stereo = Stereo::Off;
+            fitted = self.fit();
+        } else if fitted.is_ok() {
+            text::say(if self.stereo == Stereo::Off { "one eye" } else { "both eyes beside each other" });
         }
-        let fitted = set.and_then(|()| self.fit());
         self.note(fitted)
+    }
+
+    /// Whether the first output has the pictures of both eyes beside each other.
+    fn shows_two_eyes(&self) -> bool {
+        let plan = self.renderer.plan();
+        let output = plan.and_then(|plan| Some((plan, plan.outputs.first()?.resource)));
+        matches!(output, Some((plan, Resource::Image(image))) if plan.image(image).eyes.is_some())
     }
 
     /// Turns the picture by a quarter, as screens that are mounted turned are given it.
@@ -406,10 +430,17 @@ impl<'a> Session<'a> {
     }
 }
 
-/// Whether no change of files or choices helps.
-fn is_fatal(error: &Error) -> bool {
-    match error {
-        Error::Vulkan(error) => !matches!(error.blame(), framewright_vulkan::Blame::Files),
-        _ => false,
+/// Keeps an error that a change to a file or another choice can mend, and says it, unless it was said last.
+fn keep(result: Result<(), Error>, kept: &mut Option<String>) -> Result<(), Error> {
+    match result {
+        Err(error) if error.can_be_mended_in_files() => {
+            let shown = error.shown();
+            if kept.as_ref() != Some(&shown) {
+                text::say(&shown);
+                *kept = Some(shown);
+            }
+            Ok(())
+        }
+        other => other,
     }
 }

@@ -127,6 +127,23 @@ impl<'s> Window<'s> {
         }
     }
 
+    /// Waits until the title has these words.
+    fn waits_for_title(&self, words: &str) {
+        let begun = Instant::now();
+        loop {
+            let utf8 = self.x.intern_atom(false, b"_NET_WM_NAME").expect("sent").reply().expect("an atom").atom;
+            let any = x11rb::protocol::xproto::AtomEnum::ANY;
+            let title =
+                self.x.get_property(false, self.window, utf8, any, 0, 256).expect("sent").reply().expect("a title");
+            let title = String::from_utf8_lossy(&title.value).into_owned();
+            if title.contains(words) {
+                return;
+            }
+            assert!(begun.elapsed() < Duration::from_secs(30), "`{words}` is not in `{title}`");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
     fn resize(&self, [width, height]: [u32; 2]) {
         let size = ConfigureWindowAux::new().width(width).height(height);
         self.x.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
@@ -255,11 +272,30 @@ fn a_mistake_in_a_file_leaves_the_last_good_frame_and_a_mended_file_is_drawn() {
     let Some(window) = Window::open(&place, &server, Vulkan::LAVAPIPE, &words) else { return };
     place.file("mine.ron", forward_with("draw: Sky", "draw: Skye"));
     window.waits_for("Skye");
+    window.waits_for_title("the last good frame is shown");
     place.file("mine.ron", FORWARD);
     window.waits_for("`mine.ron` is drawn as it is now");
     kill(Pid::from_raw(i32::try_from(window.child.id()).expect("a number")), Signal::SIGINT).expect("sent");
     let (code, said) = window.ends();
     assert_eq!(code, Some(0), "Ctrl-C closes it: {said}");
+}
+
+#[test]
+fn a_pipeline_without_a_picture_for_each_eye_shows_one() {
+    let Some(server) = server(true) else { return };
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    let words = [&["first.ron", "--validate"][..], &SCENE, &SIZE].concat();
+    let Some(window) = Window::open(&place, &server, Vulkan::LAVAPIPE_CURRENT, &words) else { return };
+    window.press(LETTER_E);
+    window.waits_for("the first output has no picture for each eye");
+    window.press(LETTER_P);
+    window.waits_for("wrote `first-001.png`");
+    window.press(ESCAPE);
+    let (code, said) = window.ends();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("validation: 0 findings"), "{said}");
+    assert_eq!(image::open(place.path("first-001.png")).expect("a picture").to_rgb8().dimensions(), (192, 108));
 }
 
 #[test]
@@ -275,6 +311,7 @@ fn what_keeps_a_window_from_opening_is_told_before_it_opens() {
         (&["window", "forwards"][..], 1, "there is no pipeline `forwards`"),
         (&["window", "forward", "--set", "msaa=3"], 2, "msaa"),
         (&["window", "forward", "--preset", "none"], 2, "none"),
+        (&["window", "forward", "-o", "a.exr"], 2, "a window's picture is a .png file"),
         (&["window", "forward", "--device", "nobody"], 3, "no device named nobody"),
         (&["window", "forward", "-o", "no/such/folder/a.png"], 3, "no/such/folder"),
     ] {
@@ -285,6 +322,11 @@ fn what_keeps_a_window_from_opening_is_told_before_it_opens() {
         let said = run(&place, &server, &variables, &[&["window", "forward"][..], &SCENE].concat()).exits(3);
         said.mentions("the driver shows nothing on this display: it lacks VK_KHR_xlib_surface");
     }
+    // What the first output is can't be shown, which no frame mends.
+    place.file("light.ron", forward_with("outputs: [\"screen\"]", "outputs: [\"color\"]"));
+    run(&place, &server, &variables, &[&["window", "light.ron"][..], &SCENE].concat())
+        .exits(1)
+        .mentions("can't be shown");
     place.file("wrong.ron", forward_with("draw: Sky", "draw: Skye"));
     run(&place, &server, &variables, &[&["window", "wrong.ron"][..], &SCENE].concat()).exits(1).mentions("Skye");
 }

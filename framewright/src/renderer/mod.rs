@@ -39,8 +39,6 @@ pub struct Renderer {
     drawn: Option<Drawn>,
     /// Whether anything changed since it was planned.
     changed: bool,
-    /// The number of the next frame.
-    next: u64,
 }
 
 /// The Plan that is drawn, with its executor and the choices that it was made for.
@@ -98,7 +96,6 @@ impl Renderer {
             compiler: Compiler::new(),
             drawn: None,
             changed: true,
-            next: 0,
         })
     }
 
@@ -236,9 +233,10 @@ impl Renderer {
             Change::Values
         } else {
             let mut executor = reading.executor(device, plan, &options.executor)?;
+            let first = drawn.as_ref().map_or(0, |before| before.first + before.executor.frames());
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
-            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone(), first: self.next });
+            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone(), first });
             Change::Executor { carried_over }
         };
         self.changed = false;
@@ -287,9 +285,7 @@ impl Renderer {
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         self.prepare()?;
         let drawn = self.drawn()?;
-        let frame = drawn.first + drawn.executor.submit(source)?;
-        self.next = frame + 1;
-        Ok(frame)
+        Ok(drawn.first + drawn.executor.submit(source)?)
     }
 
     /// Draws a frame into the next image of a window that it [fits](Renderer::fit), and has it shown: the first output. See
@@ -304,12 +300,11 @@ impl Renderer {
         let (first, mut shown) = (*first, executor.present(source, window, name)?);
         if let Presentation::Shown(frame) | Presentation::Suboptimal(frame) = &mut shown {
             *frame += first;
-            self.next = *frame + 1;
         }
         Ok(shown)
     }
 
-    /// Waits until the device is done with a frame. One of an earlier executor is done.
+    /// Waits until the device is done with a frame. A frame of an earlier executor counts as done.
     ///
     /// # Errors
     /// Those of [`Executor::wait`].
@@ -327,7 +322,7 @@ impl Renderer {
     /// Those of [`Executor::report`].
     pub fn report(&mut self, frame: u64) -> Result<FrameReport, Error> {
         let drawn = self.drawn()?;
-        let own = frame.checked_sub(drawn.first).unwrap_or(u64::MAX);
+        let own = drawn.own(frame)?;
         Ok(drawn.executor.report(own)?)
     }
 
@@ -349,7 +344,7 @@ impl Renderer {
     pub fn read_back(&mut self, frame: u64, name: &str) -> Result<Texels, Error> {
         let drawn = self.drawn()?;
         let output = drawn.output(name)?;
-        let own = frame.checked_sub(drawn.first).unwrap_or(u64::MAX);
+        let own = drawn.own(frame)?;
         Ok(drawn.executor.read_back_image(own, output)?)
     }
 
@@ -389,6 +384,13 @@ impl Renderer {
 }
 
 impl Drawn {
+    /// The number that the executor has for a frame.
+    fn own(&self, frame: u64) -> Result<u64, Error> {
+        let earlier =
+            || framewright_vulkan::Error::BadResource { what: format!("frame {frame} was drawn by an earlier Plan") };
+        Ok(frame.checked_sub(self.first).ok_or_else(earlier)?)
+    }
+
     /// The number of an output.
     fn output(&self, name: &str) -> Result<usize, Error> {
         let outputs = &self.plan.outputs;
