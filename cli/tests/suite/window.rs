@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
     ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, InputFocus, KEY_PRESS_EVENT,
-    KEY_RELEASE_EVENT,
+    KEY_RELEASE_EVENT, MapState,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -163,9 +163,25 @@ impl<'s> Window<'s> {
         self.x.sync().expect("the server has done it");
     }
 
+    /// Waits until the window is shown and has the focus.
+    fn is_focused(&self) {
+        let begun = Instant::now();
+        loop {
+            let shown = self.x.get_window_attributes(self.window).expect("sent").reply().expect("its attributes");
+            if shown.map_state == MapState::VIEWABLE {
+                let _ = self.x.set_input_focus(InputFocus::PARENT, self.window, 0_u32).expect("sent").check();
+                if self.x.get_input_focus().expect("sent").reply().expect("the focus").focus == self.window {
+                    return;
+                }
+            }
+            assert!(begun.elapsed() < Duration::from_secs(30), "the window has no focus");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
     /// Presses and releases a key, by its code on a usual keyboard.
     fn press(&self, code: u8) {
-        self.x.set_input_focus(InputFocus::PARENT, self.window, 0_u32).expect("sent").check().expect("focus");
+        self.is_focused();
         for event in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
             self.x.xtest_fake_input(event, code, 0, self.root, 0, 0, 0).expect("sent").check().expect("a key");
         }
