@@ -207,7 +207,6 @@ impl Frames {
             waits.push(self.point(awaited.queue, value));
         }
         signals.clear();
-        signals.extend(self.signalled(batch, frame).map(|value| self.point(batch.queue, value)));
         match &self.outer {
             // The first batch of each queue.
             Some(outer) if !among.waits.is_empty() => {
@@ -221,6 +220,8 @@ impl Frames {
                 signals.extend(among.signals.iter().filter(|_| batch.last).map(SemaphorePoint::info));
             }
         }
+        // Last, since drivers signal one after the other: who has waited for it may destroy the program's.
+        signals.extend(self.signalled(batch, frame).map(|value| self.point(batch.queue, value)));
         let submitted = self.queue_submit(batch.queue, &waits, Some(self.slots[slot].commands[number].1), &signals);
         (self.waits, self.signals) = (waits, signals);
         submitted
