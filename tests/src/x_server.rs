@@ -1,7 +1,15 @@
 //! An X server that nobody sees, for tests that show windows.
 
+use std::error::Error;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{AtomEnum, ConnectionExt};
+use x11rb::rust_connection::RustConnection;
+
+/// How long a window manager may take to start.
+const STARTS: Duration = Duration::from_secs(60);
 
 /// A running X server, and perhaps a window manager. They end with it.
 pub struct XServer {
@@ -48,7 +56,22 @@ impl XServer {
             .spawn();
         started.manager =
             Some(manager.map_err(|error| format!("no openbox ({error}); mend it with: apt-get install openbox"))?);
+        started.wait_for_manager().map_err(|error| error.to_string())?;
         Ok(started)
+    }
+
+    /// Waits until the window manager has taken over, as its property of the root window says.
+    fn wait_for_manager(&self) -> Result<(), Box<dyn Error>> {
+        let (x, screen) = RustConnection::connect(Some(&self.display))?;
+        let (root, begun) = (x.setup().roots[screen].root, Instant::now());
+        let check = x.intern_atom(false, b"_NET_SUPPORTING_WM_CHECK")?.reply()?.atom;
+        while x.get_property(false, root, check, AtomEnum::ANY, 0, 1)?.reply()?.value.is_empty() {
+            if begun.elapsed() > STARTS {
+                return Err("openbox doesn't start".into());
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        Ok(())
     }
 
     /// The value of `DISPLAY` for programs that show windows on it.
