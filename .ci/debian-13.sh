@@ -11,7 +11,7 @@
 set -euo pipefail
 
 root=${FRAMEWRIGHT_DEBIAN_13:-${XDG_CACHE_HOME:-$HOME/.cache}/framewright/debian-13}
-packages="libstdc++6 libvulkan1 mesa-vulkan-drivers vulkan-validationlayers spirv-tools procps"
+packages="libstdc++6 libvulkan1 mesa-vulkan-drivers vulkan-validationlayers spirv-tools procps xvfb"
 # Written first: a folder that holds anything else is never removed.
 begun=$root/.made-by-framewright
 # Written last, so that a folder without it is only half made.
