@@ -56,7 +56,7 @@ pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
 pub use gpu::{
     AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
-    SamplerDescriptor, Severity, layer, minimum_features, optional_features, rotation_of_surface,
+    SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features, optional_features, rotation_of_surface,
 };
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
@@ -68,5 +68,5 @@ pub use record::{
     CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
     Recorder, StepReport,
 };
-pub use resources::{BindGroup, Buffer, BufferUsage, Resource, Texture};
+pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
 pub use shaders::ShaderLibrary;

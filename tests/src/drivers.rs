@@ -1,11 +1,11 @@
-//! The software drivers and validation layers that tests name, and where their packages put them. Which version a driver has
-//! is the machine's: the same tests run on each.
+//! The drivers and validation layers that tests name, and where the packages of software drivers put them. Which version a
+//! driver has is the machine's: the same tests run on each.
 
 use clap::ValueEnum;
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// A software driver.
+/// A driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Driver {
     /// Mesa's, from `mesa-vulkan-drivers`.
@@ -13,6 +13,8 @@ pub enum Driver {
     /// Google's, from `chromium-common`.
     #[value(name = "swiftshader")]
     SwiftShader,
+    /// That of this machine's GPU, which the Vulkan loader finds by itself.
+    Gpu,
 }
 
 /// The current validation layer, from `chromium-common`; `framewright` finds it by itself.
@@ -25,8 +27,8 @@ pub const DISTRIBUTION_LAYERS: &str = "/usr/share/vulkan/explicit_layer.d";
 const DRIVERS: &str = "/usr/share/vulkan/icd.d";
 
 impl Driver {
-    /// All of them.
-    pub const ALL: [Driver; 2] = [Driver::Lavapipe, Driver::SwiftShader];
+    /// The software drivers.
+    pub const SOFTWARE: [Driver; 2] = [Driver::Lavapipe, Driver::SwiftShader];
 
     /// Its name, as the commands and the shipped profiles have it.
     #[must_use]
@@ -34,10 +36,11 @@ impl Driver {
         match self {
             Driver::Lavapipe => "lavapipe",
             Driver::SwiftShader => "swiftshader",
+            Driver::Gpu => "gpu",
         }
     }
 
-    /// The file that leads the Vulkan loader to it; `None` if it isn't installed.
+    /// The file that leads the Vulkan loader to it; `None` if it isn't installed, or is the GPU's.
     #[must_use]
     pub fn manifest(self) -> Option<&'static str> {
         static LAVAPIPE: OnceLock<Option<String>> = OnceLock::new();
@@ -45,6 +48,7 @@ impl Driver {
         match self {
             Driver::Lavapipe => LAVAPIPE.get_or_init(lavapipe).as_deref(),
             Driver::SwiftShader => Path::new(SWIFTSHADER).exists().then_some(SWIFTSHADER),
+            Driver::Gpu => None,
         }
     }
 

@@ -8,13 +8,13 @@ use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
-use crate::gpu::{Device, Gpu, PipelineHold};
-use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
+use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
+use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, scope_formats, stage_textures};
 use crate::record::{DrawSource, FrameReport, Guarded};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, Work};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -214,6 +214,18 @@ impl Executor {
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// What pipelines must fit that a program binds itself in the pass of this name, by [`crate::Recorder::raw`]; `None` if
+    /// no rendering scope has such a pass. Frames that are recorded later need them, so they can be made meanwhile.
+    #[must_use]
+    pub fn formats(&self, pass: &str) -> Option<ScopeFormats> {
+        let scopes = self.plan.steps.iter().filter_map(|step| match &step.work {
+            Work::Render(scope) => Some(scope),
+            _ => None,
+        });
+        let mut with_pass = scopes.filter(|scope| scope.passes.iter().any(|it| *it.name == *pass));
+        with_pass.next().map(|scope| scope_formats(&self.plan, scope))
     }
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number.

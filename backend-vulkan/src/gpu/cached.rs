@@ -150,6 +150,23 @@ pub(crate) struct LayoutBinding {
     pub(crate) stages: vk::ShaderStageFlags,
 }
 
+/// What a graphics pipeline must fit to be bound in a rendering scope: the fields of `VkPipelineRenderingCreateInfo`, and the samples.
+/// Scopes that are equal here can share pipelines.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub struct ScopeFormats {
+    /// Formats of the colour attachments. A scope without any has one that is unused, of the format `UNDEFINED`.
+    pub color: Vec<vk::Format>,
+    /// The format of the depth attachment; `UNDEFINED` if there is none.
+    pub depth: vk::Format,
+    /// The format of the stencil attachment; `UNDEFINED` if there is none.
+    pub stencil: vk::Format,
+    /// Samples of each attachment.
+    pub samples: vk::SampleCountFlags,
+    /// Views that are drawn at once, a bit for each; 0 where there are none.
+    pub view_mask: u32,
+}
+
 /// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineDescriptor {
@@ -160,15 +177,11 @@ pub(crate) struct PipelineDescriptor {
     /// Bytes from vertex to vertex in each vertex buffer.
     pub(crate) strides: Vec<u32>,
     pub(crate) attributes: Vec<VertexAttribute>,
-    /// The format of each colour attachment, and how it is blended. `None`: the attachment isn't written.
-    pub(crate) color: Vec<(Format, Option<Blend>)>,
-    pub(crate) depth_format: Option<Format>,
+    pub(crate) formats: ScopeFormats,
+    /// How each colour attachment is blended. `None`: it isn't written.
+    pub(crate) blend: Vec<Option<Blend>>,
     pub(crate) depth: Option<DepthState>,
-    pub(crate) stencil_format: Option<Format>,
     pub(crate) stencil: Option<StencilState>,
-    /// Views that are drawn at once, a bit for each; 0 where there are none.
-    pub(crate) view_mask: u32,
-    pub(crate) samples: u32,
     pub(crate) alpha_to_coverage: bool,
     pub(crate) local: Option<LocalRead>,
     pub(crate) turned: Option<RotationConstants>,

@@ -16,7 +16,7 @@ mod validation;
 mod words;
 
 pub use adopted::AdoptedDevice;
-pub use cached::SamplerDescriptor;
+pub use cached::{SamplerDescriptor, ScopeFormats};
 pub use device::{Device, DeviceOptions};
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;

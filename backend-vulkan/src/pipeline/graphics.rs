@@ -97,6 +97,7 @@ fn create(
     vertex: &ShaderModule<'_>,
     fragment: Option<&ShaderModule<'_>>,
 ) -> Result<vk::Pipeline, Error> {
+    let formats = &descriptor.formats;
     let (entries, constants) = (RotationConstants::entries(), descriptor.turned.map(RotationConstants::constants));
     let constants = constants.as_deref();
     let specialization = constants.map(|data| vk::SpecializationInfo::default().map_entries(&entries).data(data));
@@ -123,7 +124,7 @@ fn create(
     let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
     let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-        .rasterization_samples(convert::samples(descriptor.samples))
+        .rasterization_samples(formats.samples)
         .alpha_to_coverage_enable(descriptor.alpha_to_coverage);
     let mut depth = vk::PipelineDepthStencilStateCreateInfo::default();
     if let Some(state) = descriptor.depth {
@@ -144,7 +145,7 @@ fn create(
         };
         depth = depth.stencil_test_enable(true).front(face).back(face);
     }
-    let blends = or_unused(descriptor.color.iter().map(|(_, blend)| blend_state(*blend)));
+    let blends = or_unused(descriptor.blend.iter().map(|blend| blend_state(*blend)));
     let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
     let dynamic = [
         vk::DynamicState::VIEWPORT,
@@ -153,12 +154,11 @@ fn create(
         vk::DynamicState::FRONT_FACE,
     ];
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-    let formats = or_unused(descriptor.color.iter().map(|(format, _)| convert::format(*format)));
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
-        .view_mask(descriptor.view_mask)
-        .color_attachment_formats(&formats)
-        .depth_attachment_format(descriptor.depth_format.map_or(vk::Format::UNDEFINED, convert::format))
-        .stencil_attachment_format(descriptor.stencil_format.map_or(vk::Format::UNDEFINED, convert::format));
+        .view_mask(formats.view_mask)
+        .color_attachment_formats(&formats.color)
+        .depth_attachment_format(formats.depth)
+        .stencil_attachment_format(formats.stencil);
     let local = descriptor.local.as_ref();
     let mut locations = vk::RenderingAttachmentLocationInfoKHR::default()
         .color_attachment_locations(local.map_or(&[][..], |local| &local.locations[..]));

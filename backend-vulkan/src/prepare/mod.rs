@@ -39,4 +39,4 @@ pub(crate) use step::{PreparedStep, title};
 pub(crate) use supplied::SuppliedSets;
 pub(crate) use textures::{StagedTexture, stage_textures};
 pub(crate) use uses::{ResourceUses, passes};
-pub(crate) use variant::view_mask;
+pub(crate) use variant::{scope_formats, view_mask};

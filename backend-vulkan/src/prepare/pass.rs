@@ -6,9 +6,9 @@ use super::command_list::{
 use super::frame::Frame;
 use super::pass_set::PassSets;
 use super::supplied::SuppliedSets;
-use super::variant::{variant, view_mask};
+use super::variant::{scope_formats, variant};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -37,8 +37,8 @@ pub(crate) struct PreparedDraw {
 }
 
 /// State of the pass's pipeline that a recorder must know.
-#[derive(Default)]
 pub(crate) struct PassState {
+    pub(crate) formats: ScopeFormats,
     pub(crate) supplied: SuppliedSets,
     /// Bytes from vertex to vertex of what the draw source provides; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
@@ -194,13 +194,19 @@ pub(super) fn prepare_draw(
         Draw::Indirect => Some(indirect(pass).map_err(mismatch)?),
         _ => None,
     };
+    let formats = scope_formats(plan, scope);
     let nothing = |sets| PreparedDraw {
         draw,
         sets,
         pipeline: None,
         sized: None,
         local: None,
-        state: PassState::default(),
+        state: PassState {
+            formats: formats.clone(),
+            supplied: SuppliedSets::default(),
+            vertex_stride: 0,
+            usual_vertices: false,
+        },
         vertices: Vec::new(),
         indices,
         indirect,
@@ -234,7 +240,6 @@ pub(super) fn prepare_draw(
     let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
-    let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
     let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
     let rotation = plan.rotation(scope);
     let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
@@ -246,13 +251,10 @@ pub(super) fn prepare_draw(
         layout: supplied.layout,
         strides: strides.clone(),
         attributes,
-        color: scope.color.iter().zip(0_usize..).map(|(it, number)| (format(it), blend(&number))).collect(),
-        depth_format: scope.depth.as_ref().map(format),
+        formats: formats.clone(),
+        blend: (0..scope.color.len()).map(|number| blend(&number)).collect(),
         depth: pass.depth,
-        stencil_format: scope.stencil.as_ref().map(format),
         stencil: pass.stencil,
-        view_mask: view_mask(plan, scope),
-        samples: scope.samples,
         alpha_to_coverage: pass.alpha_to_coverage,
         local: local.clone(),
         turned,
@@ -261,7 +263,7 @@ pub(super) fn prepare_draw(
     let pipeline = Some(gpu.pipeline(&pass.name, descriptor)?);
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
-    let state = PassState { supplied, vertex_stride: brought_stride, usual_vertices };
+    let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
     Ok(PreparedDraw { pipeline, sized, local, state, vertices, ..nothing(sets) })
 }
 

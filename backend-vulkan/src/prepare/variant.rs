@@ -1,8 +1,11 @@
-//! How a Plan has a pass's shader compiled, and for how many views at once it is drawn.
+//! How a Plan has a pass's shader compiled, and what its pipeline must fit.
 
-use crate::base::Error;
+use crate::base::{Error, convert};
+use crate::gpu::ScopeFormats;
+use crate::pipeline::or_unused;
+use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
-use framewright_graph::plan::{self, BindingKind, Plan, RenderScope};
+use framewright_graph::plan::{self, Attachment, BindingKind, Plan, RenderScope};
 use framewright_graph::shader::{EyeSource, MOST_PARTS, Variant};
 
 /// How the Plan has the shader of a pass compiled, which draws into images that hold both eyes' parts so.
@@ -49,4 +52,17 @@ pub(super) fn variant(plan: &Plan, pass: &plan::Pass, form: Option<EyeForm>) -> 
 /// The views that a scope draws at once, a bit for each; 0 where it draws none but its own.
 pub(crate) fn view_mask(plan: &Plan, scope: &RenderScope) -> u32 {
     if plan.stereo == Stereo::Multiview && plan.eyes(scope).is_some() { 0b11 } else { 0 }
+}
+
+/// What the pipelines of a scope must fit.
+pub(crate) fn scope_formats(plan: &Plan, scope: &RenderScope) -> ScopeFormats {
+    let format = |attachment: &Attachment| convert::format(plan.image(attachment.image).format);
+    let or_none = |attachment: &Option<Attachment>| attachment.as_ref().map_or(vk::Format::UNDEFINED, format);
+    ScopeFormats {
+        color: or_unused(scope.color.iter().map(format)),
+        depth: or_none(&scope.depth),
+        stencil: or_none(&scope.stencil),
+        samples: convert::samples(scope.samples),
+        view_mask: view_mask(plan, scope),
+    }
 }

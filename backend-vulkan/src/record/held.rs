@@ -36,6 +36,11 @@ impl<T> Held<T> {
         }
         self.used += 1;
     }
+
+    /// The last ones of this number that were held.
+    pub(super) fn last(&self, number: usize) -> &[Arc<T>] {
+        &self.list[self.used.saturating_sub(number)..self.used]
+    }
 }
 
 impl HeldResources {

@@ -4,6 +4,7 @@ use super::canvas::Canvas;
 use super::held::HeldResources;
 use super::state::{CullMode, FrontFace};
 use super::supplied::BoundSets;
+use crate::gpu::ScopeFormats;
 use crate::prepare::{PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
 use ash::vk;
@@ -89,12 +90,17 @@ impl<'f> Recorder<'f> {
     /// The command buffer, recording inside the pass's rendering scope, for commands of the program's own. To record is
     /// unsafe: nothing but the scope's attachments and the program's own resources may be touched, and the scope must be
     /// left open. What the recorder's own methods rely on (pipeline, sets, buffers) must be left bound, or no such method
-    /// be called any more. A scope without colour attachments has one that is unused: pipelines of the program's own give it
-    /// the format `UNDEFINED`.
+    /// be called any more. Pipelines of the program's own must fit [`Recorder::formats`].
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
         self.canvas.state.lose_track();
         self.canvas.commands
+    }
+
+    /// What pipelines of the program's own must fit to be bound here. [`crate::Executor::formats`] tells it before the first frame.
+    #[must_use]
+    pub fn formats(&self) -> &ScopeFormats {
+        &self.pass.formats
     }
 
     /// Width and height of the picture that is drawn, upright.

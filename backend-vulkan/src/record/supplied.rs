@@ -33,19 +33,25 @@ impl<'f> BoundSets<'f> {
     /// # Errors
     /// In words: a group of another device, or one that doesn't fit.
     pub(super) fn bind(&mut self, commands: vk::CommandBuffer, set: u32, group: &BindGroup) -> Result<(), String> {
-        if !group.0.set.is_of(self.gpu) {
+        if !group.0.is_of(self.gpu) {
             return Err("the bind group belongs to another device".to_owned());
         }
         let index = (set as usize).wrapping_sub(1);
         match self.supplied.sets.get(index) {
             None => Err(format!("the draw interface has no set {set}")),
-            Some((layout, _)) if *layout != group.0.set.layout => {
+            Some((layout, _)) if *layout != group.0.layout => {
                 Err(format!("the bind group was made for another set than {set}, or another draw interface"))
             }
             Some(_) => {
                 self.held.bound[index] = true;
                 self.held.groups.hold(&group.0);
-                bind_set(self.gpu, commands, self.point, self.supplied.layout, set, group.0.set.raw);
+                let mut copies = 0;
+                for buffer in group.0.dynamic_buffers() {
+                    self.held.buffers.hold(&buffer.0.current());
+                    copies += 1;
+                }
+                let raw = group.0.set(self.held.buffers.last(copies)).map_err(|error| error.to_string())?;
+                bind_set(self.gpu, commands, self.point, self.supplied.layout, set, raw);
                 Ok(())
             }
         }

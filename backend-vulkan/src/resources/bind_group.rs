@@ -1,12 +1,14 @@
 //! Bind groups: the descriptor sets that a draw source brings along.
 
+use super::dynamic_buffer::DynamicBuffer;
 use super::texture::{Buffer, Texture};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, LayoutBinding};
+use crate::memory::RawBuffer;
 use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought};
 use ash::vk;
 use framewright_graph::shader::{DrawInterface, PASS_SET, SuppliedKind};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The stages that see what a draw source brings along.
 const SUPPLIED_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
@@ -20,6 +22,8 @@ const SUPPLIED_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
 pub enum Resource<'r> {
     /// For a uniform or storage block.
     Buffer(&'r Buffer),
+    /// For a uniform or storage block whose contents change: those that were written last when the group is bound.
+    Dynamic(&'r DynamicBuffer),
     /// For a sampled image.
     Texture(&'r Texture),
 }
@@ -30,9 +34,75 @@ pub struct BindGroup(pub(crate) Arc<RawBindGroup>);
 
 /// A bind group's parts. Fields are dropped in this order.
 pub(crate) struct RawBindGroup {
-    pub(crate) set: DescriptorSet,
-    _buffers: Vec<Buffer>,
+    gpu: Arc<Gpu>,
+    pub(crate) layout: vk::DescriptorSetLayout,
+    sets: Sets,
     _textures: Vec<Texture>,
+}
+
+/// The descriptor sets of a bind group.
+enum Sets {
+    /// One, for contents that stay.
+    One { set: DescriptorSet, _buffers: Vec<Buffer> },
+    /// One for each choice of copies of its dynamic buffers that was bound so far.
+    Each { bindings: Vec<(LayoutBinding, Bound)>, made: Mutex<Vec<SetOfCopies>>, _buffers: Vec<Buffer> },
+}
+
+/// A descriptor set, and the copies of dynamic buffers that it points to, in the order of bindings.
+struct SetOfCopies {
+    copies: Vec<vk::Buffer>,
+    set: DescriptorSet,
+}
+
+/// What a binding of a group points to.
+enum Bound {
+    Target(DescriptorTarget),
+    Dynamic(DynamicBuffer),
+}
+
+impl RawBindGroup {
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, gpu: &Gpu) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.gpu), gpu)
+    }
+
+    /// Its dynamic buffers, in the order of bindings.
+    pub(crate) fn dynamic_buffers(&self) -> impl Iterator<Item = &DynamicBuffer> {
+        let bindings = match &self.sets {
+            Sets::One { .. } => &[][..],
+            Sets::Each { bindings, .. } => bindings,
+        };
+        bindings.iter().filter_map(|(_, bound)| match bound {
+            Bound::Target(_) => None,
+            Bound::Dynamic(buffer) => Some(buffer),
+        })
+    }
+
+    /// The descriptor set for these copies of its dynamic buffers.
+    ///
+    /// # Errors
+    /// No memory for another set.
+    pub(crate) fn set(&self, copies: &[Arc<RawBuffer>]) -> Result<vk::DescriptorSet, Error> {
+        let (bindings, made) = match &self.sets {
+            Sets::One { set, .. } => return Ok(set.raw),
+            Sets::Each { bindings, made, .. } => (bindings, made),
+        };
+        let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_these = |it: &&SetOfCopies| it.copies.iter().eq(copies.iter().map(|copy| &copy.raw));
+        if let Some(found) = made.iter().find(of_these) {
+            return Ok(found.set.raw);
+        }
+        let copies: Vec<_> = copies.iter().map(|copy| copy.raw).collect();
+        let mut left = copies.iter();
+        let bindings = bindings.iter().map(|(binding, bound)| match bound {
+            Bound::Target(target) => (*binding, *target),
+            Bound::Dynamic(_) => (*binding, DescriptorTarget::Buffer(left.next().copied().unwrap_or_default())),
+        });
+        let set = DescriptorSet::new(&self.gpu, &bindings.collect::<Vec<_>>())?;
+        let raw = set.raw;
+        made.push(SetOfCopies { copies, set });
+        Ok(raw)
+    }
 }
 
 impl Device {
@@ -59,6 +129,7 @@ impl Device {
         }
         let is_own = |resource: &Resource<'_>| match resource {
             Resource::Buffer(buffer) => buffer.0.is_of(&self.gpu),
+            Resource::Dynamic(buffer) => buffer.0.is_of(&self.gpu),
             Resource::Texture(texture) => texture.0.image.is_of(&self.gpu),
         };
         if !resources.iter().all(|(_, resource)| is_own(resource)) {
@@ -70,32 +141,47 @@ impl Device {
             let name = &wanted.name;
             let given = resources.iter().filter(|(binding, _)| *binding == wanted.binding).map(|(_, given)| given);
             let given: Vec<_> = given.collect();
-            let target = match (wanted.kind, &given[..]) {
-                (SuppliedKind::UniformBlock, [Resource::Buffer(it)]) if it.is(vk::BufferUsageFlags::UNIFORM_BUFFER) => {
+            let flags = match wanted.kind {
+                SuppliedKind::UniformBlock => Some(vk::BufferUsageFlags::UNIFORM_BUFFER),
+                SuppliedKind::StorageBlock => Some(vk::BufferUsageFlags::STORAGE_BUFFER),
+                SuppliedKind::SampledImage => None,
+            };
+            let bound = match (wanted.kind, &given[..]) {
+                (_, [Resource::Buffer(it)]) if flags.is_some_and(|flags| it.0.usage.contains(flags)) => {
                     buffers.push((*it).clone());
-                    DescriptorTarget::Buffer(it.0.raw)
+                    Bound::Target(DescriptorTarget::Buffer(it.0.raw))
                 }
-                (SuppliedKind::StorageBlock, [Resource::Buffer(it)]) if it.is(vk::BufferUsageFlags::STORAGE_BUFFER) => {
-                    buffers.push((*it).clone());
-                    DescriptorTarget::Buffer(it.0.raw)
+                (_, [Resource::Dynamic(it)]) if flags.is_some_and(|flags| it.0.flags.contains(flags)) => {
+                    Bound::Dynamic((*it).clone())
                 }
                 (SuppliedKind::SampledImage, [Resource::Texture(it)]) => {
                     textures.push((*it).clone());
-                    DescriptorTarget::Image(it.0.view, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL, it.0.sampler)
+                    let layout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+                    Bound::Target(DescriptorTarget::Image(it.0.view, layout, it.0.sampler))
                 }
                 (kind, [_]) => return Err(bad(format!("`{name}` is a {kind:?}, and something else was given"))),
                 (_, given) => return Err(bad(format!("`{name}` is needed once and was given {} times", given.len()))),
             };
-            bindings.push((layout_binding(wanted.binding, wanted.kind), target));
+            bindings.push((layout_binding(wanted.binding, wanted.kind), bound));
         }
-        let set = DescriptorSet::new(&self.gpu, &bindings)?;
-        Ok(BindGroup(Arc::new(RawBindGroup { set, _buffers: buffers, _textures: textures })))
+        let layout = self.gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
+        let fixed: Option<Vec<_>> =
+            bindings.iter().map(|(binding, bound)| bound.target().map(|it| (*binding, it))).collect();
+        let sets = match fixed {
+            Some(fixed) => Sets::One { set: DescriptorSet::new(&self.gpu, &fixed)?, _buffers: buffers },
+            None => Sets::Each { bindings, made: Mutex::default(), _buffers: buffers },
+        };
+        Ok(BindGroup(Arc::new(RawBindGroup { gpu: self.gpu.clone(), layout, sets, _textures: textures })))
     }
 }
 
-impl Buffer {
-    fn is(&self, usage: vk::BufferUsageFlags) -> bool {
-        self.0.usage.contains(usage)
+impl Bound {
+    /// What it always points to.
+    const fn target(&self) -> Option<DescriptorTarget> {
+        match self {
+            Bound::Target(target) => Some(*target),
+            Bound::Dynamic(_) => None,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::base::Error;
 use crate::commands::{record_upload, staged};
-use crate::gpu::{Device, SamplerDescriptor};
+use crate::gpu::{Device, Gpu, SamplerDescriptor};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
@@ -47,24 +47,32 @@ impl Buffer {
     }
 }
 
+/// What Vulkan calls the usage of a buffer of `bytes` bytes.
+///
+/// # Errors
+/// [`Error::BadResource`] if they are more than a block of the device can hold.
+pub(super) fn flags_of(gpu: &Gpu, usage: BufferUsage, bytes: u64) -> Result<vk::BufferUsageFlags, Error> {
+    let limits = &gpu.limits;
+    let (flags, most) = match usage {
+        BufferUsage::Vertex => (vk::BufferUsageFlags::VERTEX_BUFFER, u64::MAX),
+        BufferUsage::Index => (vk::BufferUsageFlags::INDEX_BUFFER, u64::MAX),
+        BufferUsage::Uniform => (vk::BufferUsageFlags::UNIFORM_BUFFER, u64::from(limits.max_uniform_buffer_range)),
+        BufferUsage::Storage => (vk::BufferUsageFlags::STORAGE_BUFFER, u64::from(limits.max_storage_buffer_range)),
+    };
+    if bytes > most {
+        let what = format!("{usage:?} buffer of {bytes} bytes: {} takes at most {most}", gpu.summary.name);
+        return Err(Error::BadResource { what });
+    }
+    Ok(flags)
+}
+
 impl Device {
     /// A buffer with these contents. An empty one holds 16 zero bytes, since Vulkan knows no empty buffers.
     ///
     /// # Errors
     /// No memory, or more than a uniform or storage block of this device can hold.
     pub fn buffer(&self, usage: BufferUsage, contents: &[u8]) -> Result<Buffer, Error> {
-        let limits = &self.gpu.limits;
-        let (flags, most) = match usage {
-            BufferUsage::Vertex => (vk::BufferUsageFlags::VERTEX_BUFFER, u64::MAX),
-            BufferUsage::Index => (vk::BufferUsageFlags::INDEX_BUFFER, u64::MAX),
-            BufferUsage::Uniform => (vk::BufferUsageFlags::UNIFORM_BUFFER, u64::from(limits.max_uniform_buffer_range)),
-            BufferUsage::Storage => (vk::BufferUsageFlags::STORAGE_BUFFER, u64::from(limits.max_storage_buffer_range)),
-        };
-        let bytes = contents.len() as u64;
-        if bytes > most {
-            let what = format!("{usage:?} buffer of {bytes} bytes: {} takes at most {most}", self.gpu.summary.name);
-            return Err(Error::BadResource { what });
-        }
+        let flags = flags_of(&self.gpu, usage, contents.len() as u64)?;
         let contents = if contents.is_empty() { &[0; 16] } else { contents };
         let mut buffer = RawBuffer::shared(&self.gpu, "buffer", contents.len() as u64, flags, MemoryUse::Upload)?;
         buffer.fill(contents)?;

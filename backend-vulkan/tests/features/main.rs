@@ -1,4 +1,4 @@
-//! Features of frames, one by one: small frames compiled and executed on each software driver under the validation layer, and
+//! Features of frames, one by one: small frames compiled and executed on each driver under the validation layer, and
 //! exactly what they leave.
 
 mod foreign;
@@ -12,6 +12,7 @@ mod blending;
 mod compute;
 mod debugging;
 mod depth;
+mod dynamic_buffers;
 mod formats;
 mod geometry;
 mod growth;
@@ -20,6 +21,7 @@ mod held;
 mod imports;
 mod local_reads;
 mod outlasting;
+mod own_pipelines;
 mod presenting;
 mod queues;
 mod state;

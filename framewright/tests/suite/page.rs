@@ -13,6 +13,7 @@ fn the_page_on_embedding_holds_the_examples() {
         "own_window.rs",
         "embedding/settings.rs",
         "embedding/imports.rs",
+        "embedding/moving.rs",
     ] {
         let example = format!("examples/{example}");
         assert!(page.contains(&format!("```rust\n{}```", text(&example))), "docs/embedding.md doesn't hold {example}");
@@ -28,6 +29,26 @@ fn the_page_on_embedding_holds_the_examples() {
     ] {
         assert!(text(&format!("examples/{example}")).lines().count() < 150, "{example} is long");
     }
+}
+
+#[path = "../../../examples/engine/interface.rs"]
+mod interface;
+
+#[path = "../../../examples/embedding/moving.rs"]
+mod moving;
+
+#[test]
+fn the_example_of_data_that_changes_draws_each_frame_with_its_own() {
+    let Some(device) = render::device() else { return };
+    let pictures = moving::draw(device).expect("drawn");
+    // The triangle is a quarter of the width wide at the bottom, and moves an eighth of it with each frame.
+    let first_white = |picture: &framewright::Texels| {
+        let last_row = picture.bytes.as_chunks::<4>().0.chunks(64).next_back().expect("rows");
+        last_row.iter().position(|texel| texel[0] == 255)
+    };
+    let left: Vec<_> = pictures.iter().map(first_white).collect();
+    assert_eq!(left, [Some(0), Some(8), Some(16)]);
+    render::silent(device).expect("silent");
 }
 
 #[path = "../../../examples/embedding/settings.rs"]
