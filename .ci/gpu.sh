@@ -5,13 +5,15 @@
 #        .ci/gpu.sh run FOLDER [PART…]       there, in the unpacked archive: device, tests, random, pictures, times, study;
 #                                            all by default. Results come into FOLDER, a summary to standard output.
 #
-# The Vulkan loader there finds the GPU's driver, or VK_DRIVER_FILES names it; FRAMEWRIGHT_TEST_DEVICE names a device. Test programs know files by the path of the
-# checkout that they were built in, so `run` links that path to where the archive lies. PROFILE=dev packs a command that was built
-# in less time.
+# The Vulkan loader there finds the GPU's driver, or VK_DRIVER_FILES names it; FRAMEWRIGHT_TEST_DEVICE names a device. Test programs
+# know files by the path of the checkout that they were built in: `run` links that path to where the archive lies. PROFILE=dev packs a
+# command that was built in less time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # What the archive holds beside the checkout.
 packed=.packed
+# Most seconds that a program may take there.
+limit=${LIMIT:-900}
 
 # What is drawn on both machines and compared: a name, and arguments of `framewright run`.
 pictures() {
@@ -55,7 +57,8 @@ pack() {
     rm -rf "$packed"
     mkdir -p "$packed/programs"
     local profile=${PROFILE:-release}
-    cargo build --locked --profile "$profile" --package framewright-cli --bin framewright
+    # With the features of the tests, so that all is built once.
+    cargo test --locked --workspace --no-run --quiet --profile "$profile" --test suite
     command=$packed/framewright
     strip -o "$command" "target/${profile/#dev/debug}/framewright"
     cargo test --locked --workspace --no-run --message-format=json-render-diagnostics |
@@ -70,7 +73,8 @@ pack() {
     pwd >"$packed/built-in"
     to=$packed/pictures draw_all
     git ls-files -z | grep -zv '^docs/\|^cli/tests/' >"$packed/files"
-    tar --create --xz --file "$file" --transform 's|^|framewright/|' --null --files-from "$packed/files" "$packed"
+    # Programs have most of their code in common.
+    XZ_OPT="--lzma2=preset=4,dict=256MiB" tar --create --xz --file "$file" --transform 's|^|framewright/|' --null --files-from "$packed/files" "$packed"
     ls -lh "$file"
 }
 
@@ -129,7 +133,7 @@ on_gpu_tests() {
         tests.suite) filter=(drawn::) ;;
         framewright.suite) filter=(--skip examples:: --skip page::) ;;
         esac
-        (cd "${name%%.*}" && "$program" ${filter[@]+"${filter[@]}"} >"$1/$name.log" 2>&1) || true
+        (cd "${name%%.*}" && timeout "$limit" "$program" ${filter[@]+"${filter[@]}"} >"$1/$name.log" 2>&1) || true
         echo "$name: $(grep '^test result' "$1/$name.log" || tail -1 "$1/$name.log")"
         sed -n 's/^test \(.*\) \.\.\. FAILED$/    failed: \1/p' "$1/$name.log"
     done
@@ -139,7 +143,7 @@ on_gpu_random() {
     local queues
     for queues in "" "--queues shared" "--queues handed-over"; do
         # shellcheck disable=SC2086 # none or two words
-        "$packed/programs/random_pipelines" --driver gpu --count "${PIPELINES:-200}" $queues --write "$1" 2>&1 | tail -60 || true
+        timeout "$limit" "$packed/programs/random_pipelines" --driver gpu --count "${PIPELINES:-200}" $queues --write "$1" 2>&1 | tail -60 || true
     done
 }
 

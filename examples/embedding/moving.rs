@@ -1,4 +1,4 @@
-use crate::interface;
+use super::interface;
 use framewright::graph::frame::DrawList;
 use framewright::vulkan::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource};
 use framewright::{Device, Draw, DrawSource, Error, Recorder, Renderer, RendererOptions, Texels, vulkan};

@@ -9,7 +9,7 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Format, Rotation};
+use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Rotation};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -51,12 +51,21 @@ impl Message {
     /// and known false reports are none.
     #[must_use]
     pub fn is_finding(&self) -> bool {
-        self.kind == MessageKind::Validation && !self.is_about_settings() && !self.takes_a_fill_for_a_copy()
+        self.kind == MessageKind::Validation
+            && !self.is_about_settings()
+            && !self.is_about_a_look_up()
+            && !self.takes_a_fill_for_a_copy()
     }
 
     /// Whether it is about the layer's settings, wherever they come from: this program, a file, the environment.
     fn is_about_settings(&self) -> bool {
         ["VALIDATION-SETTINGS", "WARNING-Setting-Limit-Adjusted"].contains(&&*self.id)
+    }
+
+    /// Whether it is about a function that was looked up for a device and is one of the instance. The loader and layers of
+    /// drivers look up all that they know, NVIDIA's among them. This crate looks up none.
+    fn is_about_a_look_up(&self) -> bool {
+        self.id == "WARNING-vkGetDeviceProcAddr-device"
     }
 
     /// Whether it says that the layer has no setting of this name.
@@ -280,6 +289,17 @@ mod tests {
             SETTINGS.iter().map(|it| it.0).filter(|name| known.iter().all(|it| it.0 != *name)).collect();
         assert_eq!(dropped, [c"syncval_full_validation"]);
         assert_eq!(known_settings(&[]).len(), SETTINGS.len());
+    }
+
+    #[test]
+    fn what_others_look_up_is_no_finding() {
+        // As 1.4.300 says it with NVIDIA's driver 580.
+        let text = "vkGetDeviceProcAddr(): pName is trying to grab vkGetPhysicalDeviceVideoEncodeQualityLevelPropertiesKHR which \
+                    is an instance level function";
+        let (id, text) = ("WARNING-vkGetDeviceProcAddr-device".to_owned(), text.to_owned());
+        let looked_up = Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text };
+        assert!(!looked_up.is_finding());
+        assert!(Message { id: "VUID-vkGetDeviceProcAddr-device-parameter".to_owned(), ..looked_up }.is_finding());
     }
 
     #[test]

@@ -10,7 +10,6 @@ pub(crate) struct DescriptorSet {
     gpu: Arc<Gpu>,
     pool: vk::DescriptorPool,
     pub(crate) raw: vk::DescriptorSet,
-    pub(crate) layout: vk::DescriptorSetLayout,
 }
 
 /// The buffer or image view that a descriptor points to.
@@ -34,7 +33,7 @@ impl DescriptorSet {
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: the device lives.
         let pool = unsafe { gpu.raw.create_descriptor_pool(&info, None) }.map_err(Error::vulkan(DOING))?;
-        let mut set = DescriptorSet { gpu: gpu.clone(), pool, raw: vk::DescriptorSet::null(), layout };
+        let mut set = DescriptorSet { gpu: gpu.clone(), pool, raw: vk::DescriptorSet::null() };
         let layouts = [layout];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
         // SAFETY: the pool was made for exactly this set.
@@ -46,12 +45,8 @@ impl DescriptorSet {
         Ok(set)
     }
 
-    /// Whether this device made it.
-    pub(crate) fn is_of(&self, gpu: &Gpu) -> bool {
-        std::ptr::eq(Arc::as_ptr(&self.gpu), gpu)
-    }
-
-    fn write(&self, binding: LayoutBinding, target: DescriptorTarget) {
+    /// Has a binding point to something else. No frame in flight may read the set.
+    pub(crate) fn write(&mut self, binding: LayoutBinding, target: DescriptorTarget) {
         let write = vk::WriteDescriptorSet::default()
             .dst_set(self.raw)
             .dst_binding(binding.binding)
@@ -60,12 +55,12 @@ impl DescriptorSet {
         match target {
             DescriptorTarget::Buffer(buffer) => {
                 let info = [vk::DescriptorBufferInfo { buffer, offset: 0, range: vk::WHOLE_SIZE }];
-                // SAFETY: the set is new, has this binding, and the buffer lives.
+                // SAFETY: the set is in no use, has this binding, and the buffer lives.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
             }
             DescriptorTarget::Image(image_view, image_layout, sampler) => {
                 let info = [vk::DescriptorImageInfo { sampler, image_view, image_layout }];
-                // SAFETY: the set is new, has this binding, and view and sampler live.
+                // SAFETY: the set is in no use, has this binding, and view and sampler live.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.image_info(&info)], &[]) };
             }
         }

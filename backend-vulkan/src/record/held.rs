@@ -1,6 +1,7 @@
 //! What a frame's commands read of the draw source's, kept as long as the device may read it.
 
 use crate::memory::RawBuffer;
+use crate::pipeline::DescriptorSet;
 use crate::resources::RawBindGroup;
 use std::sync::Arc;
 
@@ -9,6 +10,8 @@ use std::sync::Arc;
 pub(crate) struct HeldResources {
     pub(super) groups: Held<RawBindGroup>,
     pub(super) buffers: Held<RawBuffer>,
+    /// Sets of groups that have several.
+    pub(super) sets: Held<DescriptorSet>,
     /// By set from 1 on: whether the pass that is being recorded has all that it reads of it.
     pub(super) bound: Vec<bool>,
 }
@@ -46,12 +49,13 @@ impl<T> Held<T> {
 impl HeldResources {
     /// Begins a frame, which finds the resources of the one before. The device must be done with that.
     pub(super) fn begin(&mut self) {
-        (self.groups.used, self.buffers.used) = (0, 0);
+        (self.groups.used, self.buffers.used, self.sets.used) = (0, 0, 0);
     }
 
     /// Lets go of what the frame before used and this one doesn't.
     pub(super) fn end(&mut self) {
         self.groups.list.truncate(self.groups.used);
         self.buffers.list.truncate(self.buffers.used);
+        self.sets.list.truncate(self.sets.used);
     }
 }

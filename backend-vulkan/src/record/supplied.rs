@@ -50,7 +50,8 @@ impl<'f> BoundSets<'f> {
                     self.held.buffers.hold(&buffer.0.current());
                     copies += 1;
                 }
-                let raw = group.0.set(self.held.buffers.last(copies)).map_err(|error| error.to_string())?;
+                let (buffers, sets) = (&self.held.buffers, &mut self.held.sets);
+                let raw = group.0.set(buffers.last(copies), |set| sets.hold(set)).map_err(|error| error.to_string())?;
                 bind_set(self.gpu, commands, self.point, self.supplied.layout, set, raw);
                 Ok(())
             }

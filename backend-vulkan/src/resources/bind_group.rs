@@ -44,14 +44,14 @@ pub(crate) struct RawBindGroup {
 enum Sets {
     /// One, for contents that stay.
     One { set: DescriptorSet, _buffers: Vec<Buffer> },
-    /// One for each choice of copies of its dynamic buffers that was bound so far.
+    /// Some, each for copies of its dynamic buffers. One that no frame in flight reads is written anew.
     Each { bindings: Vec<(LayoutBinding, Bound)>, made: Mutex<Vec<SetOfCopies>>, _buffers: Vec<Buffer> },
 }
 
 /// A descriptor set, and the copies of dynamic buffers that it points to, in the order of bindings.
 struct SetOfCopies {
     copies: Vec<vk::Buffer>,
-    set: DescriptorSet,
+    set: Arc<DescriptorSet>,
 }
 
 /// What a binding of a group points to.
@@ -78,30 +78,61 @@ impl RawBindGroup {
         })
     }
 
-    /// The descriptor set for these copies of its dynamic buffers.
+    /// The descriptor set for these copies of its dynamic buffers, which `hold` keeps from being written anew.
     ///
     /// # Errors
     /// No memory for another set.
-    pub(crate) fn set(&self, copies: &[Arc<RawBuffer>]) -> Result<vk::DescriptorSet, Error> {
+    pub(crate) fn set(
+        &self,
+        copies: &[Arc<RawBuffer>],
+        hold: impl FnOnce(&Arc<DescriptorSet>),
+    ) -> Result<vk::DescriptorSet, Error> {
         let (bindings, made) = match &self.sets {
             Sets::One { set, .. } => return Ok(set.raw),
             Sets::Each { bindings, made, .. } => (bindings, made),
         };
         let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
-        let of_these = |it: &&SetOfCopies| it.copies.iter().eq(copies.iter().map(|copy| &copy.raw));
-        if let Some(found) = made.iter().find(of_these) {
-            return Ok(found.set.raw);
-        }
+        let has_these = |it: &SetOfCopies| it.copies.iter().eq(copies.iter().map(|copy| &copy.raw));
+        let found = match made.iter().position(has_these) {
+            Some(found) => found,
+            None => match made.iter_mut().position(|it| it.rewrite(bindings, copies)) {
+                Some(free) => free,
+                None => {
+                    made.push(SetOfCopies::new(&self.gpu, bindings, copies)?);
+                    made.len() - 1
+                }
+            },
+        };
+        hold(&made[found].set);
+        Ok(made[found].set.raw)
+    }
+}
+
+impl SetOfCopies {
+    fn new(
+        gpu: &Arc<Gpu>,
+        bindings: &[(LayoutBinding, Bound)],
+        copies: &[Arc<RawBuffer>],
+    ) -> Result<SetOfCopies, Error> {
         let copies: Vec<_> = copies.iter().map(|copy| copy.raw).collect();
         let mut left = copies.iter();
         let bindings = bindings.iter().map(|(binding, bound)| match bound {
             Bound::Target(target) => (*binding, *target),
             Bound::Dynamic(_) => (*binding, DescriptorTarget::Buffer(left.next().copied().unwrap_or_default())),
         });
-        let set = DescriptorSet::new(&self.gpu, &bindings.collect::<Vec<_>>())?;
-        let raw = set.raw;
-        made.push(SetOfCopies { copies, set });
-        Ok(raw)
+        let set = Arc::new(DescriptorSet::new(gpu, &bindings.collect::<Vec<_>>())?);
+        Ok(SetOfCopies { copies, set })
+    }
+
+    /// Has it point to other copies, unless a frame in flight reads it. Allocates nothing.
+    fn rewrite(&mut self, bindings: &[(LayoutBinding, Bound)], copies: &[Arc<RawBuffer>]) -> bool {
+        let Some(set) = Arc::get_mut(&mut self.set) else { return false };
+        let dynamic = bindings.iter().filter(|(_, bound)| matches!(bound, Bound::Dynamic(_)));
+        for (((binding, _), copy), kept) in dynamic.zip(copies).zip(&mut self.copies) {
+            *kept = copy.raw;
+            set.write(*binding, DescriptorTarget::Buffer(copy.raw));
+        }
+        true
     }
 }
 

@@ -86,7 +86,10 @@ impl RawDynamicBuffer {
             return Err(Error::BadResource { what });
         }
         let mut copies = self.copies.lock().unwrap_or_else(PoisonError::into_inner);
-        let free = copies.all.iter_mut().position(|copy| Arc::get_mut(copy).is_some());
+        // In turns, so that several buffers come to the same choices of copies again, for which bind groups have sets.
+        let (number, last) = (copies.all.len(), copies.last);
+        let mut in_turns = (1..=number).map(|step| (last + step) % number);
+        let free = in_turns.find(|at| Arc::get_mut(&mut copies.all[*at]).is_some());
         let at = match free {
             Some(at) => at,
             None => {

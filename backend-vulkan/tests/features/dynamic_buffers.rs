@@ -82,7 +82,7 @@ impl DrawSource for Moving {
         // The second number is that of the second instance.
         self.objects.write([100 * frame, 1000 * frame].map(u32::to_ne_bytes).as_flattened())?;
         for (half, [left, right]) in [(0, [-1.0, 0.0]), (1, [0.0, 1.0])] {
-            self.camera.write(&(10 + half).to_ne_bytes())?;
+            self.camera.write(&(10_u32 + half).to_ne_bytes())?;
             recorder.bind_group(1, &self.group);
             self.half(left, right, recorder)?;
             recorder.draw(0..6, half..half + 1);
