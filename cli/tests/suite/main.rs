@@ -40,6 +40,7 @@ mod page;
 mod pictures;
 mod plan_files;
 mod plans;
+mod precompiled;
 mod profiles;
 mod readme;
 mod reference;
