@@ -44,6 +44,7 @@ mod precompiled;
 mod profiles;
 mod readme;
 mod reference;
+mod release;
 mod rotation;
 mod scene_notes;
 mod serving;
