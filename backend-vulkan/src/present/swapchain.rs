@@ -20,7 +20,7 @@ pub struct Swapchain {
     current: Option<Arc<SwapchainHandle>>,
     /// The images before, while the surface has no area.
     before: Option<Arc<SwapchainHandle>>,
-    /// How images are used by all Plans that were shown.
+    /// How images are used by all Plans that were to be shown.
     used: vk::ImageUsageFlags,
     /// How many images were asked for.
     acquired: u64,
@@ -81,7 +81,8 @@ impl Swapchain {
             options: options.clone(),
             current: None,
             before: None,
-            used: vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            // Every Plan lets its outputs be read back.
+            used: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
             acquired: 0,
             spent: false,
             pending: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
@@ -153,7 +154,8 @@ impl Swapchain {
         self.current.as_ref().map_or(Rotation::Identity, |current| current.form.rotation)
     }
 
-    /// How the images may be used: as a colour attachment, and as Plans need that were shown and the surface allows.
+    /// How the images may be used: as a colour attachment and the source of copies, and as Plans that were shown need. Less where the
+    /// surface has no such images.
     #[must_use]
     pub fn usage(&self) -> Usage {
         self.current.as_ref().map_or(Usage::empty(), |current| Usage::from_bits_retain(current.form.usage.as_raw()))
