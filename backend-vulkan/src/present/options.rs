@@ -16,7 +16,7 @@ pub struct SwapchainOptions {
     /// How many images there are at least. The surface may have more.
     pub images: u32,
     /// Whether pictures are turned as the surface wants them (`preTransform`), which saves its compositor a pass where screens are
-    /// mounted turned; see [`Swapchain::rotation`]. Else they are upright.
+    /// mounted turned; see [`Swapchain::rotation`](crate::Swapchain::rotation). Else they are upright.
     pub turned: bool,
     /// How long an image may take to become free.
     pub timeout: Duration,
