@@ -1,5 +1,5 @@
-//! Debian's `libshaderc_combined.a` holds shaderc alone: where the distribution's glslang and SPIRV-Tools archives lie
-//! beside it they are linked too. Elsewhere the `shaderc` crate finds or builds its own.
+//! What the feature `shader-compiler` links. Debian's `libshaderc_combined.a` holds shaderc alone: where the distribution's glslang
+//! and SPIRV-Tools archives lie beside it they are linked too. Elsewhere the `shaderc` crate finds or builds its own.
 
 use std::path::Path;
 
@@ -20,6 +20,11 @@ const ARCHIVES: [&str; 9] = [
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
+    let variable = |name: &str| std::env::var_os(name);
+    // The folder is this machine's, and only the compiler needs what lies there.
+    if variable("CARGO_FEATURE_SHADER_COMPILER").is_none() || variable("HOST") != variable("TARGET") {
+        return;
+    }
     let present = |archive: &str| Path::new(FOLDER).join(format!("lib{archive}.a")).exists();
     if present("shaderc_combined") && ARCHIVES.into_iter().all(present) {
         println!("cargo:rustc-link-search=native={FOLDER}");

@@ -69,4 +69,4 @@ pub use record::{
     Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
-pub use shaders::ShaderLibrary;
+pub use shaders::{PrecompiledShaders, ShaderLibrary};

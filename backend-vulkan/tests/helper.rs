@@ -6,7 +6,7 @@ use framewright_graph::device::Profile;
 use framewright_graph::frame::{Draw, Stereo};
 use framewright_graph::shader::{DrawInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Variant};
 use framewright_vulkan::helper::Limits;
-use framewright_vulkan::{Cache, Device, DeviceOptions, Helper, ShaderLibrary};
+use framewright_vulkan::{Cache, Device, DeviceOptions, Helper, PrecompiledShaders, ShaderLibrary};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -212,4 +212,33 @@ fn a_program_that_is_no_helper_is_an_error_and_nothing_waits_for_it() {
     let full = "echo 'terminate called after throwing an instance of std::bad_alloc' >&2\nkill -ABRT $$";
     assert_eq!(broken(&program(folder.path(), full)).limit, Some(OutsideChoice::ShaderMemory));
     assert!(begin.elapsed() < Duration::from_secs(30));
+}
+
+#[test]
+fn a_helper_without_a_compiler_is_told_and_precompiled_shaders_need_none() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a folder");
+    let answer = "{\"CompileFailure\":\"NoCompiler\"}";
+    let says = format!("printf '\\{:03o}\\0\\0\\0%s' '{answer}'\nexec cat > /dev/null", answer.len());
+    let without = program(folder.path(), &says);
+    let said = format!(
+        "shipped:plain.frag: it must be compiled, and the program {} was built without the feature `shader-compiler`",
+        without.display()
+    );
+    assert_eq!(unusable(&without), format!("{said}; no folder of precompiled shaders was named"));
+
+    let precompiled = PrecompiledShaders::in_folder(folder.path().join("spirv"));
+    let library = || ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let usual = Variant::default();
+    let compiled = library().with_precompiled(Some(precompiled.clone().adding()));
+    let compiled = { compiled }.compiled("plain", Draw::FullScreen, &usual).expect("there is a compiler here");
+    let helper = Helper::program(&without, Limits::default()).with_cache(None);
+    let mut library = library().with_precompiled(Some(precompiled)).with_helper(&helper);
+    let found = library.compiled("plain", Draw::FullScreen, &usual).expect("it was compiled ahead");
+    assert_eq!((found.vertex, found.fragment), (compiled.vertex, compiled.fragment));
+    let other = Variant { depth_only: true, ..usual };
+    let refused = library.compiled("plain", Draw::FullScreen, &other).expect_err("that was not");
+    let spirv = folder.path().join("spirv");
+    let what = format!("{said}; {} holds no SPIR-V of it as this pass needs it", spirv.display());
+    assert_eq!(refused, ShaderProblem::Unsupported { what });
 }

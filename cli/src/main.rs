@@ -18,11 +18,11 @@ mod variants;
 mod window;
 
 use std::process::ExitCode;
-use system::{Exit, interrupt, text};
+use system::{Exit, platform, text};
 
 fn main() -> ExitCode {
     framewright_vulkan::helper::serve();
-    interrupt::survive_large_files();
+    platform::survive_large_files();
     let line = match command_line::args::parse(std::env::args_os()) {
         Ok(line) => line,
         Err(error) => {

@@ -49,8 +49,8 @@ pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
     CustomRecorder, Device, DeviceOptions, DispatchRecorder, DrawSource, Executor, ExecutorOptions, FrameReport,
-    Helper, PresentMode, Presentation, Recorder, SemaphorePoint, ShaderLibrary, Submission, Surface, Swapchain,
-    SwapchainOptions, Texels,
+    Helper, PrecompiledShaders, PresentMode, Presentation, Recorder, SemaphorePoint, ShaderLibrary, Submission,
+    Surface, Swapchain, SwapchainOptions, Texels,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, shaders, textures};

@@ -5,7 +5,7 @@ use framewright_graph::base::Root;
 use framewright_graph::compile;
 use framewright_graph::shader::DrawInterfaces;
 use framewright_passes::draw;
-use framewright_vulkan::{ExecutorOptions, Helper};
+use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders};
 use std::path::PathBuf;
 
 /// What a [`Renderer`](crate::Renderer) is made with, and keeps. Begin with the default, and set fields.
@@ -22,6 +22,8 @@ pub struct RendererOptions {
     pub draws: DrawInterfaces,
     /// The process that compiles shaders; `None`: this one, without limits. See [`crate::vulkan::helper`].
     pub helper: Option<Helper>,
+    /// Shaders that were compiled ahead. A program without the feature `shader-compiler` needs them, or a helper that has it.
+    pub precompiled: Option<PrecompiledShaders>,
     /// Names of images that leave the frame beside its outputs, so that they can be read.
     pub dump: Vec<String>,
     /// How Plans are made.
@@ -38,6 +40,7 @@ impl Default for RendererOptions {
             shaders: Vec::new(),
             draws: draw::interfaces(),
             helper: None,
+            precompiled: None,
             dump: Vec::new(),
             compile: compile::Options::default(),
             executor: ExecutorOptions::default(),

@@ -1,5 +1,6 @@
 //! The cache: a folder of files that can be made anew. Each is written whole or not at all.
 
+use super::platform;
 use std::ffi::OsStr;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -35,12 +36,13 @@ const SELF_TESTS: &str = "self-tests";
 const UNFINISHED: &str = ".tmp";
 
 impl Cache {
-    /// The cache of the user: `$XDG_CACHE_HOME/framewright`, or `~/.cache/framewright`. `None` if the user has no home folder.
+    /// The cache of the user: `$XDG_CACHE_HOME/framewright`, or `~/.cache/framewright`, on Windows `%LOCALAPPDATA%\framewright`. `None`
+    /// if the user has no home folder.
     /// Relative paths don't count.
     #[must_use]
     pub fn of_user() -> Option<Cache> {
-        let absolute = |variable| path_variable(variable).filter(|path| path.is_absolute());
-        let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
+        let absolute = |variable: &str| path_variable(variable).filter(|path| path.is_absolute());
+        let cache = absolute("XDG_CACHE_HOME").or_else(|| platform::caches_of_user(absolute));
         cache.map(|cache| Cache::in_folder(cache.join("framewright")))
     }
 
@@ -126,34 +128,15 @@ fn clear(folder: &Path, removed: &mut CachedFiles) -> io::Result<()> {
 pub(crate) fn read_file(path: &Path, most: u64) -> Option<Vec<u8>> {
     let mut options = fs::File::options();
     options.read(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt;
-        // Nobody may write to a pipe of that name, ever.
-        options.custom_flags(libc::O_NONBLOCK | libc::O_NOFOLLOW);
-    }
+    platform::at_once(&mut options);
     let file = options.open(path).ok()?;
     let metadata = file.metadata().ok()?;
-    if !metadata.is_file() || metadata.len() > most || !is_own(&metadata) {
+    if !metadata.is_file() || metadata.len() > most || !platform::is_own(&metadata) {
         return None;
     }
     let mut bytes = Vec::new();
     file.take(most).read_to_end(&mut bytes).ok()?;
     Some(bytes)
-}
-
-/// Whether a file belongs to this user, and nobody else may write it.
-fn is_own(file: &fs::Metadata) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        file.uid() == nix::unistd::geteuid().as_raw() && file.mode() & 0o022 == 0
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        true
-    }
 }
 
 /// The files in a folder that have names like ours. One that is removed meanwhile is left out; a folder that isn't there holds
@@ -214,11 +197,7 @@ pub(crate) fn replace_file(folder: &Path, path: &Path, contents: &[u8]) -> io::R
 fn make_folder(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::DirBuilderExt;
-        builder.mode(0o700);
-    }
+    platform::private(&mut builder);
     builder.create(folder)
 }
 

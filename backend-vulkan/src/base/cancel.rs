@@ -28,15 +28,3 @@ impl fmt::Debug for Cancel {
         f.debug_tuple("Cancel").field(&self.0.get().is_some()).finish()
     }
 }
-
-/// Ends this process at once, without the functions that libraries have registered for its end: those of a software driver
-/// crash while its threads are still at work. What this program itself has not yet written is lost.
-pub fn end_process(code: u8) -> ! {
-    #[cfg(unix)]
-    // SAFETY: `_exit` only ends the process.
-    unsafe {
-        libc::_exit(code.into())
-    }
-    #[cfg(not(unix))]
-    std::process::exit(code.into())
-}

@@ -1,14 +1,18 @@
-//! Foundation of the other modules: errors, Vulkan's enumerants, cancelling, the cache folder.
+//! Foundation of the other modules: errors, Vulkan's enumerants, cancelling, the cache folder, the operating system.
 
 mod cache;
 mod cancel;
 pub(crate) mod convert;
 mod error;
+mod platform;
 
 pub use cache::{Cache, CachedFiles};
-pub use cancel::end_process;
 pub use error::{Blame, Error, INSTALL};
+pub use platform::end_process;
 
 pub(crate) use cache::{files_in, identity_of, path_variable, read_file, replace_file};
 pub(crate) use cancel::{Cancel, SLICE};
 pub(crate) use convert::Clear;
+pub(crate) use platform::{
+    apart_from_interrupts, in_words, limit_this_process, take_standard_output, with_usual_rights,
+};

@@ -4,9 +4,9 @@ use super::cached::Caches;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;
-use super::minimum;
 use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
+use super::{minimum, portability};
 use crate::base::{Cancel, Error, convert};
 use ash::{ext, khr, vk};
 use framewright_graph::vulkan::Format;
@@ -77,13 +77,19 @@ impl Gpu {
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
         let presents = instance.surfaces && minimum::has_extension(&instance.raw, physical, khr::swapchain::NAME);
+        let mut subset = portability::subset(&instance.raw, physical);
+        let extensions = [
+            (has_local_read, khr::dynamic_rendering_local_read::NAME),
+            (presents, khr::swapchain::NAME),
+            (subset.is_some(), khr::portability_subset::NAME),
+        ];
         let extensions: Vec<_> =
-            [(has_local_read, khr::dynamic_rendering_local_read::NAME), (presents, khr::swapchain::NAME)]
-                .into_iter()
-                .filter_map(|(there, name)| there.then_some(name.as_ptr()))
-                .collect();
+            extensions.into_iter().filter_map(|(there, name)| there.then_some(name.as_ptr())).collect();
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
-        let info = chained.chain(info);
+        let mut info = chained.chain(info);
+        if let Some(subset) = &mut subset {
+            info = info.push_next(subset);
+        }
         // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
         let raw = unsafe { instance.raw.create_device(physical, &info, None) }
             .map_err(Error::vulkan("opening the device"))?;

@@ -2,7 +2,7 @@
 
 use super::minimum::MINIMUM_VERSION;
 use super::validation::{FEATURES, LAYER, Layer, Messages, SETTINGS, Setting, known_settings, layer_settings};
-use super::{layer, words};
+use super::{layer, portability, words};
 use crate::base::Error;
 use ash::{ext, khr, vk};
 use raw_window_handle::RawDisplayHandle;
@@ -57,6 +57,8 @@ impl Instance {
         let mut extensions: Vec<&CStr> = Vec::new();
         extensions.extend(labels.then_some(ext::debug_utils::NAME));
         extensions.extend(surfaces.then_some(khr::surface::NAME));
+        let portability = has(khr::portability_enumeration::NAME);
+        extensions.extend(portability.then_some(khr::portability_enumeration::NAME));
         let of_display = window_system(display)?;
         let missing = of_display.iter().filter(|name| !has(name)).map(|name| name.to_string_lossy().into_owned());
         let missing: Vec<String> = missing.collect();
@@ -143,6 +145,7 @@ fn create(
     settings: &[Setting],
 ) -> Result<ash::Instance, Error> {
     let application = vk::ApplicationInfo::default().application_name(c"framewright").api_version(MINIMUM_VERSION);
+    let flags = portability::instance_flags(extensions);
     let mut extensions = extensions.to_vec();
     let mut layers: Vec<&CStr> = Vec::new();
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
@@ -157,6 +160,7 @@ fn create(
     let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let layers: Vec<_> = layers.iter().map(|name| name.as_ptr()).collect();
     let mut info = vk::InstanceCreateInfo::default()
+        .flags(flags)
         .application_info(&application)
         .enabled_extension_names(&extensions)
         .enabled_layer_names(&layers);

@@ -9,6 +9,7 @@ mod instance;
 mod labels;
 pub mod layer;
 mod minimum;
+mod portability;
 pub(crate) mod queues;
 mod summary;
 mod surface;

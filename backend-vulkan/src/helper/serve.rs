@@ -1,6 +1,6 @@
 //! The helper process itself: it compiles GLSL and tests drivers for the program that started it.
 
-use crate::base::end_process;
+use crate::base::{end_process, limit_this_process, take_standard_output};
 use crate::gpu::Device;
 use crate::probe::{depth_resolve, multiview};
 use crate::process::{
@@ -23,10 +23,10 @@ pub fn serve() {
     let (Some(memory), Some(stack)) = (number(), number().and_then(|it| usize::try_from(it).ok())) else {
         end_process(2);
     };
-    process::limit_this_process((memory > 0).then_some(memory));
+    limit_this_process((memory > 0).then_some(memory));
     // A program that ends, however it does, closes the pipe: then this process ends too, even if its other thread still works.
     // Drivers register functions for the end of a process, which may wait for that thread: they don't run.
-    let ended = match output() {
+    let ended = match take_standard_output() {
         Ok(output) => work(output, stack),
         Err(error) => Err(error),
     };
@@ -49,22 +49,6 @@ fn work(output: File, stack: usize) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// Standard output, which from now on is only for answers: what drivers and compilers print goes to standard error.
-fn output() -> io::Result<File> {
-    #[cfg(unix)]
-    {
-        use std::os::fd::AsFd;
-        let output = io::stdout().as_fd().try_clone_to_owned()?;
-        nix::unistd::dup2_stdout(io::stderr())?;
-        Ok(output.into())
-    }
-    #[cfg(windows)]
-    {
-        use std::os::windows::io::AsHandle;
-        Ok(io::stdout().as_handle().try_clone_to_owned()?.into())
-    }
 }
 
 /// Answers requests.

@@ -1,7 +1,7 @@
 //! Frames of a Plan that are shown in a window.
 
 use super::swapchain::{Shown, Swapchain, SwapchainHandle};
-use crate::base::Error;
+use crate::base::{Error, convert};
 use crate::execute::{Executor, SemaphorePoint, Submission};
 use crate::record::DrawSource;
 use std::any::Any;
@@ -37,7 +37,13 @@ impl Executor {
         swapchain: &mut Swapchain,
         name: &str,
     ) -> Result<Presentation, Error> {
+        let used =
+            self.plan().images.iter().find(|image| *image.name == *name).map(|image| convert::usage(image.usage));
+        let as_before = used.map_or(Ok(true), |used| swapchain.allow(used))?;
         let Some(current) = swapchain.current().cloned() else { return Ok(Presentation::NoArea) };
+        if !as_before {
+            return Ok(Presentation::OutOfDate);
+        }
         self.show_in(&current, name)?;
         self.make_room()?;
         let Some(image) = swapchain.acquire()? else { return Ok(Presentation::OutOfDate) };

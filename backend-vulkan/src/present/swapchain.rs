@@ -1,59 +1,16 @@
 //! Swapchains: the images that a surface shows one after the other.
 
+use super::form::{COLOR_SPACE, SwapchainForm};
+use super::options::{PresentMode, SwapchainOptions};
 use super::surface::{Surface, SurfaceHandle, presenting};
 use crate::base::{Error, SLICE, convert};
 use crate::commands::Timeline;
-use crate::gpu::{Gpu, PendingWork, rotation_of_surface};
+use crate::gpu::{Gpu, PendingWork};
 use ash::{khr, vk};
 use framewright_graph::plan;
-use framewright_graph::vulkan::{Format, Rotation};
+use framewright_graph::vulkan::{Format, Rotation, Usage};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-/// How a swapchain is made.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SwapchainOptions {
-    /// Width and height of the pictures, where the surface leaves them to the program: X11 and Windows don't.
-    pub extent: [u32; 2],
-    /// Formats that will do, the best first; those of sRGB by default. Each is taken in sRGB's colour space: of UNORM formats the
-    /// pipeline encodes the values itself.
-    pub formats: Vec<Format>,
-    /// When a picture is shown. A surface that lacks the mode waits for the screen ([`PresentMode::Fifo`]), which each one has.
-    pub mode: PresentMode,
-    /// How many images there are at least. The surface may have more.
-    pub images: u32,
-    /// Whether pictures are turned as the surface wants them (`preTransform`), which saves its compositor a pass where screens are
-    /// mounted turned; see [`Swapchain::rotation`]. Else they are upright.
-    pub turned: bool,
-    /// How long an image may take to become free.
-    pub timeout: Duration,
-}
-
-impl Default for SwapchainOptions {
-    fn default() -> SwapchainOptions {
-        SwapchainOptions {
-            extent: [1280, 720],
-            formats: vec![Format::R8G8B8A8_SRGB, Format::B8G8R8A8_SRGB],
-            mode: PresentMode::Fifo,
-            images: 3,
-            turned: false,
-            timeout: Duration::from_secs(10),
-        }
-    }
-}
-
-/// When a picture is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum PresentMode {
-    /// At the screen's next refresh, in order: no picture is left out and none tears.
-    Fifo,
-    /// As `Fifo`, but a late picture is shown at once, and may tear.
-    FifoRelaxed,
-    /// At the screen's next refresh the newest: pictures may be left out.
-    Mailbox,
-    /// At once: pictures may tear.
-    Immediate,
-}
+use std::time::Instant;
 
 /// The images that a surface shows. [`Executor::present`](crate::Executor::present) draws into them.
 pub struct Swapchain {
@@ -63,10 +20,12 @@ pub struct Swapchain {
     current: Option<Arc<SwapchainHandle>>,
     /// The images before, while the surface has no area.
     before: Option<Arc<SwapchainHandle>>,
+    /// How images are used by all Plans that were to be shown.
+    used: vk::ImageUsageFlags,
     /// How many images were asked for.
     acquired: u64,
-    /// Whether an image was taken that is never shown.
-    broken: bool,
+    /// Whether no more images can be shown: one was taken that is never shown, or the surface has changed.
+    spent: bool,
     pending: PendingWork,
 }
 
@@ -76,11 +35,7 @@ pub(crate) struct SwapchainHandle {
     functions: khr::swapchain::Device,
     raw: vk::SwapchainKHR,
     pub(crate) images: Vec<vk::Image>,
-    format: Format,
-    /// Width and height of the images.
-    extent: [u32; 2],
-    usage: vk::ImageUsageFlags,
-    rotation: Rotation,
+    form: SwapchainForm,
     /// Signalled when an image is free, in turn; one more than there are images.
     free: Vec<vk::Semaphore>,
     /// By image: signalled when it is drawn.
@@ -126,16 +81,20 @@ impl Swapchain {
             options: options.clone(),
             current: None,
             before: None,
+            // Every Plan lets its outputs be read back.
+            used: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
             acquired: 0,
-            broken: false,
+            spent: false,
             pending: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
         };
         swapchain.resize(options.extent)?;
         Ok(swapchain)
     }
 
-    /// Makes the images anew: the window has another size, or [`Executor::present`](crate::Executor::present) said that they no
-    /// longer fit. `extent` counts where the surface leaves the size to the program. Returns whether the surface has an area now.
+    /// Makes the images anew if others would fit better: the window has another size, or
+    /// [`Executor::present`](crate::Executor::present) said that they no longer fit. Where new ones would be no different, and these can
+    /// still be shown, they stay. `extent` counts where the surface leaves the size to the program. Returns whether the surface has
+    /// an area now.
     ///
     /// Executors keep the old images until they present again or are dropped; then all work of the graphics queue is waited for.
     ///
@@ -143,15 +102,33 @@ impl Swapchain {
     /// Those of [`Swapchain::new`]. Nothing can be shown then until it succeeds.
     pub fn resize(&mut self, extent: [u32; 2]) -> Result<bool, Error> {
         self.options.extent = extent;
+        let form = SwapchainForm::of(&self.surface.handle, &self.options, self.used);
+        if let (Ok(Some(form)), Some(current), false) = (&form, &self.current, self.spent)
+            && current.form == *form
+        {
+            return Ok(true);
+        }
         // A surface has one swapchain at a time: the one before is known until another takes its place.
         let old = self.current.take().or_else(|| self.before.take());
         self.before.clone_from(&old);
-        self.current = SwapchainHandle::new(&self.surface.handle, &self.options, old.as_deref())?.map(Arc::new);
-        if self.current.is_some() {
-            self.before = None;
+        (self.acquired, self.spent) = (0, false);
+        let Some(form) = form? else { return Ok(false) };
+        self.current = Some(Arc::new(SwapchainHandle::new(&self.surface.handle, form, old.as_deref())?));
+        self.before = None;
+        Ok(true)
+    }
+
+    /// Makes sure that images can be used in these ways, where the surface has such images. Returns whether they are otherwise as they
+    /// were.
+    pub(crate) fn allow(&mut self, usage: vk::ImageUsageFlags) -> Result<bool, Error> {
+        let Some(before) = self.current.as_ref().map(|current| current.form) else { return Ok(true) };
+        if self.used.contains(usage) {
+            return Ok(true);
         }
-        (self.acquired, self.broken) = (0, false);
-        Ok(self.current.is_some())
+        self.used |= usage;
+        self.resize(self.options.extent)?;
+        let now = self.current.as_ref().map(|current| SwapchainForm { usage: before.usage, ..current.form });
+        Ok(now == Some(before))
     }
 
     /// Chooses another present mode, from the next [`Swapchain::resize`] on.
@@ -162,19 +139,26 @@ impl Swapchain {
     /// The format of the images; `None` while the surface has no area.
     #[must_use]
     pub fn format(&self) -> Option<Format> {
-        self.current.as_ref().map(|current| current.format)
+        self.current.as_ref().map(|current| current.form.format)
     }
 
     /// Width and height of the upright picture, in texels; `None` while the surface has no area.
     #[must_use]
     pub fn extent(&self) -> Option<[u32; 2]> {
-        self.current.as_ref().map(|current| current.rotation.extent(current.extent))
+        self.current.as_ref().map(|current| current.form.rotation.extent(current.form.extent))
     }
 
     /// The rotation of the pictures that it shows; see [`SwapchainOptions::turned`].
     #[must_use]
     pub fn rotation(&self) -> Rotation {
-        self.current.as_ref().map_or(Rotation::Identity, |current| current.rotation)
+        self.current.as_ref().map_or(Rotation::Identity, |current| current.form.rotation)
+    }
+
+    /// How the images may be used: as a colour attachment and the source of copies, and as Plans that were shown need. Less where the
+    /// surface has no such images.
+    #[must_use]
+    pub fn usage(&self) -> Usage {
+        self.current.as_ref().map_or(Usage::empty(), |current| Usage::from_bits_retain(current.form.usage.as_raw()))
     }
 
     /// How many images there are; 0 while the surface has no area.
@@ -191,7 +175,7 @@ impl Swapchain {
     /// [`Swapchain::give_up`] be called.
     pub(crate) fn acquire(&mut self) -> Result<Option<FreeImage>, Error> {
         const DOING: &str = "taking an image of the window";
-        let Some(current) = self.current.as_ref().filter(|_| !self.broken) else { return Ok(None) };
+        let Some(current) = self.current.as_ref().filter(|_| !self.spent) else { return Ok(None) };
         let (all, timeout) = (current.free.len() as u64, self.options.timeout);
         let next = self.acquired + 1;
         // The frame that used this semaphore last must be done with it.
@@ -208,7 +192,10 @@ impl Swapchain {
                 unsafe { current.functions.acquire_next_image(current.raw, nanoseconds, free, vk::Fence::null()) };
             match taken {
                 Ok(taken) => break taken,
-                Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => return Ok(None),
+                Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => {
+                    self.spent = true;
+                    return Ok(None);
+                }
                 Err(vk::Result::TIMEOUT | vk::Result::NOT_READY) if current.gpu.is_cancelled() => {
                     return Err(Error::Cancelled { doing: DOING });
                 }
@@ -237,59 +224,40 @@ impl Swapchain {
         match unsafe { current.functions.queue_present(queue, &info) } {
             Ok(false) if !image.suboptimal => Ok(Shown::Right),
             Ok(_) => Ok(Shown::Suboptimal),
-            Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Shown::OutOfDate),
+            Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => {
+                self.spent = true;
+                Ok(Shown::OutOfDate)
+            }
             Err(result) => Err(presenting(DOING)(result)),
         }
     }
 
     /// Gives up an image that was taken and won't be drawn: only new images can be shown.
     pub(crate) fn give_up(&mut self) {
-        self.broken = true;
+        self.spent = true;
     }
 }
 
 impl SwapchainHandle {
-    /// `None` if the surface has no area.
+    /// A swapchain of this form, in place of an old one.
     fn new(
         surface: &Arc<SurfaceHandle>,
-        options: &SwapchainOptions,
+        form: SwapchainForm,
         old: Option<&SwapchainHandle>,
-    ) -> Result<Option<SwapchainHandle>, Error> {
+    ) -> Result<SwapchainHandle, Error> {
         let gpu = &surface.gpu;
-        let capabilities = surface.capabilities()?;
-        let rotation = match rotation_of_surface(capabilities.current_transform) {
-            Some(rotation) if options.turned => rotation,
-            _ => Rotation::Identity,
-        };
-        let Some(extent) = extent(&capabilities, rotation.extent(options.extent)) else { return Ok(None) };
-        let offered = surface.formats()?;
-        let (format, chosen) = format(&options.formats, &offered)?;
-        let usage = usage(gpu, format, &capabilities);
-        let mode = mode(options.mode);
-        let mode = if surface.present_modes()?.contains(&mode) { mode } else { vk::PresentModeKHR::FIFO };
-        let most = if capabilities.max_image_count == 0 { u32::MAX } else { capabilities.max_image_count };
-        let transform = if options.turned && rotation_of_surface(capabilities.current_transform).is_some()
-            || !capabilities.supported_transforms.contains(vk::SurfaceTransformFlagsKHR::IDENTITY)
-        {
-            capabilities.current_transform
-        } else {
-            vk::SurfaceTransformFlagsKHR::IDENTITY
-        };
-        let alpha = capabilities.supported_composite_alpha;
-        let opaque = vk::CompositeAlphaFlagsKHR::OPAQUE;
-        let alpha = if alpha.contains(opaque) { opaque } else { lowest(alpha) };
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(surface.raw)
-            .min_image_count(options.images.clamp(capabilities.min_image_count, most))
-            .image_format(chosen.format)
-            .image_color_space(chosen.color_space)
-            .image_extent(vk::Extent2D { width: extent[0], height: extent[1] })
+            .min_image_count(form.images)
+            .image_format(convert::format(form.format))
+            .image_color_space(COLOR_SPACE)
+            .image_extent(vk::Extent2D { width: form.extent[0], height: form.extent[1] })
             .image_array_layers(1)
-            .image_usage(usage)
+            .image_usage(form.usage)
             .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
-            .pre_transform(transform)
-            .composite_alpha(alpha)
-            .present_mode(mode)
+            .pre_transform(form.transform)
+            .composite_alpha(form.alpha)
+            .present_mode(form.mode)
             .clipped(true)
             .old_swapchain(old.map_or(vk::SwapchainKHR::null(), |old| old.raw));
         let functions = khr::swapchain::Device::new(&gpu.instance.raw, &gpu.raw);
@@ -303,10 +271,7 @@ impl SwapchainHandle {
             functions,
             raw,
             images: Vec::new(),
-            format,
-            extent,
-            usage,
-            rotation,
+            form,
             free: Vec::new(),
             drawn: Vec::new(),
             done,
@@ -321,18 +286,19 @@ impl SwapchainHandle {
         for _ in 0..=made.images.len() {
             made.free.push(semaphore(gpu)?);
         }
-        Ok(Some(made))
+        Ok(made)
     }
 
     /// Why its images can't be the image of a Plan; `None` if they can.
     pub(crate) fn unfit(&self, image: &plan::Image) -> Option<String> {
+        let form = &self.form;
         let wanted = convert::usage(image.usage);
         let [width, height, _] = image.made();
-        if image.format != self.format {
-            return Some(format!("it is {}, and those of the window are {}", image.format, self.format));
+        if image.format != form.format {
+            return Some(format!("it is {}, and those of the window are {}", image.format, form.format));
         }
-        if [width, height] != self.extent {
-            let [own_width, own_height] = self.extent;
+        if [width, height] != form.extent {
+            let [own_width, own_height] = form.extent;
             return Some(format!(
                 "it has {width}x{height} texels, and those of the window have {own_width}x{own_height}"
             ));
@@ -340,8 +306,8 @@ impl SwapchainHandle {
         if image.samples > 1 || image.mips > 1 || image.made_layers() > 1 {
             return Some("it has several samples, mip levels or layers, and those of the window have one".to_owned());
         }
-        if !self.usage.contains(wanted) {
-            let lacking = wanted & !self.usage;
+        if !form.usage.contains(wanted) {
+            let lacking = wanted & !form.usage;
             return Some(format!("it is used as {lacking:?}, and those of the window can't be"));
         }
         None
@@ -371,65 +337,4 @@ fn semaphore(gpu: &Gpu) -> Result<vk::Semaphore, Error> {
     // SAFETY: the device lives.
     unsafe { gpu.raw.create_semaphore(&vk::SemaphoreCreateInfo::default(), None) }
         .map_err(Error::vulkan("making a semaphore"))
-}
-
-/// The size of the images; `None` if the surface has no area.
-fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, wanted: [u32; 2]) -> Option<[u32; 2]> {
-    let (least, most) = (capabilities.min_image_extent, capabilities.max_image_extent);
-    let current = capabilities.current_extent;
-    let [width, height] = if current.width == u32::MAX {
-        [
-            wanted[0].clamp(least.width, most.width.max(least.width)),
-            wanted[1].clamp(least.height, most.height.max(least.height)),
-        ]
-    } else {
-        [current.width, current.height]
-    };
-    (width > 0 && height > 0 && most.width > 0 && most.height > 0).then_some([width, height])
-}
-
-/// The first of the wanted formats that the surface has for sRGB's colour space.
-fn format(wanted: &[Format], offered: &[vk::SurfaceFormatKHR]) -> Result<(Format, vk::SurfaceFormatKHR), Error> {
-    let srgb = vk::ColorSpaceKHR::SRGB_NONLINEAR;
-    let found = wanted.iter().find_map(|format| {
-        let chosen = offered.iter().find(|it| it.format == convert::format(*format) && it.color_space == srgb)?;
-        Some((*format, *chosen))
-    });
-    found.ok_or_else(|| {
-        let list = |names: Vec<String>| names.join(", ");
-        let wanted = list(wanted.iter().map(ToString::to_string).collect());
-        let offered = list(offered.iter().map(|it| format!("{:?} in {:?}", it.format, it.color_space)).collect());
-        Error::BadResource { what: format!("the window has none of the formats {wanted}; it has {offered}") }
-    })
-}
-
-/// All that the images can be used for, of what Plans may ask for.
-fn usage(gpu: &Gpu, format: Format, capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::ImageUsageFlags {
-    use vk::{FormatFeatureFlags as Has, ImageUsageFlags as Usage};
-    let features = gpu.format_features(format);
-    let pairs = [
-        (Usage::COLOR_ATTACHMENT, Has::COLOR_ATTACHMENT),
-        (Usage::INPUT_ATTACHMENT, Has::COLOR_ATTACHMENT),
-        (Usage::SAMPLED, Has::SAMPLED_IMAGE),
-        (Usage::STORAGE, Has::STORAGE_IMAGE),
-        (Usage::TRANSFER_SRC, Has::TRANSFER_SRC),
-        (Usage::TRANSFER_DST, Has::TRANSFER_DST),
-    ];
-    let possible = pairs.iter().filter(|(_, needs)| features.contains(*needs)).map(|(usage, _)| *usage);
-    possible.fold(Usage::empty(), |all, usage| all | usage) & capabilities.supported_usage_flags
-}
-
-fn mode(mode: PresentMode) -> vk::PresentModeKHR {
-    match mode {
-        PresentMode::Fifo => vk::PresentModeKHR::FIFO,
-        PresentMode::FifoRelaxed => vk::PresentModeKHR::FIFO_RELAXED,
-        PresentMode::Mailbox => vk::PresentModeKHR::MAILBOX,
-        PresentMode::Immediate => vk::PresentModeKHR::IMMEDIATE,
-    }
-}
-
-/// The lowest of some bits.
-fn lowest(alpha: vk::CompositeAlphaFlagsKHR) -> vk::CompositeAlphaFlagsKHR {
-    let bits = alpha.as_raw();
-    vk::CompositeAlphaFlagsKHR::from_raw(bits & bits.wrapping_neg())
 }

@@ -144,7 +144,12 @@ impl Helper {
             (Err(CompileFailure::OutOfMemory), Some(memory)) => return Err(NoAnswer::Memory(memory)),
             // Whether a compiler that failed can go on isn't known.
             (Err(CompileFailure::OutOfMemory | CompileFailure::Internal(_)), _) => {}
-            (Ok(_) | Err(CompileFailure::Messages(_) | CompileFailure::TooLarge(_)), _) => *compiler = running,
+            (
+                Ok(_) | Err(CompileFailure::NoCompiler | CompileFailure::Messages(_) | CompileFailure::TooLarge(_)),
+                _,
+            ) => {
+                *compiler = running;
+            }
         }
         Ok(compiled)
     }

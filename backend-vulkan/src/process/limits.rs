@@ -22,19 +22,3 @@ impl Default for Limits {
         Limits { time, memory: Some(1 << 30), stack: 8 << 20, self_test }
     }
 }
-
-/// Puts limits on this process, which is a helper: on its memory, and no core file is written when it crashes.
-pub(crate) fn limit_this_process(memory: Option<u64>) {
-    #[cfg(unix)]
-    {
-        use nix::sys::resource::{Resource, setrlimit};
-        // A limit that can't be set leaves the one on time.
-        let _ = setrlimit(Resource::RLIMIT_CORE, 0, 0);
-        #[cfg(target_os = "linux")]
-        if let Some(memory) = memory {
-            let _ = setrlimit(Resource::RLIMIT_AS, memory, memory);
-        }
-    }
-    #[cfg(not(target_os = "linux"))]
-    let _ = memory;
-}

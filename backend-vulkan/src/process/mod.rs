@@ -9,7 +9,6 @@ pub use helper::{Helper, LongTest};
 pub use limits::Limits;
 
 pub(crate) use helper::DeviceName;
-pub(crate) use limits::limit_this_process;
 pub(crate) use protocol::{
     ARGUMENT, Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request,
     SelfTest, ShaderStage, invalid, parse, read_frame, write, write_frame,

@@ -92,6 +92,8 @@ pub(crate) struct IncludedFile {
 /// Why a stage doesn't compile.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) enum CompileFailure {
+    /// The program was built without a compiler.
+    NoCompiler,
     /// The compiler's messages, each with the file and line that it is about.
     Messages(Vec<String>),
     /// The compiler ran out of memory.

@@ -2,11 +2,11 @@
 
 use super::limits::Limits;
 use super::protocol::{self, ARGUMENT, Answer, LARGEST_FRAME, LARGEST_SPIRV, MARK, Request};
-use crate::base::{Cancel, SLICE};
+use crate::base::{Cancel, SLICE, apart_from_interrupts, in_words};
 use std::io::{BufReader, Read};
 use std::panic::resume_unwind;
 use std::path::Path;
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::{Duration, Instant};
@@ -103,8 +103,7 @@ impl Running {
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         command.stderr(Stdio::piped());
         // Ctrl-C is for the program, which then ends its helper.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        apart_from_interrupts(&mut command);
         let unusable = |error: io::Error| NoAnswer::Unusable(format!("{shown}: {error}"));
         let mut child = command.spawn().map_err(unusable)?;
         let (to, from, said) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
@@ -240,15 +239,6 @@ fn given_up(
 /// Ends a process, which may have ended already.
 fn kill(child: &Mutex<Child>) {
     let _ = child.lock().unwrap_or_else(PoisonError::into_inner).kill();
-}
-
-/// How a process ended.
-fn in_words(status: ExitStatus) -> String {
-    #[cfg(unix)]
-    if let Some(number) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        return nix::sys::signal::Signal::try_from(number).map_or_else(|_| status.to_string(), |it| it.to_string());
-    }
-    status.to_string()
 }
 
 #[cfg(all(test, unix))]

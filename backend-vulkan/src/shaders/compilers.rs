@@ -1,16 +1,24 @@
-//! Where GLSL is compiled: in this process, or in a helper process.
+//! Where stages come from: from a folder of precompiled ones, or of the GLSL compiler, in this process or in a helper process.
 
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
+use super::precompiled::PrecompiledShaders;
 use super::spirv_cache::{Inclusions, SpirvCache};
 use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
 use std::collections::HashMap;
 
+/// Where stages come from.
+pub(super) struct Compilers {
+    compiler: Compiler,
+    /// Stages that need no compiler.
+    pub(super) precompiled: Option<PrecompiledShaders>,
+}
+
 /// Where GLSL is compiled.
-pub(super) enum Compilers {
+enum Compiler {
     /// In this process.
     Here,
     /// In a helper process, unless the cache holds it.
@@ -18,14 +26,34 @@ pub(super) enum Compilers {
 }
 
 impl Compilers {
-    /// In processes of this helper, and with its cache.
-    pub(super) fn of(helper: &Helper) -> Compilers {
-        let cache = helper.cache().map(|cache| SpirvCache::new(cache, helper.path(), helper.limits()));
-        Compilers::Helper(helper.clone(), cache)
+    /// In this process, or in processes of a helper and with its cache.
+    pub(super) fn new(helper: Option<&Helper>, precompiled: Option<PrecompiledShaders>) -> Compilers {
+        let compiler = helper.map_or(Compiler::Here, |helper| {
+            let cache = helper.cache().map(|cache| SpirvCache::new(cache, helper.path(), helper.limits()));
+            Compiler::Helper(helper.clone(), cache)
+        });
+        Compilers { compiler, precompiled }
     }
 
-    /// Compiles a stage whose own file is `source`.
+    /// Takes a stage, whose own file is `source`, from those that were compiled ahead, or compiles it.
     pub(super) fn compile(
+        &mut self,
+        job: &CompileJob,
+        source: &SourceFile,
+        files: &ShaderFiles,
+    ) -> Result<Vec<u32>, ShaderProblem> {
+        let unsupported = |what: String| ShaderProblem::Unsupported { what };
+        let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
+        let file = precompiled.file(job, source, files);
+        if let Some(spirv) = PrecompiledShaders::read(&file).map_err(unsupported)? {
+            return Ok(spirv);
+        }
+        let spirv = self.compile_now(job, source, files)?;
+        precompiled.add(&file, &spirv).map_err(unsupported)?;
+        Ok(spirv)
+    }
+
+    fn compile_now(
         &mut self,
         job: &CompileJob,
         source: &SourceFile,
@@ -41,14 +69,15 @@ impl Compilers {
             known.insert(shown.clone(), (path, text.clone()));
             Ok(IncludedFile { shown, text })
         };
-        let compiled = match self {
-            Compilers::Here => compile(job, &mut includes),
-            Compilers::Helper(helper, cache) => {
+        let compiled = match &mut self.compiler {
+            Compiler::Here => compile(job, &mut includes),
+            Compiler::Helper(helper, cache) => {
                 compile_cached(helper, cache.as_mut(), job, &mut includes).map_err(|end| no_answer(source, &end))?
             }
         };
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
+            CompileFailure::NoCompiler => ShaderProblem::Unsupported { what: self.no_compiler(source) },
             CompileFailure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
             CompileFailure::OutOfMemory => of_file(source, "ran out of memory", None),
             CompileFailure::Internal(words) => of_file(source, &format!("failed: {words}"), None),
@@ -59,6 +88,24 @@ impl Compilers {
                 ),
             },
         })
+    }
+
+    /// That there is no compiler for a file.
+    fn no_compiler(&self, source: &SourceFile) -> String {
+        let program = match &self.compiler {
+            Compiler::Here => "this program".to_owned(),
+            Compiler::Helper(helper, _) => format!("the program {}", helper.path().display()),
+        };
+        let elsewhere = match &self.precompiled {
+            Some(precompiled) => {
+                format!("{} holds no SPIR-V of it as this pass needs it", precompiled.folder().display())
+            }
+            None => "no folder of precompiled shaders was named".to_owned(),
+        };
+        format!(
+            "{}: it must be compiled, and {program} was built without the feature `shader-compiler`; {elsewhere}",
+            source.shown
+        )
     }
 }
 

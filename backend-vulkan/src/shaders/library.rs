@@ -1,5 +1,6 @@
 //! Shaders by name, for a kind of draw.
 
+use super::PrecompiledShaders;
 use super::compilers::Compilers;
 use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
@@ -43,7 +44,7 @@ pub struct CompiledCompute {
     pub interface: ShaderInterface,
 }
 
-/// Finds, compiles and reflects shaders.
+/// Finds, compiles and reflects shaders. Compiling takes the feature `shader-compiler`: see [`ShaderLibrary::with_precompiled`].
 ///
 /// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
 /// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
@@ -94,7 +95,7 @@ impl ShaderLibrary {
     ) -> ShaderLibrary {
         let draws = draws.into();
         let files = ShaderFiles { roots, shipped };
-        let compilers = Compilers::Here;
+        let compilers = Compilers::new(None, None);
         ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
     }
 
@@ -102,7 +103,16 @@ impl ShaderLibrary {
     /// a shader can end this process, or keep it busy forever: see [`crate::helper`].
     #[must_use]
     pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
-        ShaderLibrary { compilers: Compilers::of(helper), ..self }
+        let precompiled = self.compilers.precompiled.clone();
+        ShaderLibrary { compilers: Compilers::new(Some(helper), precompiled), ..self }
+    }
+
+    /// Takes compiled stages from a folder; `None`: from none. A program without the feature `shader-compiler`, and without a helper
+    /// that has it, can use no others.
+    #[must_use]
+    pub fn with_precompiled(mut self, precompiled: Option<PrecompiledShaders>) -> ShaderLibrary {
+        self.compilers.precompiled = precompiled;
+        self
     }
 
     /// The shader `name` when it draws `draw`, compiled as `variant` says.

@@ -1,6 +1,8 @@
 //! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
 
 mod bindings;
+#[cfg(feature = "shader-compiler")]
+mod by_shaderc;
 mod capabilities;
 mod compile;
 mod compilers;
@@ -12,6 +14,7 @@ mod macros;
 mod mentioned;
 mod messages;
 mod module;
+mod precompiled;
 mod reflect;
 mod rotation;
 mod spirv_cache;
@@ -19,6 +22,7 @@ mod stages;
 mod text;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
+pub use precompiled::PrecompiledShaders;
 pub use stages::Spirv;
 
 pub(crate) use compile::compile;

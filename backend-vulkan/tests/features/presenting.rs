@@ -2,14 +2,16 @@
 
 use crate::foreign::{destroy_image, own_image_like};
 use crate::frames::{
-    Small, Uses, dispatch, draw, library, on_each_driver_for, on_each_driver_with, planned, transfer, words,
+    Small, Uses, copy, dispatch, draw, library, on_each_driver_for, on_each_driver_with, planned, transfer, words,
 };
 use crate::testing::{Nothing, findings};
 use framewright_graph::base::Span;
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{Buffer, BufferIndex, Draw, Frame, Groups, Image, Lifetime, Output, Resource, Work};
+use framewright_graph::frame::{
+    Buffer, BufferIndex, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Output, Resource, Work,
+};
 use framewright_graph::plan::Plan;
-use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources, Usage};
 use framewright_tests::sweep;
 use framewright_tests::x_server::XServer;
 use framewright_vulkan::raw_window_handle::{RawDisplayHandle, XcbDisplayHandle, XcbWindowHandle};
@@ -229,6 +231,71 @@ fn many_frames_with_resizes_take_no_more_memory_and_allocate_nothing_in_between(
             }
         }
         assert_eq!(words(&mut executor, "count"), [frames]);
+    });
+}
+
+#[test]
+fn a_resize_that_would_change_nothing_keeps_the_images() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options([64, 48])).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        let mut present = |swapchain: &mut Swapchain| {
+            let counted = allocation_counter::measure(|| {
+                let shown = executor.present(&mut Nothing, swapchain, "screen").expect("shown");
+                assert!(matches!(shown, Presentation::Shown(_)), "{shown:?}");
+            });
+            counted.count_total
+        };
+        for _ in 0..20 {
+            present(&mut swapchain);
+        }
+        // An executor takes new images in, which allocates.
+        for _ in 0..20 {
+            assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+            assert_eq!(present(&mut swapchain), 0);
+        }
+        // Each surface has this mode, or else the one that there is.
+        swapchain.set_mode(PresentMode::Immediate);
+        assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+        let allocated = present(&mut swapchain);
+        let other_mode = device.summary().name.contains("llvmpipe");
+        assert_eq!(allocated > 0, other_mode, "{allocated}");
+        window.resize([80, 48]);
+        assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+        assert_eq!(swapchain.extent(), Some([80, 48]));
+    });
+}
+
+#[test]
+fn images_are_made_for_what_the_plans_need_that_are_shown() {
+    in_windows(|device, window, surface| {
+        let extent = [64, 48];
+        let mut swapchain = Swapchain::new(surface, &options(extent)).expect("a swapchain");
+        let usual = Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC;
+        assert_eq!(swapchain.usage(), usual);
+        let mut drawn = executor_for(device, &swapchain);
+        for frame in 0..3 {
+            let shown = drawn.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+            assert_eq!(shown, Presentation::Shown(frame));
+        }
+        assert_eq!(swapchain.usage(), usual);
+        let mut frame = counting(swapchain.format().expect("an area"), extent, Some(PRESENTED));
+        let copied = ImageIndex(u32::try_from(frame.images.len()).expect("few"));
+        frame.images.push(Image { name: "copied".into(), ..frame.images[0].clone() });
+        frame.outputs[0].resource = Resource::Image(copied);
+        let sides = [Resource::Image(ImageIndex(0)), Resource::Image(copied)].map(|it| (it, Subresources::WHOLE));
+        frame.passes.push(copy("copy", sides[0], sides[1]));
+        let mut copies = executor(device, &planned(device, &frame, &Options::default()));
+        for frame in 0..3 {
+            let shown = copies.present(&mut Nothing, &mut swapchain, "copied").expect("shown");
+            assert_eq!(shown, Presentation::Shown(frame));
+        }
+        window.shows(extent, 3);
+        assert_eq!(swapchain.usage(), usual | Usage::TRANSFER_DST);
+        // What the first one needs is still allowed.
+        let shown = drawn.present(&mut Nothing, &mut swapchain, "screen").expect("shown");
+        assert_eq!(shown, Presentation::Shown(3));
+        window.shows(extent, 4);
     });
 }
 

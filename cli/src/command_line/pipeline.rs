@@ -49,6 +49,10 @@ pub(crate) struct PipelineArguments {
     /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
     #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
     pub(crate) stereo: Modes,
+    /// Take compiled shaders from this folder, and add those that are compiled: for programs without a compiler. The folder must be
+    /// trusted: drivers are given what it holds.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) precompiled: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) caching: CachingArguments,
     #[command(flatten)]

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::files::stream;
-use crate::system::links;
+use crate::system::{links, platform};
 use framewright_graph::base::ReadFiles;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -139,7 +139,7 @@ impl Target {
     fn of(path: &Path) -> io::Result<Target> {
         match fs::metadata(path) {
             Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            Ok(data) if is_pipe(&data) => Ok(Target::Pipe(path.to_owned())),
+            Ok(data) if platform::is_pipe(&data) => Ok(Target::Pipe(path.to_owned())),
             Ok(data) if !data.is_file() => Ok(Target::Stream(path.to_owned())),
             Ok(data) if data.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -148,13 +148,6 @@ impl Target {
             _ => Ok(Target::File(path.to_owned())),
         }
     }
-}
-
-fn is_pipe(data: &fs::Metadata) -> bool {
-    #[cfg(unix)]
-    return std::os::unix::fs::FileTypeExt::is_fifo(&data.file_type());
-    #[cfg(not(unix))]
-    return false;
 }
 
 fn folder_of(file: &Path) -> &Path {
@@ -178,11 +171,7 @@ fn temporary(beside: &Path) -> io::Result<NamedTempFile> {
     let folder = folder_of(beside);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".framewright-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
+    platform::with_usual_rights(&mut builder);
     // Errors of the folder come first. `tempfile` adds the path of its own file to errors, which means nothing to the user:
     // only the kind is kept.
     fs::metadata(folder)?;

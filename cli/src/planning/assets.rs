@@ -8,7 +8,7 @@ use framewright_graph::base::{ReadFiles, Root, Sources};
 use framewright_graph::shader::{self, DrawInterfaces};
 use framewright_passes::draw;
 use framewright_passes::texture_files::TextureFiles;
-use framewright_vulkan::{Helper, ShaderLibrary};
+use framewright_vulkan::{Helper, PrecompiledShaders, ShaderLibrary};
 
 /// Where the shaders and pictures that a Plan names come from.
 pub(crate) struct Assets {
@@ -32,7 +32,8 @@ impl Assets {
         read: &ReadFiles,
     ) -> Result<Assets, Error> {
         let draws = draws(arguments, read)?;
-        let shaders = framewright::shaders(root, &[], draws, Some(&helper), read);
+        let precompiled = arguments.precompiled.as_ref().map(|folder| PrecompiledShaders::in_folder(folder).adding());
+        let shaders = framewright::shaders(root, &[], draws, Some(&helper), read).with_precompiled(precompiled);
         Ok(Assets { shaders, helper, textures: framewright::textures(root, read) })
     }
 }

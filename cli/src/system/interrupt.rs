@@ -1,21 +1,8 @@
-//! Signals: none ends the command in the middle of a file.
-//!
-//! After Ctrl-C (and a request to terminate) work stops at its next good moment. A file that grows beyond what the user may
-//! write (`ulimit -f`) is an error like a full disk.
+//! Ctrl-C, and requests to terminate: they don't end the command in the middle of a file, but work stops at its next good moment.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
-
-/// Has too large a file answered by an error of the write. To be called before there are other threads, which take it over.
-pub(crate) fn survive_large_files() {
-    #[cfg(unix)]
-    {
-        use nix::sys::signal::{SigSet, Signal};
-        // That can only fail for a signal that doesn't exist.
-        let _ = SigSet::from(Signal::SIGXFSZ).thread_block();
-    }
-}
 
 /// Begins to watch. Where that isn't possible the system's own way of ending a program stays.
 pub(crate) fn watch() {

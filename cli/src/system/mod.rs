@@ -1,10 +1,11 @@
-//! The process around a command: exit codes, signals, symbolic links, printed text, pages and progress bars.
+//! The process around a command: exit codes, signals, symbolic links, the operating system, printed text, pages and progress bars.
 
 pub(crate) mod counted;
 mod exit;
 pub(crate) mod html;
 pub(crate) mod interrupt;
 pub(crate) mod links;
+pub(crate) mod platform;
 pub(crate) mod progress;
 pub(crate) mod quantiles;
 pub(crate) mod text;

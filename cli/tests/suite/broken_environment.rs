@@ -140,3 +140,18 @@ fn a_layer_whose_settings_keep_it_from_speaking_is_told_from_one_that_finds_noth
         assert!(outcome.out.contains(" reported the mistakes that were planted to test it\n"), "{}", outcome.out);
     }
 }
+
+/// The loader lists a driver like MoltenVK only to programs that say they know that such drivers lack parts of Vulkan.
+#[test]
+fn a_driver_that_lacks_parts_of_vulkan_is_listed() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let driver = variables.iter().find(|(name, _)| *name == "VK_DRIVER_FILES").expect("a driver").1;
+    let text = std::fs::read_to_string(driver).expect("a manifest");
+    let mut manifest: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    manifest["ICD"]["is_portability_driver"] = true.into();
+    let place = Place::new();
+    let file = place.file("driver.json", manifest.to_string());
+    let file = file.to_str().expect("text");
+    let found = place.run_with(&[("VK_DRIVER_FILES", file), ("VK_ICD_FILENAMES", file)], &["devices"]).exits(0).out;
+    assert!(found.contains("llvmpipe"), "{found}");
+}

@@ -25,6 +25,7 @@ impl Reading {
     pub(super) fn begin(path: &Path, options: &RendererOptions, read: &ReadFiles) -> Result<Reading, Error> {
         let file = PipelineFile::find(path, &options.files, read)?;
         let shaders = shaders(file.root(), &options.shaders, options.draws.clone(), options.helper.as_ref(), read);
+        let shaders = shaders.with_precompiled(options.precompiled.clone());
         let mut pipeline = file.read()?;
         let settings = pipeline.read_settings(&options.settings, read)?;
         let mut reading = Reading { pipeline, settings, shaders };

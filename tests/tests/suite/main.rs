@@ -6,6 +6,7 @@ mod hand_written_plans;
 mod happens_before;
 mod hostile_plans;
 mod mutation;
+mod platforms;
 mod programs;
 mod queues;
 mod random_pipelines;

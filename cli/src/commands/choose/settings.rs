@@ -55,6 +55,7 @@ fn document(pipeline: &str, read: &ReadFiles) -> Option<Document> {
         root: None,
         allow_outside: false,
         interface: None,
+        precompiled: None,
         stereo: Modes(vec![Stereo::Off]),
         caching: CachingArguments { no_cache: true },
         limits: ShaderLimits { shader_seconds: 10, shader_memory: 1024, shader_stack: 8 },

@@ -1,0 +1,124 @@
+//! What differs between operating systems: the only file of this crate that asks which one it is built for.
+
+use std::fs::{DirBuilder, File, Metadata, OpenOptions};
+use std::io;
+use std::path::PathBuf;
+use std::process::{Command, ExitStatus};
+
+/// Has a file opened without waiting and without following a link in its place: nobody may write to a pipe of that name, ever.
+/// Windows has no such pipes in folders, and makes links for administrators alone.
+pub(super) fn at_once(options: &mut OpenOptions) {
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NONBLOCK | libc::O_NOFOLLOW);
+    #[cfg(not(unix))]
+    let _ = options;
+}
+
+/// Whether a file belongs to this user, and nobody else may write it. On Windows that is a matter of the folder, which lies in the
+/// user's profile.
+pub(super) fn is_own(file: &Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        file.uid() == nix::unistd::geteuid().as_raw() && file.mode() & 0o022 == 0
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        true
+    }
+}
+
+/// Has folders made that only this user may use.
+pub(super) fn private(folders: &mut DirBuilder) {
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(folders, 0o700);
+    #[cfg(not(unix))]
+    let _ = folders;
+}
+
+/// Has a temporary file made with the rights of any other new file: `tempfile` would make it the user's alone.
+pub(crate) fn with_usual_rights(file: &mut tempfile::Builder<'_, '_>) {
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    #[cfg(not(unix))]
+    let _ = file;
+}
+
+/// The folder of the user's caches where `XDG_CACHE_HOME` names none: `~/.cache`, on Windows `%LOCALAPPDATA%`.
+pub(super) fn caches_of_user(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
+    if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("HOME").map(|home| home.join(".cache")) }
+}
+
+/// Has Ctrl-C interrupt this program and not the one that it starts.
+pub(crate) fn apart_from_interrupts(command: &mut Command) {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    #[cfg(windows)]
+    {
+        const CREATE_NEW_PROCESS_GROUP: u32 = 0x200;
+        std::os::windows::process::CommandExt::creation_flags(command, CREATE_NEW_PROCESS_GROUP);
+    }
+    #[cfg(not(any(unix, windows)))]
+    let _ = command;
+}
+
+/// How a process ended: the signal's name, where one ended it.
+pub(crate) fn in_words(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(number) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return nix::sys::signal::Signal::try_from(number).map_or_else(|_| status.to_string(), |it| it.to_string());
+    }
+    status.to_string()
+}
+
+/// Puts limits on this process, which is a helper: on its memory, which only Linux keeps to, and no core file is written when it
+/// crashes. A limit that can't be set leaves the one on time.
+pub(crate) fn limit_this_process(memory: Option<u64>) {
+    #[cfg(unix)]
+    {
+        use nix::sys::resource::{Resource, setrlimit};
+        let _ = setrlimit(Resource::RLIMIT_CORE, 0, 0);
+        #[cfg(target_os = "linux")]
+        if let Some(memory) = memory {
+            let _ = setrlimit(Resource::RLIMIT_AS, memory, memory);
+        }
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = memory;
+}
+
+/// This process's standard output, which from now on is the caller's alone: what drivers and compilers print goes to standard
+/// error. On Windows it still goes to standard output.
+///
+/// # Errors
+/// Those of the system.
+pub(crate) fn take_standard_output() -> io::Result<File> {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        let output = io::stdout().as_fd().try_clone_to_owned()?;
+        nix::unistd::dup2_stdout(io::stderr())?;
+        Ok(output.into())
+    }
+    #[cfg(windows)]
+    {
+        use std::os::windows::io::AsHandle;
+        Ok(io::stdout().as_handle().try_clone_to_owned()?.into())
+    }
+    #[cfg(not(any(unix, windows)))]
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Ends this process at once, without the functions that libraries have registered for its end: those of a software driver
+/// crash while its threads are still at work. What this program itself has not yet written is lost. Where the system isn't Unix,
+/// those functions do run.
+pub fn end_process(code: u8) -> ! {
+    #[cfg(unix)]
+    // SAFETY: `_exit` only ends the process.
+    unsafe {
+        libc::_exit(code.into())
+    }
+    #[cfg(not(unix))]
+    std::process::exit(code.into())
+}

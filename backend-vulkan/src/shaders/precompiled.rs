@@ -1,0 +1,107 @@
+//! Stages that were compiled ahead, as files of SPIR-V: programs need no compiler then.
+
+use super::files::{ShaderFiles, SourceFile};
+use super::text::included;
+use crate::base::with_usual_rights;
+use crate::process::{CompileJob, LARGEST_SPIRV, ShaderStage};
+use sha2::{Digest, Sha256};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// The first word of SPIR-V.
+const MAGIC: u32 = 0x0723_0203;
+
+/// A folder of compiled stages, one file of SPIR-V each. A file's name holds a digest of all that it was compiled from: the stage's
+/// text and macros, the files that it includes or may include, and the version of this crate. A stage whose text has changed since,
+/// or that a pass needs with other macros, has another name.
+///
+/// Drivers are given what such files hold: they must be trusted as the program itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PrecompiledShaders {
+    folder: PathBuf,
+    adds: bool,
+}
+
+impl PrecompiledShaders {
+    /// The stages in this folder are taken from there. Others are compiled, where the program has a compiler.
+    #[must_use]
+    pub fn in_folder(folder: impl Into<PathBuf>) -> PrecompiledShaders {
+        PrecompiledShaders { folder: folder.into(), adds: false }
+    }
+
+    /// Stages that are compiled are added to the folder, which is made if there is none.
+    #[must_use]
+    pub fn adding(self) -> PrecompiledShaders {
+        PrecompiledShaders { adds: true, ..self }
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The file of a stage, whether it is there or not.
+    pub(super) fn file(&self, job: &CompileJob, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
+        let mut digest = Sha256::new();
+        let mut add = |text: &str| {
+            digest.update((text.len() as u64).to_le_bytes());
+            digest.update(text);
+        };
+        let stage = match job.stage {
+            ShaderStage::Vertex => "vertex",
+            ShaderStage::Fragment => "fragment",
+            ShaderStage::Compute => "compute",
+        };
+        [env!("CARGO_PKG_VERSION"), stage, &job.text].into_iter().for_each(&mut add);
+        job.macros.iter().flat_map(|(name, value)| [name, value]).for_each(|text| add(text));
+        included(files, source).iter().for_each(|file| add(&file.text));
+        let digest: String = digest.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+        // For people alone.
+        let name = Path::new(source.path.path()).file_name().unwrap_or_default().to_string_lossy();
+        self.folder.join(format!("{name}.{digest}.spv"))
+    }
+
+    /// The SPIR-V in the file of a stage; `None` if there is no such file.
+    ///
+    /// # Errors
+    /// In words: the file is no SPIR-V, or can't be read.
+    pub(super) fn read(file: &Path) -> Result<Option<Vec<u32>>, String> {
+        let problem = |what: &str| format!("the precompiled shader {} {what}", file.display());
+        let unreadable = |error: io::Error| problem(&format!("can't be read: {error}"));
+        let opened = match File::open(file) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            opened => opened.map_err(unreadable)?,
+        };
+        let mut bytes = Vec::new();
+        opened.take(LARGEST_SPIRV as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        let (words, rest) = bytes.as_chunks();
+        let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        match words.first() {
+            Some(&MAGIC) if rest.is_empty() && bytes.len() <= LARGEST_SPIRV => Ok(Some(words)),
+            _ => Err(problem("is no SPIR-V")),
+        }
+    }
+
+    /// Adds a stage that was compiled, if that is wanted.
+    ///
+    /// # Errors
+    /// In words: the file can't be written.
+    pub(super) fn add(&self, file: &Path, spirv: &[u32]) -> Result<(), String> {
+        if !self.adds {
+            return Ok(());
+        }
+        let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+        let written = || -> io::Result<()> {
+            fs::create_dir_all(&self.folder)?;
+            let mut unfinished = tempfile::Builder::new();
+            with_usual_rights(&mut unfinished);
+            let mut unfinished = unfinished.tempfile_in(&self.folder)?;
+            unfinished.write_all(&bytes)?;
+            unfinished.persist(file).map_err(|error| error.error)?;
+            Ok(())
+        };
+        written().map_err(|error| format!("the precompiled shader {} can't be written: {error}", file.display()))
+    }
+}
