@@ -60,12 +60,13 @@ fn the_example_for_openxr_shows_the_eyes_that_the_command_shows() {
         let mut example = Command::new(&built);
         let said =
             outcome(example.arg("validate").current_dir(place.path("")).envs(variables.iter().copied())).exits(0);
-        said.says("2 layers of 320×180\n1 layers of 640×180\n");
+        assert_eq!(said.out, "2 layers of 320×180\n1 layers of 640×180\n");
         for (shown, modes) in [("layers", "multiview,instanced"), ("halves", "double-wide")] {
             let run = ["run", "forward", "--scene", "spheres_and_cubes", "--size", "320x180", "--stereo", modes];
             let run = [&run[..], &["--validate", "-o", "both.png"]].concat();
             // The planted mistake shows that the layer is awake.
-            place.run_with(&variables, &run).exits(0).mentions("validation: silent; ");
+            let said = place.run_with(&variables, &run).exits(0).out;
+            assert!(said.contains("validation: silent; "), "{said}");
             let [both, shown] =
                 ["both.png".to_owned(), format!("out/{shown}.png")].map(|file| picture(&place.path(file)).into_rgb8());
             assert!(both == shown, "{modes}: the eyes differ");

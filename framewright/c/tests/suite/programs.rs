@@ -69,6 +69,30 @@ fn a_program_in_c_records_into_its_own_commands_on_its_own_device() {
     assert!(String::from_utf8_lossy(&out.stdout).contains("VUID-vkDestroyDevice-device"), "{out:?}");
 }
 
+/// What the sanitizer says of a program: memory that was used wrongly, and what was never freed.
+fn sanitized(text: &str) -> String {
+    let program = Program::with(text, &["-g", "-fsanitize=address"]);
+    let out = program.run(&["picture.ppm"], &[("ASAN_OPTIONS", "detect_leaks=1")]);
+    String::from_utf8_lossy(&out.stderr).into_owned()
+}
+
+#[test]
+fn programs_in_c_free_all_that_they_are_given() {
+    let Some(_) = program("examples/embed_minimal.c") else { return };
+    // Drivers leak a little. What this library made has its functions among the callers.
+    const OWN: &str = "framewright_c::";
+    for path in ["examples/embed_minimal.c", "framewright/c/tests/programs/bad_calls.c"] {
+        let said = sanitized(&text(path));
+        assert!(!said.contains(OWN) && !said.contains("heap-use-after-free"), "{path}: {said}");
+    }
+    for free in ["scene", "renderer", "device"] {
+        let text = text("examples/embed_minimal.c");
+        let leaky = text.replace(&format!("    framewright_{free}_free({free});\n"), "");
+        assert_ne!(leaky, text);
+        assert!(sanitized(&leaky).contains(OWN), "the sanitizer sees no {free} that isn't freed");
+    }
+}
+
 #[test]
 fn wrong_calls_have_their_status_and_their_words() {
     let Some(program) = program("framewright/c/tests/programs/bad_calls.c") else { return };

@@ -48,13 +48,18 @@ pub(crate) struct Program(TempDir);
 impl Program {
     /// Builds the program of a text.
     pub(crate) fn of(text: &str) -> Program {
+        Program::with(text, &[])
+    }
+
+    /// Builds it by further options of the compiler.
+    pub(crate) fn with(text: &str, options: &[&str]) -> Program {
         let folder = tempfile::tempdir().expect("a folder");
         let source = folder.path().join("program.c");
         std::fs::write(&source, text).expect("written");
         let (source, built) = (source.to_string_lossy().into_owned(), folder.path().join("program"));
         let search = format!("-L{}", library().display());
         let linked = ["-o", &built.to_string_lossy(), &source, &search, "-lframewright_c", "-lvulkan"];
-        compile("cc", &[&FLAGS[..], &linked[..]].concat());
+        compile("cc", &[&FLAGS[..], options, &linked[..]].concat());
         Program(folder)
     }
 
