@@ -80,3 +80,31 @@ pub extern "C" fn framewright_last_error() -> *const c_char {
 pub extern "C" fn framewright_last_mistake(number: usize) -> *const FramewrightMistake {
     LAST.with_borrow(|last| last.mistakes.get(number).map_or(ptr::null(), ptr::from_ref))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::CStr;
+
+    #[test]
+    fn a_panic_becomes_a_status_and_leaves_its_words() {
+        let status = call(|| panic!("a number {} that can't be", 7));
+        // SAFETY: it is a text, and no call fails meanwhile.
+        let said = unsafe { CStr::from_ptr(framewright_last_error()) };
+        assert_eq!(status, FramewrightStatus::Panic);
+        assert_eq!(said, c"the library panicked: a number 7 that can't be");
+        assert_eq!(call(|| Ok(())), FramewrightStatus::Ok);
+    }
+
+    #[test]
+    fn a_text_for_c_ends_at_its_end() {
+        assert_eq!(text("one\0two").to_str(), Ok("one\u{fffd}two"));
+    }
+
+    #[test]
+    fn each_thread_has_an_error_of_its_own() {
+        call(|| Err(Problem::Misuse("mine".to_owned())));
+        std::thread::spawn(|| call(|| Err(Problem::Misuse("another one".to_owned())))).join().expect("it ends");
+        assert_eq!(LAST.with_borrow(|last| last.text.clone()).to_str(), Ok("mine"));
+    }
+}
