@@ -3,7 +3,9 @@
 use super::executor::Executor;
 use super::submission::{ExternalStates, ResourceState};
 use crate::base::Error;
-use crate::prepare::name_and_role;
+use crate::memory::create_info;
+use crate::prepare::{descriptor, name_and_role};
+use ash::vk;
 use framewright_graph::plan::{Resource, Role};
 
 impl Executor {
@@ -13,6 +15,18 @@ impl Executor {
         let resource = self.external(name)?;
         let Role::External { before, after } = name_and_role(&self.plan, resource).1 else { return None };
         Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
+    }
+
+    /// How an image is created that can be imported for the external image `name`. `None` if the Plan has no such image.
+    #[must_use]
+    pub fn image_info(&self, name: &str) -> Option<vk::ImageCreateInfo<'_>> {
+        match self.external(name)? {
+            Resource::Image(image) => {
+                let descriptor = descriptor(self.plan.image(image));
+                Some(create_info(&descriptor, &self.gpu.queues.families.indices))
+            }
+            Resource::Buffer(_) => None,
+        }
     }
 
     /// Chooses among the program's images for the next frame.

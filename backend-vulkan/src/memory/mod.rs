@@ -10,5 +10,5 @@ pub use needs::{LiveMemory, MemoryInUse};
 
 pub(crate) use block::{MemoryBlock, MemoryUse};
 pub(crate) use buffer::RawBuffer;
-pub(crate) use image::Image;
+pub(crate) use image::{Image, create_info};
 pub(crate) use view::ViewShape;

@@ -1,11 +1,12 @@
 //! `--stereo`: pictures of both eyes beside each other, on both drivers (ST-1).
 
-use crate::testing::{Place, Vulkan, live_profile, shipped_pipelines};
+use crate::testing::{Place, Vulkan, live_profile, outcome, shipped_pipelines};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::Stereo;
 use framewright_tests::sweep;
 use image::{DynamicImage, GenericImageView};
 use std::path::Path;
+use std::process::Command;
 
 const DRIVERS: [Vulkan; 2] = [Vulkan::LAVAPIPE, Vulkan::SWIFTSHADER_CURRENT];
 
@@ -44,6 +45,32 @@ fn both_eyes_stand_side_by_side_in_pictures_and_dumps() {
         let (from_left, from_right, apart) = (differ(&left, &one), differ(&right, &one), differ(&left, &right));
         assert!(from_left < 2000 && from_right < 2000, "{from_left} and {from_right} pixels of 14490");
         assert!(apart > from_left && apart > from_right, "{apart}, {from_left}, {from_right}");
+    }
+}
+
+/// The program draws into images that an OpenXR runtime would hand out, and shows each eye its layer or half.
+#[test]
+fn the_example_for_openxr_shows_the_eyes_that_the_command_shows() {
+    let place = Place::new();
+    let tests = std::env::current_exe().expect("a path");
+    let built = tests.parent().and_then(Path::parent).expect("a folder").join("examples/openxr_layers");
+    assert!(built.exists(), "{} isn't built: cargo build --examples -p framewright-vulkan", built.display());
+    for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
+        let Some(variables) = vulkan.variables() else { continue };
+        let mut example = Command::new(&built);
+        let said =
+            outcome(example.arg("validate").current_dir(place.path("")).envs(variables.iter().copied())).exits(0);
+        assert_eq!(said.out, "2 layers of 320×180\n1 layers of 640×180\n");
+        for (shown, modes) in [("layers", "multiview,instanced"), ("halves", "double-wide")] {
+            let run = ["run", "forward", "--scene", "spheres_and_cubes", "--size", "320x180", "--stereo", modes];
+            let run = [&run[..], &["--validate", "-o", "both.png"]].concat();
+            // The planted mistake shows that the layer is awake.
+            let said = place.run_with(&variables, &run).exits(0).out;
+            assert!(said.contains("validation: silent; "), "{said}");
+            let [both, shown] =
+                ["both.png".to_owned(), format!("out/{shown}.png")].map(|file| picture(&place.path(file)).into_rgb8());
+            assert!(both == shown, "{modes}: the eyes differ");
+        }
     }
 }
 

@@ -372,6 +372,12 @@ impl Renderer {
         self.drawn.as_ref().map(|drawn| &drawn.executor)
     }
 
+    /// The number of the executor's first frame: it counts its own from 0, and this type those of all executors.
+    #[must_use]
+    pub fn first_frame(&self) -> u64 {
+        self.drawn.as_ref().map_or(0, |drawn| drawn.first)
+    }
+
     /// The executor of the next frame, for all that this type has no method for: imports, contents that are written, frames among the
     /// program's own work. It must stay with its Plan: [`Executor::change`] is for [`Renderer::prepare`].
     ///

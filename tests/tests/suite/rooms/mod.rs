@@ -6,7 +6,7 @@ mod rules;
 use std::path::Path;
 
 /// The crates whose rooms have an order.
-const CRATES: [&str; 5] = ["graph", "backend-vulkan", "passes", "framewright", "cli"];
+const CRATES: [&str; 6] = ["graph", "backend-vulkan", "passes", "framewright", "framewright/c", "cli"];
 
 /// The rooms of a crate from the bottom to the top: those that the tables of rooms in docs/architecture.md name, in their order.
 fn order(page: &str, name: &str) -> Vec<String> {

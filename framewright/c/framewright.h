@@ -1,0 +1,469 @@
+// Framewright: a render graph for Vulkan 1.3. This header is made by cbindgen of the crate framewright-c; docs/c.md tells how to use it.
+//
+// - A function that can fail returns a status. `framewright_last_error` has the words, with file, line and column where a file is wrong.
+// - Texts are UTF-8 and end with 0. What a pointer of an argument leads to is needed during the call alone, and must not be NULL unless
+//   the function says so.
+// - Handles are made by `…_open`, `…_adopt` and `…_load`, and freed by `…_free`, which takes NULL. What was made from a handle outlives it.
+// - A structure that begins with `struct_size` is set to 0 but for that: `FramewrightDeviceOptions options = {.struct_size = sizeof options}`.
+// - Vulkan's handles belong to the program, and are as its Vulkan demands: of the same device, alive, and in the state that is told.
+
+#ifndef FRAMEWRIGHT_H
+#define FRAMEWRIGHT_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+// The version of this interface. A program that was compiled with another one than `framewright_abi` returns must not call anything else.
+#define FRAMEWRIGHT_ABI 1
+
+// What became of a call. `framewright_last_error` has the words.
+typedef enum {
+    // All went well.
+    FRAMEWRIGHT_STATUS_OK = 0,
+    // The call is wrong: a pointer is NULL, a text isn't UTF-8, a structure has another size, a name isn't known, or it isn't the time.
+    FRAMEWRIGHT_STATUS_MISUSE = 1,
+    // A file is missing, or can't be read.
+    FRAMEWRIGHT_STATUS_FILE = 2,
+    // The user's files or choices are wrong. `framewright_last_mistake` has the mistakes one by one.
+    FRAMEWRIGHT_STATUS_MISTAKES = 3,
+    // The machine lacks something: a driver, a device, a feature, the validation layer.
+    FRAMEWRIGHT_STATUS_MACHINE = 4,
+    // There is not enough memory.
+    FRAMEWRIGHT_STATUS_OUT_OF_MEMORY = 5,
+    // The device is lost, or didn't answer in time: nothing that was made from it can be used any more.
+    FRAMEWRIGHT_STATUS_DEVICE_LOST = 6,
+    // The library has a mistake, and a call panicked. The handle that was used can only be freed.
+    FRAMEWRIGHT_STATUS_PANIC = 7,
+} FramewrightStatus;
+
+// What became another one when a frame was prepared.
+typedef enum {
+    // Nothing: nothing was planned.
+    FRAMEWRIGHT_CHANGE_NOTHING = 0,
+    // At most numbers in the Plan.
+    FRAMEWRIGHT_CHANGE_VALUES = 1,
+    // The Plan: images that the program imported are to be imported again.
+    FRAMEWRIGHT_CHANGE_PLAN = 2,
+} FramewrightChange;
+
+// How a frame is drawn for two eyes.
+typedef enum {
+    // For one eye.
+    FRAMEWRIGHT_STEREO_OFF = 0,
+    // Two images, one after the other.
+    FRAMEWRIGHT_STEREO_MULTI_PASS = 1,
+    // Halves of one image of twice the width.
+    FRAMEWRIGHT_STEREO_DOUBLE_WIDE = 2,
+    // Layers of one image, or halves where vertex shaders can't choose a layer; each draw has twice the instances.
+    FRAMEWRIGHT_STEREO_INSTANCED = 3,
+    // Layers of one image, into all of which the device draws.
+    FRAMEWRIGHT_STEREO_MULTIVIEW = 4,
+} FramewrightStereo;
+
+// By how much the screen is turned that shows a picture, clockwise.
+typedef enum {
+    // Not at all.
+    FRAMEWRIGHT_ROTATION_IDENTITY = 0,
+    // A quarter.
+    FRAMEWRIGHT_ROTATION_ROTATE90 = 1,
+    // A half.
+    FRAMEWRIGHT_ROTATION_ROTATE180 = 2,
+    // Three quarters.
+    FRAMEWRIGHT_ROTATION_ROTATE270 = 3,
+} FramewrightRotation;
+
+// A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
+typedef struct FramewrightDevice FramewrightDevice;
+
+// A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
+typedef struct FramewrightRenderer FramewrightRenderer;
+
+// What a pass outside of a rendering scope accesses.
+typedef struct FramewrightResources FramewrightResources;
+
+// A scene in memory. Any thread may use it, and several at once.
+typedef struct FramewrightScene FramewrightScene;
+
+// One mistake in the user's files or choices.
+typedef struct {
+    // The mistake, in one sentence.
+    const char *message;
+    // The file, relative to the folder of the pipeline; NULL if no file is to blame, and the numbers are 0.
+    const char *file;
+    // The line, from 1.
+    uint32_t line;
+    // The column in characters, from 1.
+    uint32_t column;
+} FramewrightMistake;
+
+// How to open a device. 0 in a field is its default.
+typedef struct {
+    // sizeof(FramewrightDeviceOptions).
+    size_t struct_size;
+    // Its name, or a part of it or of its driver's name; NULL: lavapipe, or where there is none, the first device that will do.
+    const char *name;
+    // Whether the validation layer watches: see `framewright_device_findings`.
+    uint32_t validation;
+    // A program whose `main` calls `helper::serve`, such as the command `framewright`: shaders are compiled and drivers tested in
+    // it, and can't end this one. NULL: in this process, which is for shaders and drivers that are trusted.
+    const char *helper;
+} FramewrightDeviceOptions;
+
+// Is told a finding of the validation layer, which lives until it returns.
+typedef void (*FramewrightFinding)(void *context, const char *text);
+
+// Several texts.
+typedef struct {
+    // The first of them; NULL if there are none.
+    const char *const *names;
+    // How many there are.
+    size_t count;
+} FramewrightNames;
+
+// A queue that the library may use.
+typedef struct {
+    // Its family.
+    uint32_t family;
+    // The queue.
+    VkQueue queue;
+} FramewrightQueue;
+
+// A device that the program made itself, and what it was made with. The instance has Vulkan 1.3 as its `apiVersion`, and comes from the
+// system's loader.
+typedef struct {
+    // sizeof(FramewrightAdoptedDevice).
+    size_t struct_size;
+    // The instance.
+    VkInstance instance;
+    // The extensions that it was created with.
+    FramewrightNames instance_extensions;
+    // The physical device.
+    VkPhysicalDevice physical_device;
+    // The device.
+    VkDevice device;
+    // The extensions that it was created with.
+    FramewrightNames device_extensions;
+    // The features that it was created with, as they were chained to its creation. What is missing is named by the error.
+    const VkPhysicalDeviceFeatures2 *features;
+    // Queues that the library may use, of which one does graphics and compute. While a call of the library draws, uploads or reads back,
+    // no other thread submits to them.
+    const FramewrightQueue *queues;
+    // How many there are.
+    size_t queue_count;
+    // As in FramewrightDeviceOptions.
+    const char *helper;
+} FramewrightAdoptedDevice;
+
+// A custom pass that is to be recorded. It lives until its callback returns.
+typedef struct {
+    // The name of the pass.
+    const char *name;
+    // What the pipeline calls its work: the name behind `custom`.
+    const char *custom;
+    // Where it is recorded. Its barriers are there already.
+    VkCommandBuffer commands;
+    // Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
+    uint32_t in_scope;
+    // Width of the targets; 0 outside of a scope.
+    uint32_t width;
+    // Height of the targets; 0 outside of a scope.
+    uint32_t height;
+    // The number of the frame since the Plan was made, from 0.
+    uint64_t frame;
+    // Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
+    const FramewrightResources *resources;
+} FramewrightPass;
+
+// An image that a pass accesses.
+typedef struct {
+    // Vulkan's image.
+    VkImage image;
+    // The part that the pass may touch.
+    VkImageSubresourceRange range;
+    // Width in texels of its first mip level, as much as is in use.
+    uint32_t width;
+    // Height in texels.
+    uint32_t height;
+    // Depth in texels: 1, but for a volume.
+    uint32_t depth;
+    // The layout that it is in, and is left in.
+    VkImageLayout layout;
+} FramewrightPassImage;
+
+// What a renderer is made with, and keeps. 0 in a field is its default.
+typedef struct {
+    // sizeof(FramewrightRendererOptions).
+    size_t struct_size;
+    // How many frames may be on their way before a new one waits for the oldest; 0 counts as 1.
+    uint32_t frames_in_flight;
+    // Folders of shaders beside that of the pipeline.
+    FramewrightNames shaders;
+    // Settings files, of which later ones are stronger.
+    FramewrightNames settings;
+    // Extensions that are applied to the pipeline: files, or paths of shipped ones.
+    FramewrightNames extensions;
+} FramewrightRendererOptions;
+
+// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile.
+typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
+
+// What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
+typedef struct {
+    // sizeof(FramewrightFacts).
+    size_t struct_size;
+    // Anything is drawn that hides all behind it.
+    uint32_t has_opaque;
+    // Anything with holes that its alpha cuts is drawn.
+    uint32_t has_alpha_clip;
+    // Anything transparent is drawn.
+    uint32_t has_transparent;
+    // Anything fades by leaving out fragments.
+    uint32_t has_cross_fade;
+    // Any light casts shadows, and there is something to cast them.
+    uint32_t casts_shadows;
+    // How many cascades the sun's shadows need.
+    uint32_t shadow_cascades;
+    // How many suns shine.
+    uint32_t suns;
+    // How many point lights shine.
+    uint32_t point_lights;
+    // How many objects there are.
+    uint32_t objects;
+    // How many triangles all objects have.
+    uint64_t triangles;
+    // The most radiance that a pixel can show before any effect, linear.
+    double peak_radiance;
+    // The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
+    double depth_range;
+} FramewrightFacts;
+
+// An image of the program's that a frame uses.
+typedef struct {
+    // The name of the external image.
+    const char *name;
+    // The number of the one to use among those that were imported, from 0.
+    size_t image;
+} FramewrightChoice;
+
+// A semaphore that a frame waits for or signals.
+typedef struct {
+    // The semaphore.
+    VkSemaphore semaphore;
+    // The value of a timeline semaphore; it doesn't matter for a binary one.
+    uint64_t value;
+    // The stages that wait, or that are waited for; 0: all.
+    VkPipelineStageFlags2 stages;
+} FramewrightSemaphore;
+
+// How a frame is submitted among the program's own work. 0 in a field is its default.
+typedef struct {
+    // sizeof(FramewrightSubmission).
+    size_t struct_size;
+    // Images of the program's, for external images of which several were imported. One that isn't listed is that of the frame before.
+    const FramewrightChoice *images;
+    // How many.
+    size_t image_count;
+    // What the frame waits for before it begins.
+    const FramewrightSemaphore *waits;
+    // How many.
+    size_t wait_count;
+    // What it signals at its end.
+    const FramewrightSemaphore *signals;
+    // How many.
+    size_t signal_count;
+} FramewrightSubmission;
+
+// The state of an image or buffer: what used it last, or uses it next.
+typedef struct {
+    // Stages.
+    VkPipelineStageFlags2 stages;
+    // Accesses.
+    VkAccessFlags2 accesses;
+    // The layout; `VK_IMAGE_LAYOUT_UNDEFINED` for a buffer, and for an image whose contents the frame doesn't need.
+    VkImageLayout layout;
+} FramewrightState;
+
+// The texels of an image: layer after layer, slice after slice, rows from the top, without padding; the machine's byte order.
+typedef struct {
+    // The format of a texel. Of depth and stencil one is read: the depth takes 2 bytes for `VK_FORMAT_D16_UNORM`, else 4.
+    VkFormat format;
+    // Width in texels.
+    uint32_t width;
+    // Height in texels.
+    uint32_t height;
+    // Depth in texels: 1, but for a volume.
+    uint32_t depth;
+    // Array layers.
+    uint32_t layers;
+    // The bytes.
+    const uint8_t *bytes;
+    // How many bytes there are.
+    size_t byte_count;
+} FramewrightTexels;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The interface of the library that the program runs with: compare it with `FRAMEWRIGHT_ABI`.
+uint32_t framewright_abi(void);
+
+// The version of the library that the program runs with, as a text such as `1.2.3`.
+const char *framewright_version(void);
+
+// What the last call of this thread that failed said, with file, line and column where a file is wrong; never NULL. It lives until
+// another call of this thread fails, or the thread ends.
+const char *framewright_last_error(void);
+
+// The mistakes in files and choices that this error consists of, by their numbers from 0; NULL behind the last one, and if it is
+// another error. They live as long as its text.
+const FramewrightMistake *framewright_last_mistake(size_t number);
+
+// Opens a device of the library's own. `options` may be NULL.
+FramewrightStatus framewright_device_open(const FramewrightDeviceOptions *options, FramewrightDevice **device);
+
+// The device's name, which lives as long as the handle; NULL for NULL.
+const char *framewright_device_name(const FramewrightDevice *device);
+
+// Tells each finding of the validation layer so far: none without `FramewrightDeviceOptions::validation`.
+FramewrightStatus framewright_device_findings(const FramewrightDevice *device, FramewrightFinding tell, void *context);
+
+// Frees the handle of a device. What was made from it keeps it open.
+void framewright_device_free(FramewrightDevice *device);
+
+// Uses a device that the program made itself. The library destroys what it makes from it, and neither device nor instance: they outlive
+// all that is made from the handle.
+FramewrightStatus framewright_device_adopt(const FramewrightAdoptedDevice *program,
+                                           FramewrightDevice **device);
+
+// Reads a scene from a file (`.ron`, `.gltf`, `.glb`); where there is none, the shipped scene of that name.
+FramewrightStatus framewright_scene_load(const char *path, FramewrightScene **scene);
+
+// Frees the handle of a scene. Renderers that show it go on.
+void framewright_scene_free(FramewrightScene *scene);
+
+// Tells an image that a pass outside of a rendering scope accesses, by the pipeline's name.
+FramewrightStatus framewright_pass_image(const FramewrightPass *pass, const char *name, FramewrightPassImage *image);
+
+// Tells a buffer that a pass outside of a rendering scope accesses, by the pipeline's name.
+FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass, const char *name, VkBuffer *buffer);
+
+// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
+// has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
+FramewrightStatus framewright_renderer_open(const FramewrightDevice *device,
+                                            const char *pipeline,
+                                            const FramewrightRendererOptions *options,
+                                            FramewrightRenderer **renderer);
+
+// Frees a renderer. Frames on their way are waited for.
+void framewright_renderer_free(FramewrightRenderer *renderer);
+
+// Gives a setting a value, which is stronger than presets and settings files: a number, `true`, `false` or a name, as text. NULL takes
+// it back. A value that isn't allowed changes nothing.
+FramewrightStatus framewright_renderer_set(FramewrightRenderer *renderer,
+                                           const char *setting,
+                                           const char *value);
+
+// Puts a preset in force, in place of the one before; NULL: that of the settings files, if they name one.
+FramewrightStatus framewright_renderer_set_preset(FramewrightRenderer *renderer, const char *preset);
+
+// Sets width and height of the output.
+FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer, uint32_t width, uint32_t height);
+
+// Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
+FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
+                                                 const FramewrightScene *scene);
+
+// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
+                                                    FramewrightRecord record,
+                                                    void *context);
+
+// Tells the facts of a scene that the program draws itself; NULL: it may hold everything.
+FramewrightStatus framewright_renderer_set_facts(FramewrightRenderer *renderer, const FramewrightFacts *facts);
+
+// Says how the frame is drawn for two eyes: a FramewrightStereo. `FRAMEWRIGHT_STATUS_MACHINE`: the device can't.
+FramewrightStatus framewright_renderer_set_stereo(FramewrightRenderer *renderer, uint32_t stereo);
+
+// Says by how much the screen is turned that shows the picture: a FramewrightRotation. What is read back is upright.
+FramewrightStatus framewright_renderer_set_rotation(FramewrightRenderer *renderer, uint32_t rotation);
+
+// Whether a file that was read is another one by now: 1, else 0.
+FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *renderer, uint32_t *changed);
+
+// Reads the pipeline, its shaders and pictures anew, and plans. Mistakes in the files leave all as it was.
+FramewrightStatus framewright_renderer_reload(FramewrightRenderer *renderer);
+
+// Plans the next frame if anything changed since the last call; every frame begins with it. `change` is told what did, unless it is NULL.
+// After an error the last good Plan stays, with the choices that it was made for.
+FramewrightStatus framewright_renderer_prepare(FramewrightRenderer *renderer,
+                                               FramewrightChange *change);
+
+// Draws a frame and waits until the device is done. `frame` is told its number, from 0, unless it is NULL.
+FramewrightStatus framewright_renderer_frame(FramewrightRenderer *renderer, uint64_t *frame);
+
+// Records and submits a frame, which waits for semaphores of the program's and signals others. `among` may be NULL. If as many frames as
+// may be are on their way, the oldest is waited for first. Semaphores live until the frame was waited for; after an error nothing was
+// waited for and nothing is signalled, unless the device is lost. `frame` is told its number, unless it is NULL.
+FramewrightStatus framewright_renderer_submit(FramewrightRenderer *renderer,
+                                              const FramewrightSubmission *among,
+                                              uint64_t *frame);
+
+// Waits until the device is done with a frame.
+FramewrightStatus framewright_renderer_wait(FramewrightRenderer *renderer, uint64_t frame);
+
+// Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
+// device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
+// before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
+// the semaphore live until the frame was waited for.
+//
+// The commands find and leave images of the program's in the states that `framewright_renderer_states` tells, and change all state of the
+// command buffer. `images` are as in FramewrightSubmission. `frame` is told the frame's number, unless it is NULL. After an error the
+// command buffer must not be submitted.
+FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer,
+                                                   VkCommandBuffer commands,
+                                                   const FramewrightSemaphore *done,
+                                                   const FramewrightChoice *images,
+                                                   size_t image_count,
+                                                   uint64_t *frame);
+
+// Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
+FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
+
+// Tells how an image is created that can be imported for the external image `name`: an output, or one that the pipeline calls
+// `Imported`. It begins with a plan, as a frame does. What it points to lives as long as the device.
+FramewrightStatus framewright_renderer_image_info(FramewrightRenderer *renderer,
+                                                  const char *name,
+                                                  VkImageCreateInfo *info);
+
+// Tells the states in which each frame finds and leaves the external image or buffer `name`. `before` and `after` may be NULL.
+FramewrightStatus framewright_renderer_states(FramewrightRenderer *renderer,
+                                              const char *name,
+                                              FramewrightState *before,
+                                              FramewrightState *after);
+
+// Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
+// of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, live as long as the renderer or
+// until others are imported, and are in the state that `framewright_renderer_states` says whenever a frame begins. After
+// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again.
+FramewrightStatus framewright_renderer_import_images(FramewrightRenderer *renderer,
+                                                     const char *name,
+                                                     const VkImage *images,
+                                                     size_t count);
+
+// Tells Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own.
+FramewrightStatus framewright_renderer_image(FramewrightRenderer *renderer, const char *name, VkImage *image);
+
+// Reads the output `name`, an image, as the last frame left it. Frames on their way are waited for. The bytes live until the next call of
+// this function for the renderer, or until it is freed.
+FramewrightStatus framewright_renderer_read(FramewrightRenderer *renderer,
+                                            const char *name,
+                                            FramewrightTexels *texels);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* FRAMEWRIGHT_H */

@@ -1,0 +1,113 @@
+//! Devices that the library opens.
+
+use crate::arguments::{Structure, free, handle, optional_text, reference, structure};
+use crate::last_error::{call, text};
+use crate::status::{FramewrightStatus, Problem};
+use framewright::vulkan::{DeviceChoice, helper::Limits};
+use framewright::{Device, DeviceOptions, Helper};
+use std::ffi::{CString, c_char, c_void};
+use std::ptr;
+
+/// A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
+pub struct FramewrightDevice {
+    pub(crate) device: Device,
+    /// The process that compiles the shaders of its renderers.
+    pub(crate) helper: Option<Helper>,
+    name: CString,
+}
+
+/// How to open a device. 0 in a field is its default.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightDeviceOptions {
+    /// sizeof(FramewrightDeviceOptions).
+    pub struct_size: usize,
+    /// Its name, or a part of it or of its driver's name; NULL: lavapipe, or where there is none, the first device that will do.
+    pub name: *const c_char,
+    /// Whether the validation layer watches: see `framewright_device_findings`.
+    pub validation: u32,
+    /// A program whose `main` calls `helper::serve`, such as the command `framewright`: shaders are compiled and drivers tested in
+    /// it, and can't end this one. NULL: in this process, which is for shaders and drivers that are trusted.
+    pub helper: *const c_char,
+}
+
+// SAFETY: it begins with its size, and has integers and pointers alone.
+unsafe impl Structure for FramewrightDeviceOptions {
+    const NAME: &'static str = "FramewrightDeviceOptions";
+    const DEFAULT: Self =
+        FramewrightDeviceOptions { struct_size: 0, name: ptr::null(), validation: 0, helper: ptr::null() };
+}
+
+/// Is told a finding of the validation layer, which lives until it returns.
+pub type FramewrightFinding = Option<unsafe extern "C" fn(context: *mut c_void, text: *const c_char)>;
+
+impl FramewrightDevice {
+    pub(crate) fn new(device: Device, helper: Option<Helper>) -> FramewrightDevice {
+        FramewrightDevice { name: text(&device.summary().name), device, helper }
+    }
+}
+
+/// The helper process that a program asks for.
+///
+/// # Safety
+/// The pointer is NULL or leads to a text.
+pub(crate) unsafe fn helper_of(program: *const c_char) -> Result<Option<Helper>, Problem> {
+    // SAFETY: the caller's word.
+    let program = unsafe { optional_text(program, "helper")? };
+    Ok(program.map(|program| Helper::program(program, Limits::default())))
+}
+
+/// Opens a device of the library's own. `options` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_open(
+    options: *const FramewrightDeviceOptions,
+    device: *mut *mut FramewrightDevice,
+) -> FramewrightStatus {
+    let open = || {
+        // SAFETY: the caller's word.
+        let (options, name, helper) = unsafe {
+            let options = structure(options, "options")?;
+            (options, optional_text(options.name, "name")?, helper_of(options.helper)?)
+        };
+        let choice = name.map_or(DeviceChoice::Default, |name| DeviceChoice::Name(name.to_owned()));
+        let validation = options.validation != 0;
+        let device = Device::open(&DeviceOptions { choice, validation, helper: helper.clone(), display: None })?;
+        Ok(FramewrightDevice::new(device, helper))
+    };
+    // SAFETY: the caller's word.
+    call(|| unsafe { handle(device, "device", open) })
+}
+
+/// The device's name, which lives as long as the handle; NULL for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_name(device: *const FramewrightDevice) -> *const c_char {
+    // SAFETY: the caller's word.
+    unsafe { device.as_ref() }.map_or(ptr::null(), |device| device.name.as_ptr())
+}
+
+/// Tells each finding of the validation layer so far: none without `FramewrightDeviceOptions::validation`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_findings(
+    device: *const FramewrightDevice,
+    tell: FramewrightFinding,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    call(|| {
+        // SAFETY: the caller's word.
+        let device = unsafe { reference(device, "device")? };
+        let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
+        for message in device.device.messages().list().iter().filter(|message| message.is_finding()) {
+            let message = text(&message.text);
+            // SAFETY: the caller's word: it takes a text and what is given with it.
+            unsafe { tell(context, message.as_ptr()) };
+        }
+        Ok(())
+    })
+}
+
+/// Frees the handle of a device. What was made from it keeps it open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_free(device: *mut FramewrightDevice) {
+    // SAFETY: the caller's word.
+    unsafe { free(device) };
+}

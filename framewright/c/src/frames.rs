@@ -1,0 +1,295 @@
+//! Frames: planned, drawn, submitted among the program's own work, or recorded into its command buffers.
+
+use crate::arguments::{Structure, list, optional_output, reference, structure, text};
+use crate::passes::Callback;
+use crate::renderer::{FramewrightRenderer, State, with};
+use crate::status::{FramewrightStatus, Problem};
+use framewright::vulkan::ash::vk;
+use framewright::vulkan::{Error, Executor};
+use framewright::{
+    Change, CustomRecorder, DispatchRecorder, Draw, DrawSource, Recorder, SceneDrawSource, SemaphorePoint, Submission,
+};
+use std::ffi::c_char;
+use std::ptr;
+
+/// What became another one when a frame was prepared.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightChange {
+    /// Nothing: nothing was planned.
+    Nothing = 0,
+    /// At most numbers in the Plan.
+    Values = 1,
+    /// The Plan: images that the program imported are to be imported again.
+    Plan = 2,
+}
+
+/// An image of the program's that a frame uses.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightChoice {
+    /// The name of the external image.
+    pub name: *const c_char,
+    /// The number of the one to use among those that were imported, from 0.
+    pub image: usize,
+}
+
+/// A semaphore that a frame waits for or signals.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightSemaphore {
+    /// The semaphore.
+    pub semaphore: vk::Semaphore,
+    /// The value of a timeline semaphore; it doesn't matter for a binary one.
+    pub value: u64,
+    /// The stages that wait, or that are waited for; 0: all.
+    pub stages: vk::PipelineStageFlags2,
+}
+
+/// How a frame is submitted among the program's own work. 0 in a field is its default.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightSubmission {
+    /// sizeof(FramewrightSubmission).
+    pub struct_size: usize,
+    /// Images of the program's, for external images of which several were imported. One that isn't listed is that of the frame before.
+    pub images: *const FramewrightChoice,
+    /// How many.
+    pub image_count: usize,
+    /// What the frame waits for before it begins.
+    pub waits: *const FramewrightSemaphore,
+    /// How many.
+    pub wait_count: usize,
+    /// What it signals at its end.
+    pub signals: *const FramewrightSemaphore,
+    /// How many.
+    pub signal_count: usize,
+}
+
+// SAFETY: it begins with its size, and has integers and pointers alone.
+unsafe impl Structure for FramewrightSubmission {
+    const NAME: &'static str = "FramewrightSubmission";
+    const DEFAULT: Self = FramewrightSubmission {
+        struct_size: 0,
+        images: ptr::null(),
+        image_count: 0,
+        waits: ptr::null(),
+        wait_count: 0,
+        signals: ptr::null(),
+        signal_count: 0,
+    };
+}
+
+/// Draws the scene, and has the program record custom passes.
+struct Source<'s> {
+    scene: Option<&'s mut SceneDrawSource>,
+    callback: Option<Callback>,
+}
+
+impl DrawSource for Source<'_> {
+    fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        match (draw, &mut self.scene, &self.callback) {
+            (Draw::Custom, _, Some(callback)) => callback.inside(recorder),
+            (_, Some(scene), _) => scene.record(draw, recorder),
+            (_, None, _) => Err(no_scene(recorder.pass())),
+        }
+    }
+
+    fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        match &mut self.scene {
+            Some(scene) => scene.dispatch(recorder),
+            None => Err(no_scene(recorder.pass())),
+        }
+    }
+
+    fn custom(&mut self, custom: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
+        match &self.callback {
+            Some(callback) => callback.outside(custom, recorder),
+            None => {
+                let pass = recorder.pass();
+                Err(Error::DrawSource { what: format!("pass `{pass}` asks for `{custom}`, and no recorder was set") })
+            }
+        }
+    }
+}
+
+fn no_scene(pass: &str) -> Error {
+    Error::DrawSource { what: format!("pass `{pass}` draws a scene, and none was set") }
+}
+
+impl State {
+    /// Plans the next frame, and has the scene follow the Plan.
+    fn prepare(&mut self) -> Result<FramewrightChange, Problem> {
+        let State { renderer, scene, objects, .. } = self;
+        let device = renderer.device().clone();
+        let prepared = renderer.prepare()?;
+        let plan = prepared.plan;
+        let change = match prepared.change {
+            Change::Nothing => FramewrightChange::Nothing,
+            Change::Values => FramewrightChange::Values,
+            _ => FramewrightChange::Plan,
+        };
+        let kept = match (objects.take(), change) {
+            (_, FramewrightChange::Plan) | (None, _) => None,
+            (Some(objects), FramewrightChange::Nothing) => Some(objects),
+            (Some(mut objects), FramewrightChange::Values) => {
+                objects.change(plan)?;
+                Some(objects)
+            }
+        };
+        *objects = match (kept, scene) {
+            (None, Some(scene)) => Some(SceneDrawSource::for_plan(&device, scene, plan.extent, plan)?),
+            (kept, _) => kept,
+        };
+        Ok(change)
+    }
+
+    /// Has the executor draw the scene, and returns the frame's number.
+    fn draw(
+        &mut self,
+        draw: impl FnOnce(&mut Executor, &mut dyn DrawSource) -> Result<u64, Error>,
+    ) -> Result<u64, Problem> {
+        self.prepare()?;
+        let State { renderer, objects, callback, .. } = self;
+        let mut source = Source { scene: objects.as_mut(), callback: *callback };
+        let frame = draw(renderer.executor_mut()?, &mut source)?;
+        Ok(renderer.first_frame() + frame)
+    }
+}
+
+/// # Safety
+/// The pointer leads to so many choices, or is NULL.
+unsafe fn choices<'a>(choices: *const FramewrightChoice, count: usize) -> Result<Vec<(&'a str, usize)>, Problem> {
+    // SAFETY: the caller's word.
+    unsafe { list(choices, count, "images")?.iter().map(|it| Ok((text(it.name, "name")?, it.image))).collect() }
+}
+
+/// # Safety
+/// The pointer leads to so many semaphores, or is NULL.
+unsafe fn points(
+    semaphores: *const FramewrightSemaphore,
+    count: usize,
+    what: &str,
+) -> Result<Vec<SemaphorePoint>, Problem> {
+    let point = |it: &FramewrightSemaphore| {
+        let all = SemaphorePoint::timeline(it.semaphore, it.value);
+        if it.stages.is_empty() { all } else { SemaphorePoint { stages: it.stages, ..all } }
+    };
+    // SAFETY: the caller's word.
+    Ok(unsafe { list(semaphores, count, what)? }.iter().map(point).collect())
+}
+
+/// Plans the next frame if anything changed since the last call; every frame begins with it. `change` is told what did, unless it is NULL.
+/// After an error the last good Plan stays, with the choices that it was made for.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_prepare(
+    renderer: *mut FramewrightRenderer,
+    change: *mut FramewrightChange,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            optional_output(change, state.prepare()?);
+            Ok(())
+        })
+    }
+}
+
+/// Draws a frame and waits until the device is done. `frame` is told its number, from 0, unless it is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_frame(
+    renderer: *mut FramewrightRenderer,
+    frame: *mut u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            optional_output(frame, state.draw(|executor, source| executor.frame(source))?);
+            Ok(())
+        })
+    }
+}
+
+/// Records and submits a frame, which waits for semaphores of the program's and signals others. `among` may be NULL. If as many frames as
+/// may be are on their way, the oldest is waited for first. Semaphores live until the frame was waited for; after an error nothing was
+/// waited for and nothing is signalled, unless the device is lost. `frame` is told its number, unless it is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_submit(
+    renderer: *mut FramewrightRenderer,
+    among: *const FramewrightSubmission,
+    frame: *mut u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let among = structure(among, "among")?;
+            let images = choices(among.images, among.image_count)?;
+            let waits = points(among.waits, among.wait_count, "waits")?;
+            let signals = points(among.signals, among.signal_count, "signals")?;
+            let among = Submission { images: &images, waits: &waits, signals: &signals };
+            optional_output(frame, state.draw(|executor, source| executor.submit_with(source, &among))?);
+            Ok(())
+        })
+    }
+}
+
+/// Waits until the device is done with a frame.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_wait(
+    renderer: *mut FramewrightRenderer,
+    frame: u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe { with(renderer, |state| Ok(state.renderer.wait(frame)?)) }
+}
+
+/// Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
+/// device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
+/// before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
+/// the semaphore live until the frame was waited for.
+///
+/// The commands find and leave images of the program's in the states that `framewright_renderer_states` tells, and change all state of the
+/// command buffer. `images` are as in FramewrightSubmission. `frame` is told the frame's number, unless it is NULL. After an error the
+/// command buffer must not be submitted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_record_into(
+    renderer: *mut FramewrightRenderer,
+    commands: vk::CommandBuffer,
+    done: *const FramewrightSemaphore,
+    images: *const FramewrightChoice,
+    image_count: usize,
+    frame: *mut u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            reference(done, "done")?;
+            let done = points(done, 1, "done")?[0];
+            if commands == vk::CommandBuffer::null() || done.semaphore == vk::Semaphore::null() {
+                return Err(Problem::Misuse("the command buffer or the semaphore is NULL".to_owned()));
+            }
+            let images = choices(images, image_count)?;
+            let drawn = state.draw(|executor, source| executor.record_into(commands, done, &images, source))?;
+            optional_output(frame, drawn);
+            Ok(())
+        })
+    }
+}
+
+/// Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_discard(
+    renderer: *mut FramewrightRenderer,
+    frame: u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            // A frame of an earlier executor went with it.
+            if let Some(own) = frame.checked_sub(state.renderer.first_frame()) {
+                state.renderer.executor_mut()?.discard(own);
+            }
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,55 @@
+//! Framewright for programs in C and C++.
+//!
+//! `framewright.h` is made of this crate by cbindgen; a test holds that it is. Each function checks its arguments, turns errors and
+//! panics into a [`FramewrightStatus`], and leaves the text to [`framewright_last_error`]. Handles are boxes of what the crate
+//! `framewright` has.
+//!
+//! # Safety
+//! The functions trust a caller in C with what the header says: pointers that are not NULL point to what their types say, handles come
+//! from this library and aren't freed yet, and Vulkan's objects are as the Rust functions of the same names demand.
+#![allow(clippy::missing_safety_doc, reason = "the rules for all functions stand above, and at the head of the header")]
+
+mod adopt;
+mod arguments;
+mod device;
+mod frames;
+mod images;
+mod last_error;
+mod passes;
+mod renderer;
+mod scene;
+mod status;
+mod texels;
+mod version;
+
+pub use adopt::{FramewrightAdoptedDevice, FramewrightQueue, framewright_device_adopt};
+pub use arguments::FramewrightNames;
+pub use device::{
+    FramewrightDevice, FramewrightDeviceOptions, FramewrightFinding, framewright_device_findings,
+    framewright_device_free, framewright_device_name, framewright_device_open,
+};
+pub use frames::{
+    FramewrightChange, FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
+    framewright_renderer_frame, framewright_renderer_prepare, framewright_renderer_record_into,
+    framewright_renderer_submit, framewright_renderer_wait,
+};
+pub use images::{
+    FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_images,
+    framewright_renderer_states,
+};
+pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
+pub use passes::{
+    FramewrightPass, FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer,
+    framewright_pass_image,
+};
+pub use renderer::{
+    FramewrightFacts, FramewrightRenderer, FramewrightRendererOptions, FramewrightRotation, FramewrightStereo,
+    framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
+    framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
+    framewright_renderer_set_facts, framewright_renderer_set_preset, framewright_renderer_set_recorder,
+    framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
+};
+pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load};
+pub use status::FramewrightStatus;
+pub use texels::{FramewrightTexels, framewright_renderer_read};
+pub use version::{FRAMEWRIGHT_ABI, framewright_abi, framewright_version};

@@ -1,0 +1,370 @@
+//! Renderers: a pipeline, and what was chosen for it.
+
+use crate::arguments::{FramewrightNames, Structure, free, handle, optional_text, output, reference, structure, text};
+use crate::device::FramewrightDevice;
+use crate::last_error::call;
+use crate::passes::{Callback, FramewrightRecord};
+use crate::scene::FramewrightScene;
+use crate::status::{FramewrightStatus, Problem};
+use framewright::graph::base::Root;
+use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
+use std::ffi::{c_char, c_void};
+use std::sync::{Arc, Mutex, TryLockError};
+
+/// A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
+pub struct FramewrightRenderer(Mutex<State>);
+
+/// What a renderer holds.
+pub(crate) struct State {
+    pub(crate) renderer: Renderer,
+    pub(crate) scene: Option<Arc<Scene>>,
+    /// The scene on the device, for the Plan that there is.
+    pub(crate) objects: Option<SceneDrawSource>,
+    /// What records custom passes.
+    pub(crate) callback: Option<Callback>,
+    /// What was read last.
+    pub(crate) texels: Option<Texels>,
+}
+
+/// What a renderer is made with, and keeps. 0 in a field is its default.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightRendererOptions {
+    /// sizeof(FramewrightRendererOptions).
+    pub struct_size: usize,
+    /// How many frames may be on their way before a new one waits for the oldest; 0 counts as 1.
+    pub frames_in_flight: u32,
+    /// Folders of shaders beside that of the pipeline.
+    pub shaders: FramewrightNames,
+    /// Settings files, of which later ones are stronger.
+    pub settings: FramewrightNames,
+    /// Extensions that are applied to the pipeline: files, or paths of shipped ones.
+    pub extensions: FramewrightNames,
+}
+
+// SAFETY: it begins with its size, and has integers and pointers alone.
+unsafe impl Structure for FramewrightRendererOptions {
+    const NAME: &'static str = "FramewrightRendererOptions";
+    const DEFAULT: Self = FramewrightRendererOptions {
+        struct_size: 0,
+        frames_in_flight: 0,
+        shaders: FramewrightNames::NONE,
+        settings: FramewrightNames::NONE,
+        extensions: FramewrightNames::NONE,
+    };
+}
+
+/// What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightFacts {
+    /// sizeof(FramewrightFacts).
+    pub struct_size: usize,
+    /// Anything is drawn that hides all behind it.
+    pub has_opaque: u32,
+    /// Anything with holes that its alpha cuts is drawn.
+    pub has_alpha_clip: u32,
+    /// Anything transparent is drawn.
+    pub has_transparent: u32,
+    /// Anything fades by leaving out fragments.
+    pub has_cross_fade: u32,
+    /// Any light casts shadows, and there is something to cast them.
+    pub casts_shadows: u32,
+    /// How many cascades the sun's shadows need.
+    pub shadow_cascades: u32,
+    /// How many suns shine.
+    pub suns: u32,
+    /// How many point lights shine.
+    pub point_lights: u32,
+    /// How many objects there are.
+    pub objects: u32,
+    /// How many triangles all objects have.
+    pub triangles: u64,
+    /// The most radiance that a pixel can show before any effect, linear.
+    pub peak_radiance: f64,
+    /// The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
+    pub depth_range: f64,
+}
+
+// SAFETY: it begins with its size, and has numbers alone.
+unsafe impl Structure for FramewrightFacts {
+    const NAME: &'static str = "FramewrightFacts";
+    const DEFAULT: Self = FramewrightFacts {
+        struct_size: 0,
+        has_opaque: 0,
+        has_alpha_clip: 0,
+        has_transparent: 0,
+        has_cross_fade: 0,
+        casts_shadows: 0,
+        shadow_cascades: 0,
+        suns: 0,
+        point_lights: 0,
+        objects: 0,
+        triangles: 0,
+        peak_radiance: 0.0,
+        depth_range: 0.0,
+    };
+}
+
+/// How a frame is drawn for two eyes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightStereo {
+    /// For one eye.
+    Off = 0,
+    /// Two images, one after the other.
+    MultiPass = 1,
+    /// Halves of one image of twice the width.
+    DoubleWide = 2,
+    /// Layers of one image, or halves where vertex shaders can't choose a layer; each draw has twice the instances.
+    Instanced = 3,
+    /// Layers of one image, into all of which the device draws.
+    Multiview = 4,
+}
+
+/// By how much the screen is turned that shows a picture, clockwise.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightRotation {
+    /// Not at all.
+    Identity = 0,
+    /// A quarter.
+    Rotate90 = 1,
+    /// A half.
+    Rotate180 = 2,
+    /// Three quarters.
+    Rotate270 = 3,
+}
+
+/// Has a renderer do something, as [`call`] does.
+///
+/// # Safety
+/// The pointer is NULL or leads to a renderer.
+pub(crate) unsafe fn with(
+    renderer: *mut FramewrightRenderer,
+    body: impl FnOnce(&mut State) -> Result<(), Problem>,
+) -> FramewrightStatus {
+    call(|| {
+        // SAFETY: the caller's word.
+        let renderer = unsafe { reference(renderer, "renderer")? };
+        match renderer.0.try_lock() {
+            Ok(mut state) => body(&mut state),
+            Err(TryLockError::WouldBlock) => Err(Problem::Misuse(
+                "the renderer is in use: by another thread, or by the call that calls back".to_owned(),
+            )),
+            Err(TryLockError::Poisoned(_)) => {
+                Err(Problem::Panic("an earlier call did, and the renderer can only be freed".to_owned()))
+            }
+        }
+    })
+}
+
+/// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
+/// has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_open(
+    device: *const FramewrightDevice,
+    pipeline: *const c_char,
+    options: *const FramewrightRendererOptions,
+    renderer: *mut *mut FramewrightRenderer,
+) -> FramewrightStatus {
+    let open = || {
+        // SAFETY: the caller's word.
+        let (device, pipeline, given) =
+            unsafe { (reference(device, "device")?, text(pipeline, "pipeline")?, structure(options, "options")?) };
+        let mut options = RendererOptions::default();
+        options.executor.frames_in_flight = given.frames_in_flight.max(1);
+        options.helper.clone_from(&device.helper);
+        // SAFETY: the caller's word.
+        unsafe {
+            let folders = given.shaders.texts("shaders")?;
+            options.shaders = folders.into_iter().map(|folder| Root::new(folder.into())).collect();
+            options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
+            options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
+        }
+        let renderer = Renderer::open(&device.device, pipeline, options)?;
+        Ok(FramewrightRenderer(Mutex::new(State {
+            renderer,
+            scene: None,
+            objects: None,
+            callback: None,
+            texels: None,
+        })))
+    };
+    // SAFETY: the caller's word.
+    call(|| unsafe { handle(renderer, "renderer", open) })
+}
+
+/// Frees a renderer. Frames on their way are waited for.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_free(renderer: *mut FramewrightRenderer) {
+    // SAFETY: the caller's word.
+    unsafe { free(renderer) };
+}
+
+/// Gives a setting a value, which is stronger than presets and settings files: a number, `true`, `false` or a name, as text. NULL takes
+/// it back. A value that isn't allowed changes nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set(
+    renderer: *mut FramewrightRenderer,
+    setting: *const c_char,
+    value: *const c_char,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let setting = text(setting, "setting")?;
+            match optional_text(value, "value")? {
+                Some(value) => state.renderer.set(setting, value)?,
+                None => state.renderer.unset(setting),
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Puts a preset in force, in place of the one before; NULL: that of the settings files, if they name one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_preset(
+    renderer: *mut FramewrightRenderer,
+    preset: *const c_char,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe { with(renderer, |state| Ok(state.renderer.preset(optional_text(preset, "preset")?)?)) }
+}
+
+/// Sets width and height of the output.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_extent(
+    renderer: *mut FramewrightRenderer,
+    width: u32,
+    height: u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe { with(renderer, |state| Ok(state.renderer.set_extent([width, height])?)) }
+}
+
+/// Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_scene(
+    renderer: *mut FramewrightRenderer,
+    scene: *const FramewrightScene,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    let scene = unsafe { scene.as_ref() }.map(|scene| scene.0.clone());
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.renderer.set_facts(scene.as_ref().map(|scene| scene.facts()));
+            state.objects = None;
+            state.scene = scene;
+            Ok(())
+        })
+    }
+}
+
+/// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_recorder(
+    renderer: *mut FramewrightRenderer,
+    record: FramewrightRecord,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.callback = record.map(|record| Callback { record, context });
+            Ok(())
+        })
+    }
+}
+
+/// Tells the facts of a scene that the program draws itself; NULL: it may hold everything.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_facts(
+    renderer: *mut FramewrightRenderer,
+    facts: *const FramewrightFacts,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let given = structure(facts, "facts")?;
+            let known = Facts {
+                has_opaque: given.has_opaque != 0,
+                has_alpha_clip: given.has_alpha_clip != 0,
+                has_transparent: given.has_transparent != 0,
+                has_cross_fade: given.has_cross_fade != 0,
+                casts_shadows: given.casts_shadows != 0,
+                shadow_cascades: given.shadow_cascades,
+                suns: given.suns,
+                point_lights: given.point_lights,
+                objects: given.objects,
+                triangles: given.triangles,
+                peak_radiance: given.peak_radiance,
+                depth_range: (given.depth_range > 0.0).then_some(given.depth_range),
+            };
+            state.renderer.set_facts((!facts.is_null()).then_some(known));
+            Ok(())
+        })
+    }
+}
+
+/// Says how the frame is drawn for two eyes: a FramewrightStereo. `FRAMEWRIGHT_STATUS_MACHINE`: the device can't.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_stereo(
+    renderer: *mut FramewrightRenderer,
+    stereo: u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let stereo = *one_of(&Stereo::ALL, stereo, "stereo")?;
+            Ok(state.renderer.set_stereo(stereo)?)
+        })
+    }
+}
+
+/// Says by how much the screen is turned that shows the picture: a FramewrightRotation. What is read back is upright.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_rotation(
+    renderer: *mut FramewrightRenderer,
+    rotation: u32,
+) -> FramewrightStatus {
+    const ALL: [Rotation; 4] = [Rotation::Identity, Rotation::Rotate90, Rotation::Rotate180, Rotation::Rotate270];
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.renderer.set_rotation(*one_of(&ALL, rotation, "rotation")?);
+            Ok(())
+        })
+    }
+}
+
+/// The value of this number.
+fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
+    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
+    found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
+}
+
+/// Whether a file that was read is another one by now: 1, else 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_files_changed(
+    renderer: *mut FramewrightRenderer,
+    changed: *mut u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe { with(renderer, |state| output(changed, "changed", state.renderer.files_changed().into())) }
+}
+
+/// Reads the pipeline, its shaders and pictures anew, and plans. Mistakes in the files leave all as it was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_reload(renderer: *mut FramewrightRenderer) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.renderer.reload()?;
+            state.objects = None;
+            Ok(())
+        })
+    }
+}

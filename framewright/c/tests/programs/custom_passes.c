@@ -1,0 +1,97 @@
+/* Custom passes that a program in C records: one that fills an image, and one within a rendering scope. Writes picture.ppm. */
+
+#include <framewright.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char PIPELINE[] =
+    "Pipeline(version: 1,\n"
+    "    images: [(name: \"mine\", format: Color(hdr: false), size: Output), (name: \"screen\", format: Output, size: Output)],\n"
+    "    passes: [(name: \"whole\", custom: \"fill\", writes: [\"mine\"]),\n"
+    "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"]),\n"
+    "        (name: \"corner\", custom: \"mark\", color: [\"screen\"])],\n"
+    "    outputs: [\"screen\"])\n";
+
+static void check(FramewrightStatus status) {
+    if (status != FRAMEWRIGHT_STATUS_OK) {
+        fprintf(stderr, "%s\n", framewright_last_error());
+        exit(EXIT_FAILURE);
+    }
+}
+
+/* Fails with the status and these words. */
+static void fails(FramewrightStatus status, FramewrightStatus wanted, const char *words) {
+    if (status != wanted || strstr(framewright_last_error(), words) == NULL) {
+        fprintf(stderr, "status %d, and not %d with `%s`: %s\n", status, wanted, words, framewright_last_error());
+        exit(EXIT_FAILURE);
+    }
+}
+
+/* What a callback is given. */
+typedef struct {
+    FramewrightRenderer *renderer;
+    int knows_marks;
+    int calls;
+} Program;
+
+static uint32_t record(void *context, const FramewrightPass *pass) {
+    Program *program = context;
+    ++program->calls;
+    fails(framewright_renderer_wait(program->renderer, 0), FRAMEWRIGHT_STATUS_MISUSE, "the renderer is in use");
+    FramewrightPassImage image;
+    if (strcmp(pass->custom, "fill") == 0 && strcmp(pass->name, "whole") == 0 && !pass->in_scope) {
+        VkBuffer buffer;
+        fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "accesses no image `screen`");
+        fails(framewright_pass_buffer(pass, "mine", &buffer), FRAMEWRIGHT_STATUS_MISUSE, "accesses no buffer `mine`");
+        check(framewright_pass_image(pass, "mine", &image));
+        VkClearColorValue blue = {.float32 = {0, 0, 1, 1}};
+        vkCmdClearColorImage(pass->commands, image.image, image.layout, &blue, 1, &image.range);
+        return image.width == 320 && image.height == 180 && image.depth == 1;
+    }
+    if (strcmp(pass->custom, "mark") == 0 && pass->in_scope && program->knows_marks) {
+        fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "inside a rendering scope");
+        VkClearAttachment white = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {1, 1, 1, 1}}}};
+        VkClearRect corner = {{{0, 0}, {pass->width / 2, pass->height / 2}}, 0, 1};
+        vkCmdClearAttachments(pass->commands, 1, &white, 1, &corner);
+        return 1;
+    }
+    return 0;
+}
+
+static void count(void *findings, const char *text) {
+    fprintf(stderr, "%s\n", text);
+    ++*(size_t *)findings;
+}
+
+int main(void) {
+    FILE *file = fopen("custom.ron", "wb");
+    fputs(PIPELINE, file);
+    fclose(file);
+    FramewrightDeviceOptions options = {.struct_size = sizeof options, .validation = 1};
+    FramewrightDevice *device;
+    check(framewright_device_open(&options, &device));
+    Program program = {NULL, 0, 0};
+    check(framewright_renderer_open(device, "custom.ron", NULL, &program.renderer));
+    check(framewright_renderer_set_extent(program.renderer, 320, 180));
+    fails(framewright_renderer_frame(program.renderer, NULL), FRAMEWRIGHT_STATUS_MISTAKES, "no recorder was set");
+    check(framewright_renderer_set_recorder(program.renderer, record, &program));
+    fails(framewright_renderer_frame(program.renderer, NULL), FRAMEWRIGHT_STATUS_MISTAKES, "doesn't record `mark`");
+    program.knows_marks = 1;
+    program.calls = 0;
+    check(framewright_renderer_frame(program.renderer, NULL));
+
+    FramewrightTexels texels;
+    check(framewright_renderer_read(program.renderer, "screen", &texels));
+    file = fopen("picture.ppm", "wb");
+    fprintf(file, "P6\n%u %u\n255\n", texels.width, texels.height);
+    for (size_t at = 0; at + 4 <= texels.byte_count; at += 4) {
+        fwrite(texels.bytes + at, 1, 3, file);
+    }
+    fclose(file);
+    size_t findings = 0;
+    check(framewright_device_findings(device, count, &findings));
+    framewright_renderer_free(program.renderer);
+    framewright_device_free(device);
+    return program.calls == 2 && findings == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,119 @@
+//! Programs in C draw what programs in Rust draw, and survive wrong calls (EM-12).
+
+use crate::testing::{Program, has, has_headers, text};
+use framewright_tests::render::{self, Setup, in_repository};
+use std::path::Path;
+use std::process::Output;
+
+const EXTENT: [u32; 2] = [320, 180];
+
+/// A program of the repository, built; `None` where the machine can't build or draw.
+fn program(path: &str) -> Option<Program> {
+    (has_headers() && has("cc") && render::device().is_some()).then(|| Program::of(&text(path)))
+}
+
+/// The red, green and blue of a picture that a program wrote.
+fn picture(path: &Path) -> Vec<u8> {
+    let bytes = std::fs::read(path).expect("a picture");
+    let head = format!("P6\n{} {}\n255\n", EXTENT[0], EXTENT[1]);
+    bytes.strip_prefix(head.as_bytes()).expect("a PPM of that size").to_vec()
+}
+
+/// The same by the layers of the library one by one.
+fn expected() -> Vec<u8> {
+    let device = render::device().expect("it was asked for");
+    let scene = framewright::load_scene("spheres_and_cubes").expect("it is shipped");
+    let setup =
+        Setup { pipeline: "examples/pipelines/forward.ron", set: &[("msaa", "4")], scene: &scene, extent: EXTENT };
+    let texels = render::render(device, &setup).expect("drawn")[0].bytes.clone();
+    texels.chunks(4).flat_map(|texel| texel[..3].to_vec()).collect()
+}
+
+fn succeeded(out: &Output) -> String {
+    let (said, complained) = (String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
+    assert!(out.status.success(), "{:?}: {said}{complained}", out.status);
+    said.into_owned()
+}
+
+#[test]
+fn a_program_in_c_draws_what_rust_draws() {
+    let Some(program) = program("examples/embed_minimal.c") else { return };
+    let said = succeeded(&program.run(&["picture.ppm", "validate"], &[]));
+    assert!(said.starts_with("drawn by "), "{said}");
+    assert!(picture(&program.path("picture.ppm")) == expected(), "another picture");
+}
+
+/// What turns the layer on for a program that doesn't, and has it look closely.
+const VALIDATION: [(&str, &str); 5] = [
+    ("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"),
+    ("VK_LAYER_VALIDATE_SYNC", "1"),
+    ("VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC", "1"),
+    ("VK_LAYER_SYNCVAL_LOAD_OP_AFTER_STORE_OP_VALIDATION", "1"),
+    ("VK_LAYER_ENABLE_MESSAGE_LIMIT", "0"),
+];
+
+#[test]
+fn a_program_in_c_records_into_its_own_commands_on_its_own_device() {
+    let Some(program) = program("examples/embed_own_device.c") else { return };
+    let said = succeeded(&program.run(&["picture.ppm"], &VALIDATION));
+    // The layer would print what it finds: nothing stands beside the program's own line. 2 is COLOR_ATTACHMENT_OPTIMAL.
+    assert!(said.starts_with("drawn by ") && said.ends_with(", and left in the layout 2\n"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(picture(&program.path("picture.ppm")) == expected(), "another picture");
+
+    // The layer is awake: it tells that an image isn't destroyed.
+    let text = text("examples/embed_own_device.c");
+    let leaky = text.replace("    vkDestroyImage(raw, image, NULL);\n", "");
+    assert_ne!(leaky, text);
+    let out = Program::of(&leaky).run(&["picture.ppm"], &VALIDATION);
+    assert!(String::from_utf8_lossy(&out.stdout).contains("VUID-vkDestroyDevice-device"), "{out:?}");
+}
+
+/// What the sanitizer says of a program: memory that was used wrongly, and what was never freed.
+fn sanitized(text: &str) -> String {
+    let program = Program::with(text, &["-g", "-fsanitize=address"]);
+    let out = program.run(&["picture.ppm"], &[("ASAN_OPTIONS", "detect_leaks=1")]);
+    String::from_utf8_lossy(&out.stderr).into_owned()
+}
+
+#[test]
+fn programs_in_c_free_all_that_they_are_given() {
+    let Some(_) = program("examples/embed_minimal.c") else { return };
+    // Drivers leak a little. What this library made has its functions among the callers.
+    const OWN: &str = "framewright_c::";
+    for path in ["examples/embed_minimal.c", "framewright/c/tests/programs/bad_calls.c"] {
+        let said = sanitized(&text(path));
+        assert!(!said.contains(OWN) && !said.contains("heap-use-after-free"), "{path}: {said}");
+    }
+    for free in ["scene", "renderer", "device"] {
+        let text = text("examples/embed_minimal.c");
+        let leaky = text.replace(&format!("    framewright_{free}_free({free});\n"), "");
+        assert_ne!(leaky, text);
+        assert!(sanitized(&leaky).contains(OWN), "the sanitizer sees no {free} that isn't freed");
+    }
+}
+
+#[test]
+fn wrong_calls_have_their_status_and_their_words() {
+    let Some(program) = program("framewright/c/tests/programs/bad_calls.c") else { return };
+    succeeded(&program.run(&[], &[]));
+}
+
+#[test]
+fn a_program_in_c_records_custom_passes() {
+    let Some(program) = program("framewright/c/tests/programs/custom_passes.c") else { return };
+    succeeded(&program.run(&[], &[]));
+    let drawn = picture(&program.path("picture.ppm"));
+    for (number, texel) in drawn.chunks(3).enumerate() {
+        let [x, y] = [number % EXTENT[0] as usize, number / EXTENT[0] as usize];
+        assert_eq!(texel, if x < 160 && y < 90 { [255, 255, 255] } else { [0, 0, 255] }, "{x}, {y}");
+    }
+}
+
+#[test]
+fn programs_are_short() {
+    for example in ["embed_minimal.c", "embed_own_device.c"] {
+        let text = std::fs::read_to_string(in_repository("examples").join(example)).expect("a text");
+        assert!(text.lines().count() < 150, "{example} is long");
+    }
+}
