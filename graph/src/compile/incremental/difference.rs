@@ -33,6 +33,12 @@ fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
     Arc::ptr_eq(old, new) || old == new
 }
 
+/// Whether two properties that few have are the same.
+#[inline]
+fn same_option<T: PartialEq>(old: &Option<T>, new: &Option<T>) -> bool {
+    (old.is_none() & new.is_none()) || old == new
+}
+
 /// Whether two accesses to images are the same. Four numbers in an array, in the order in which they stand in memory, take
 /// one comparison.
 #[inline]
@@ -110,7 +116,8 @@ fn image(old: &Image, new: &Image) -> Difference {
     } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
-        && (&old.resolve, &old.chosen) == (resolve, chosen)
+        && same_option(&old.resolve, resolve)
+        && same_option(&old.chosen, chosen)
         && (old.format == *format) & (old.shape == *shape) & (old.rotation == *rotation) & (old.eyes == *eyes)
         && (old.mips == *mips) & (old.layers == *layers) & (old.samples == *samples)
         && old.allocated.is_some() == allocated.is_some()
@@ -158,8 +165,9 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.span == *span
         && old.view == *view
         && (old.side_effect == *side_effect) & (old.alpha_to_coverage == *alpha_to_coverage)
-        && old.no_depth_only == *no_depth_only
-        && (&old.no_rotation, &old.inserted) == (no_rotation, inserted)
+        && same_option(&old.no_depth_only, no_depth_only)
+        && same_option(&old.no_rotation, no_rotation)
+        && same_option(&old.inserted, inserted)
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
@@ -181,14 +189,18 @@ fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     // Most are the same, so comparing all at once takes fewer branches.
     let same_access =
         same_access((old.image, old.range, old.frames_ago, old.span), (*image, *range, *frames_ago, *span));
-    let bytes = |Sampler { filter, mips, address, compare }: Sampler, own_pixel| {
-        let compare = compare.map_or(u8::MAX, |compare| compare as u8);
-        [filter as u8, mips as u8, address as u8, compare, u8::from(own_pixel)]
-    };
-    let same_way = (bytes(old.sampler, old.own_pixel) == bytes(*sampler, *own_pixel)) & (old.stages == *stages);
-    (same_access & same_way & (old.eye == *eye) & (old.face == *face))
-        && old.texture == *texture
+    let same_way = same_sampler(old.sampler, *sampler) & (old.own_pixel == *own_pixel) & (old.stages == *stages);
+    (same_access & same_way & (old.face == *face))
+        && same_option(&old.eye, eye)
+        && same_option(&old.texture, texture)
         && same_name(&old.binding, binding)
+}
+
+#[inline]
+fn same_sampler(old: Sampler, new: Sampler) -> bool {
+    let Sampler { filter, mips, address, compare } = new;
+    let same_filters = (old.filter == filter) & (old.mips == mips) & (old.address == address);
+    same_filters && same_option(&old.compare, &compare)
 }
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
