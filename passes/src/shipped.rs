@@ -91,6 +91,8 @@ pub const SHADERS: Shipped = carried!(
     "overlay.frag",
     "reinhard.frag",
     "resolve_weighted.frag",
+    "resolve_zero_sint.frag",
+    "resolve_zero_uint.frag",
     "scale_area.frag",
     "scale_catmull_rom.frag",
     "sky.frag",

@@ -2,7 +2,7 @@
 
 use crate::base::{end_process, limit_this_process, take_standard_output};
 use crate::gpu::Device;
-use crate::probe::{depth_resolve, multiview};
+use crate::probe::{multiview, sample_resolve};
 use crate::process::{
     self, ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, Request, SelfTest,
 };
@@ -87,7 +87,9 @@ fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Re
 /// Tests a device, and closes it: drivers crash then too.
 fn tested(test: SelfTest, identity: &str) -> Answer {
     let tested = Device::open_identified(identity).and_then(|device| match test {
-        SelfTest::DepthResolve { draws_views } => depth_resolve::probe(&device, draws_views).map(Answer::DepthResolve),
+        SelfTest::SampleResolve { draws_views } => {
+            sample_resolve::probe(&device, draws_views).map(Answer::SampleResolve)
+        }
         SelfTest::Multiview => multiview::probe(&device).map(Answer::DrawsViews),
     });
     tested.unwrap_or_else(|error| Answer::NotTested(error.to_string()))

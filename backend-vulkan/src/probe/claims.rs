@@ -56,6 +56,7 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),
         untested_depth_resolve: Vec::new(),
+        refuted_integer_resolve: false,
         memory: MemoryModel { heap_bytes: Some(gpu.largest_heap(model.type_bits)), ..model },
         formats,
         known_needs: Vec::new(),

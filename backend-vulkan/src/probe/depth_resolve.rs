@@ -11,7 +11,7 @@ use super::draw::draw;
 use crate::base::Error;
 use crate::commands::Texels;
 use crate::gpu::Device;
-use crate::process::DepthResolve;
+use crate::process::SampleResolve;
 use framewright_graph::base::Span;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::{
@@ -65,7 +65,7 @@ const TOLERANCE: f32 = 0.001;
 ///
 /// # Errors
 /// If the resolves can't be tried.
-pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<DepthResolve, Error> {
+pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<SampleResolve, Error> {
     let mut claimed = claimed_profile(device);
     if !draws_views {
         claimed.max_multiview_views = 1;
@@ -79,7 +79,7 @@ pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<DepthResolve, 
         }
     }
     let refuted_layered = has.iter().copied().filter(|mode| !layered.contains(mode)).collect();
-    Ok(DepthResolve { has, refuted, refuted_layered, untested: Vec::new() })
+    Ok(SampleResolve { has, refuted, refuted_layered, ..SampleResolve::default() })
 }
 
 /// The resolve modes, of these, that resolve correctly in every format and with every sample count, in all layers that are

@@ -2,10 +2,12 @@
 
 mod canary;
 mod claims;
-pub(crate) mod depth_resolve;
+mod depth_resolve;
 mod draw;
+mod integer_resolve;
 pub(crate) mod multiview;
 mod profile;
+pub(crate) mod sample_resolve;
 mod self_tests;
 
 pub use canary::Canary;

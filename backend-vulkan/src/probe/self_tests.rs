@@ -6,8 +6,8 @@
 use super::claims::depth_resolve_modes;
 use crate::base::{identity_of, read_file, replace_file};
 use crate::gpu::Device;
-use crate::probe::{depth_resolve, multiview};
-use crate::process::{DepthResolve, DeviceName, Helper, NoAnswer};
+use crate::probe::{multiview, sample_resolve};
+use crate::process::{DeviceName, Helper, NoAnswer, SampleResolve};
 use framewright_graph::device::Profile;
 use framewright_graph::vulkan::ResolveMode;
 use serde::{Deserialize, Serialize};
@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 /// The findings of a device's self-tests.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SelfTests {
-    /// How the device resolves depth.
-    pub(crate) depth_resolve: DepthResolve,
-    /// Why the self-test of depth resolves gave no answer.
-    depth_resolve_unknown: Option<String>,
+    /// How the device resolves samples.
+    pub(crate) sample_resolve: SampleResolve,
+    /// Why the self-test of resolves gave no answer.
+    sample_resolve_unknown: Option<String>,
     /// Whether the device draws several views at once, if it claims to.
     pub(crate) draws_views: bool,
     /// Why the self-test of views gave no answer.
@@ -55,11 +55,12 @@ impl SelfTests {
 
     /// Takes from the profile of a device that does all that it says what it failed, or wasn't tested for.
     pub(super) fn take_from(&self, profile: &mut Profile) {
-        let DepthResolve { has, refuted, refuted_layered, untested } = self.depth_resolve.clone();
+        let SampleResolve { has, refuted, refuted_layered, untested, refuted_integers } = self.sample_resolve.clone();
         profile.depth_resolve = has;
         profile.refuted_depth_resolve = refuted;
         profile.refuted_layered_depth_resolve = refuted_layered;
         profile.untested_depth_resolve = untested;
+        profile.refuted_integer_resolve = refuted_integers;
         if !self.draws_views {
             let claimed = std::mem::replace(&mut profile.max_multiview_views, 1) > 1;
             profile.untested_multiview = claimed && self.draws_views_untested;
@@ -72,25 +73,27 @@ impl SelfTests {
         let resolves = |of: &str, unused: &[ResolveMode]| {
             let modes: Vec<String> = unused.iter().map(|mode| format!("{mode:?}")).collect();
             (!modes.is_empty()).then(|| {
-                let why = self.depth_resolve_unknown.as_deref().unwrap_or("it resolves to other values");
+                let why = self.sample_resolve_unknown.as_deref().unwrap_or("it resolves to other values");
                 format!("{of} by {}: {why}", modes.join(", "))
             })
         };
-        let DepthResolve { refuted, untested, .. } = &self.depth_resolve;
+        let SampleResolve { refuted, untested, .. } = &self.sample_resolve;
         let depth = resolves("depth resolves", if untested.is_empty() { refuted } else { untested });
-        let layered = resolves("depth resolves of several layers at once", &self.depth_resolve.refuted_layered);
+        let layered = resolves("depth resolves of several layers at once", &self.sample_resolve.refuted_layered);
+        let integers = self.sample_resolve.refuted_integers;
+        let integers = integers.then(|| "resolves of integers: it takes another sample than sample zero".to_owned());
         let views = (multiview && !self.draws_views).then(|| {
             let why = self.draws_views_unknown.as_deref().unwrap_or("it draws other pictures");
             format!("multiview: {why}")
         });
-        [depth, layered, views].into_iter().flatten().collect()
+        [depth, layered, integers, views].into_iter().flatten().collect()
     }
 }
 
 /// The results of both self-tests.
 struct SelfTestRuns {
     views: SelfTestRun<bool>,
-    depth: SelfTestRun<DepthResolve>,
+    resolves: SelfTestRun<SampleResolve>,
 }
 
 impl SelfTestRuns {
@@ -103,26 +106,26 @@ impl SelfTestRuns {
             None => Ok(multiview::probe(device).map_err(|error| error.to_string())),
         });
         let draws_views = views.found.unwrap_or(false);
-        let depth = SelfTestRun::of(match helper {
-            Some(helper) => helper.depth_resolve(device_name, draws_views),
-            None => Ok(depth_resolve::probe(device, draws_views).map_err(|error| error.to_string())),
+        let resolves = SelfTestRun::of(match helper {
+            Some(helper) => helper.sample_resolve(device_name, draws_views),
+            None => Ok(sample_resolve::probe(device, draws_views).map_err(|error| error.to_string())),
         });
-        SelfTestRuns { views, depth }
+        SelfTestRuns { views, resolves }
     }
 
     /// Whether what they found is kept. A test that took too long may have met a busy machine only; but what hangs would cost every
     /// command the same time again.
     fn are_kept(&self) -> bool {
-        [self.views.end, self.depth.end].iter().all(|end| *end != Outcome::NotDone)
+        [self.views.end, self.resolves.end].iter().all(|end| *end != Outcome::NotDone)
     }
 
     /// The findings of both tests, which the file `kept` keeps if it is there.
     fn found(&self, device: &Device, kept: Option<&Path>) -> SelfTests {
-        let depth = self.depth.found.clone();
-        let fails = self.depth.end == Outcome::Finding;
+        let resolves = self.resolves.found.clone();
+        let fails = self.resolves.end == Outcome::Finding;
         SelfTests {
-            depth_resolve: depth.unwrap_or_else(|| without_answer(device, fails)),
-            depth_resolve_unknown: self.depth.why(kept),
+            sample_resolve: resolves.unwrap_or_else(|| without_answer(device, fails)),
+            sample_resolve_unknown: self.resolves.why(kept),
             draws_views: self.views.found.unwrap_or(false),
             draws_views_unknown: self.views.why(kept),
             draws_views_untested: self.views.end != Outcome::Finding,
@@ -131,10 +134,10 @@ impl SelfTestRuns {
 }
 
 /// Of a device whose self-test gave no answer nothing is used: draws resolve instead. `fails`: that is the device's doing.
-fn without_answer(device: &Device, fails: bool) -> DepthResolve {
+fn without_answer(device: &Device, fails: bool) -> SampleResolve {
     let said = depth_resolve_modes(&device.gpu);
     let (refuted, untested) = if fails { (said, Vec::new()) } else { (Vec::new(), said) };
-    DepthResolve { refuted, untested, ..DepthResolve::default() }
+    SampleResolve { refuted, untested, ..SampleResolve::default() }
 }
 
 /// The meaning of a self-test's end.
@@ -256,7 +259,7 @@ mod tests {
             return;
         };
         for fails in [true, false] {
-            let DepthResolve { has, refuted, refuted_layered, untested } = without_answer(&device, fails);
+            let SampleResolve { has, refuted, refuted_layered, untested, .. } = without_answer(&device, fails);
             assert!(has.is_empty() && refuted_layered.is_empty());
             assert!(refuted.contains(&ResolveMode::SampleZero) == fails && refuted.is_empty() != fails);
             assert!(untested.contains(&ResolveMode::SampleZero) != fails && untested.is_empty() == fails);

@@ -1,7 +1,7 @@
 //! The program that is started as a helper, and what it is asked.
 
 use super::limits::Limits;
-use super::protocol::{Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, Request, SelfTest};
+use super::protocol::{Answer, CompileFailure, CompileJob, IncludedFile, Request, SampleResolve, SelfTest};
 use super::running::{NoAnswer, Running, Streams};
 use crate::base::{Cache, Cancel};
 use std::path::{Path, PathBuf};
@@ -134,7 +134,7 @@ impl Helper {
                     Answer::Include { from, name } => streams.send(&Request::Included(includes(&from, &name)))?,
                     Answer::Spirv => return Ok(Ok(streams.receive_words()?)),
                     Answer::CompileFailure(failure) => return Ok(Err(failure)),
-                    Answer::DepthResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
+                    Answer::SampleResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
                         return Err(Streams::garbage());
                     }
                 }
@@ -154,15 +154,15 @@ impl Helper {
         Ok(compiled)
     }
 
-    /// How the device resolves depth, for several views at once too if it `draws_views`; the inner error says
+    /// How the device resolves samples, for several views at once too if it `draws_views`; the inner error says
     /// why that can't be tried.
-    pub(crate) fn depth_resolve(
+    pub(crate) fn sample_resolve(
         &self,
         device: DeviceName<'_>,
         draws_views: bool,
-    ) -> Result<Result<DepthResolve, String>, NoAnswer> {
-        self.test(SelfTest::DepthResolve { draws_views }, device, |answer| match answer {
-            Answer::DepthResolve(found) => Some(found),
+    ) -> Result<Result<SampleResolve, String>, NoAnswer> {
+        self.test(SelfTest::SampleResolve { draws_views }, device, |answer| match answer {
+            Answer::SampleResolve(found) => Some(found),
             _ => None,
         })
     }

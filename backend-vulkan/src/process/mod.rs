@@ -10,7 +10,7 @@ pub use limits::Limits;
 
 pub(crate) use helper::DeviceName;
 pub(crate) use protocol::{
-    ARGUMENT, Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request,
+    ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request, SampleResolve,
     SelfTest, ShaderStage, invalid, parse, read_frame, write, write_frame,
 };
 pub(crate) use running::NoAnswer;

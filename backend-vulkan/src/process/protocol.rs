@@ -39,8 +39,8 @@ pub(crate) enum Answer {
     Spirv,
     /// The stage doesn't compile.
     CompileFailure(CompileFailure),
-    /// How the device resolves depth.
-    DepthResolve(DepthResolve),
+    /// How the device resolves samples.
+    SampleResolve(SampleResolve),
     /// Whether the device draws several views at once.
     DrawsViews(bool),
     /// The test can't be done.
@@ -50,8 +50,8 @@ pub(crate) enum Answer {
 /// A self-test of a driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum SelfTest {
-    /// Depth resolves, for several views at once too if the device draws them.
-    DepthResolve { draws_views: bool },
+    /// Resolves of depth and integers, of depth for several views at once too if the device draws them.
+    SampleResolve { draws_views: bool },
     /// Drawing of several views at once.
     Multiview,
 }
@@ -104,9 +104,9 @@ pub(crate) enum CompileFailure {
     TooLarge(usize),
 }
 
-/// The modes in which depth can be resolved.
+/// How samples are resolved: the modes of depth, and whether integers are right.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct DepthResolve {
+pub(crate) struct SampleResolve {
     /// Modes that the device has.
     pub(crate) has: Vec<ResolveMode>,
     /// Modes that the device claims, and doesn't have.
@@ -115,6 +115,8 @@ pub(crate) struct DepthResolve {
     pub(crate) refuted_layered: Vec<ResolveMode>,
     /// Modes that the device claims, where no test could be done.
     pub(crate) untested: Vec<ResolveMode>,
+    /// Whether integers are resolved to another sample than sample zero.
+    pub(crate) refuted_integers: bool,
 }
 
 /// Writes a frame.

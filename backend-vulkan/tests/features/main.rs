@@ -24,6 +24,7 @@ mod outlasting;
 mod own_pipelines;
 mod presenting;
 mod queues;
+mod resolves;
 mod state;
 mod submitting;
 mod subresources;

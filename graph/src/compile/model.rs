@@ -289,6 +289,10 @@ pub(super) enum ResolveShader {
     Depth(ResolveMode),
     /// Colour, of which bright samples weigh less.
     Weighted,
+    /// Sample zero of unsigned integers.
+    Uint,
+    /// Sample zero of signed integers.
+    Sint,
 }
 
 impl OpKind {

@@ -71,6 +71,10 @@ pub struct Profile {
     /// Modes in which the device claims to resolve depth, where that couldn't be tested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub untested_depth_resolve: Vec<ResolveMode>,
+    /// Whether integer colours resolve to another sample than sample zero, as a test showed, though the device must resolve to that
+    /// one in a rendering scope.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub refuted_integer_resolve: bool,
     /// The support for each format, each format once; absent formats have no support.
     #[serde(deserialize_with = "sound::formats")]
     pub formats: Vec<FormatSupport>,

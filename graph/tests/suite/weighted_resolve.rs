@@ -3,6 +3,7 @@
 use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Diagnostic;
+use framewright_graph::device::Profile;
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, ParamValue, Resolve, ResolveWay};
 use framewright_graph::plan::{Access, Cause, Pass, Plan, Work};
 use framewright_graph::vulkan::Format::{self, *};
@@ -119,5 +120,27 @@ fn layers_and_formats_without_light_are_refused() {
         let mut frame = read_thrice(format, 4);
         say(&mut frame, ImageIndex(0), way);
         assert!(refused(&frame).contains(&format!("can't be resolved as it says: it is {format}")), "{way:?}");
+    }
+}
+
+#[test]
+fn integers_are_resolved_by_a_draw_where_the_device_takes_another_sample_and_the_reason_said() {
+    let lying = Profile { refuted_integer_resolve: true, ..raster::device() };
+    for (format, shader) in [(R8_UINT, "shipped:resolve_zero_uint"), (R32_SINT, "shipped:resolve_zero_sint")] {
+        let mut raster = Raster::default();
+        let ids = raster.image("ids", format, 4);
+        let [one, other] = ["one", "other"].map(|name| raster.image(name, R16G16B16A16_SFLOAT, 1));
+        raster.objects("opaque").clear(ids);
+        raster.full_screen("first").sample(ids).color(one, Blend::Replace);
+        raster.full_screen("second").sample(ids).sample(one).color(other, Blend::Replace);
+        let frame = raster.output(other);
+        let honest = planned(&frame).expect("it compiles");
+        assert_eq!((honest.totals.resolves, honest.totals.inserted_passes), (1, 0), "{}", honest.tree());
+        let plan = on(&frame, &lying).expect("it compiles");
+        assert_eq!((plan.totals.resolves, plan.totals.inserted_passes), (0, 1), "{}", plan.tree());
+        let drawn: Vec<&Pass> = passes(&plan).into_iter().filter(|pass| &*pass.shader == shader).collect();
+        let Cause::Inserted(why) = &drawn[0].cause else { panic!("{:?}", drawn[0].cause) };
+        let said = "by a draw: a test showed that `a device for tests` resolves integers to another sample";
+        assert!(why.because.ends_with(said), "{}", why.because);
     }
 }

@@ -1,6 +1,6 @@
 //! Resolves: once for each version of an image, for all its readers.
 //!
-//! Colour is averaged, or weighted by a draw; of integers sample zero is taken. Depth is drawn again with one sample
+//! Colour is averaged, or weighted by a draw; of integers sample zero is taken, by a draw where the device takes another. Depth is drawn again with one sample
 //! (`depth_only`), or it is resolved: by the scope that drew it where the device has the mode, else by a draw.
 
 use super::access;
@@ -12,7 +12,7 @@ use crate::compile::parts::join;
 use crate::device::Profile;
 use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
 use crate::plan::Inserted;
-use crate::vulkan::{Aspects, ResolveMode, Subresources, name_of};
+use crate::vulkan::{Aspects, Numeric, ResolveMode, Subresources, name_of};
 
 impl Adapter<'_> {
     /// The single-sample copy of an image's current version, for a pass that samples it.
@@ -89,17 +89,35 @@ impl Adapter<'_> {
         }
         match &declared.resolve {
             Some(Resolve { way: ResolveWay::Weighted, because: asked }) => {
-                let because = format!("{because}, {asked}");
-                if self.refuses_layers(image, &because, span) {
-                    return None;
-                }
-                let why = self.reason(because, span);
-                let target = self.second(image, "resolved", why.clone(), 1);
-                let uses = access::forward_draw(source, target);
-                Some(self.resolve_by_draw(ResolveShader::Weighted, why, uses))
+                self.color_by_draw(image, ResolveShader::Weighted, format!("{because}, {asked}"), span)
+            }
+            _ if declared.format.is_integer() && self.input.device.refuted_integer_resolve => {
+                let by =
+                    if declared.format.numeric() == Numeric::Sint { ResolveShader::Sint } else { ResolveShader::Uint };
+                let device = &self.input.device.name;
+                let because =
+                    format!("{because}; by a draw: a test showed that `{device}` resolves integers to another sample");
+                self.color_by_draw(image, by, because, span)
             }
             _ => Some(self.resolve(image, usual, because, span)),
         }
+    }
+
+    /// Colour resolved by a draw.
+    fn color_by_draw(
+        &mut self,
+        image: ImageIndex,
+        by: ResolveShader,
+        because: String,
+        span: Span,
+    ) -> Option<PhysicalIndex> {
+        let source = self.current(image);
+        if self.refuses_layers(image, &because, span) {
+            return None;
+        }
+        let why = self.reason(because, span);
+        let target = self.second(image, "resolved", why.clone(), 1);
+        Some(self.resolve_by_draw(by, why, access::forward_draw(source, target)))
     }
 
     /// Whether an image has several layers, which no draw resolves. Reports that.
@@ -124,6 +142,7 @@ impl Adapter<'_> {
         let way = match by {
             ResolveShader::Depth(mode) => ResolveWay::By(mode),
             ResolveShader::Weighted => ResolveWay::Weighted,
+            ResolveShader::Uint | ResolveShader::Sint => ResolveWay::By(ResolveMode::SampleZero),
         };
         self.push(OpKind::ResolveDraw { by, name, view, why }, &uses);
         self.versions[source as usize].resolved = Some((way, target));

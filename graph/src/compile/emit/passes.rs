@@ -191,6 +191,8 @@ fn resolve_draw(results: &StageResults<'_>, number: u32, by: ResolveShader, name
         ResolveShader::Depth(ResolveMode::Max) => "shipped:depth_resolve_max",
         ResolveShader::Depth(ResolveMode::Average) => "shipped:depth_resolve_average",
         ResolveShader::Weighted => "shipped:resolve_weighted",
+        ResolveShader::Uint => "shipped:resolve_zero_uint",
+        ResolveShader::Sint => "shipped:resolve_zero_sint",
     };
     let pass = Pass {
         accesses: from_source(results, uses, Filter::Nearest),
@@ -201,6 +203,7 @@ fn resolve_draw(results: &StageResults<'_>, number: u32, by: ResolveShader, name
     match by {
         ResolveShader::Depth(_) => Pass { depth: Some(DepthState { test: CompareOp::Always, write: true }), ..pass },
         ResolveShader::Weighted => weighted(pass),
+        ResolveShader::Uint | ResolveShader::Sint => Pass { blend: vec![Blend::Replace], ..pass },
     }
 }
 

@@ -36,6 +36,7 @@ pub(crate) fn device() -> Profile {
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),
         untested_depth_resolve: Vec::new(),
+        refuted_integer_resolve: false,
         memory: MemoryModel {
             alignment: 256,
             row_texels: 1,
