@@ -161,7 +161,7 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 36] = [
+    let cases: [(&str, &[&str], &[&str]); 38] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
         ("ambient_occlusion_blur", &["source", "depth"], &[]),
