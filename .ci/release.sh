@@ -31,7 +31,7 @@ if [ -z "$command" ]; then
     need "to build: linker, C++ runtime, GLSL compiler" ca-certificates gcc g++ libc6-dev libshaderc-dev
     need "to pack" xz-utils
     # The folders that it is built in are of no concern to others.
-    RUSTFLAGS="--remap-path-prefix=$PWD=framewright --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo" \
+    CARGO_ENCODED_RUSTFLAGS="--remap-path-prefix=$PWD=framewright"$'\x1f'"--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo" \
         cargo build --locked --release --package framewright-cli --target-dir target/archives/build
     command=$PWD/target/archives/build/release/framewright
 fi

@@ -161,6 +161,17 @@ impl RawBuffer {
         Ok(())
     }
 
+    /// Writes zeros all over.
+    pub(crate) fn clear(&mut self) -> Result<(), Error> {
+        match &mut self.memory {
+            BackingMemory::Own(memory) => memory.bytes_mut().fill(0),
+            BackingMemory::Heap { .. } | BackingMemory::Foreign => {
+                return Err(invisible("a buffer that the host can write", 0));
+            }
+        }
+        Ok(())
+    }
+
     /// The first `bytes` bytes.
     pub(crate) fn contents(&self, bytes: usize) -> Result<&[u8], Error> {
         let contents = match &self.memory {

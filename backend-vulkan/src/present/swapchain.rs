@@ -26,6 +26,10 @@ pub struct Swapchain {
     acquired: u64,
     /// Whether no more images can be shown: one was taken that is never shown, or the surface has changed.
     spent: bool,
+    /// Whether an image was shown that fitted the surface.
+    was_right: bool,
+    /// Whether images fitted, and no longer do: then new ones of the same form may fit better.
+    stale: bool,
     pending: PendingWork,
 }
 
@@ -85,6 +89,8 @@ impl Swapchain {
             used: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
             acquired: 0,
             spent: false,
+            was_right: false,
+            stale: false,
             pending: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
         };
         swapchain.resize(options.extent)?;
@@ -103,7 +109,7 @@ impl Swapchain {
     pub fn resize(&mut self, extent: [u32; 2]) -> Result<bool, Error> {
         self.options.extent = extent;
         let form = SwapchainForm::of(&self.surface.handle, &self.options, self.used);
-        if let (Ok(Some(form)), Some(current), false) = (&form, &self.current, self.spent)
+        if let (Ok(Some(form)), Some(current), false) = (&form, &self.current, self.spent || self.stale)
             && current.form == *form
         {
             return Ok(true);
@@ -111,7 +117,7 @@ impl Swapchain {
         // A surface has one swapchain at a time: the one before is known until another takes its place.
         let old = self.current.take().or_else(|| self.before.take());
         self.before.clone_from(&old);
-        (self.acquired, self.spent) = (0, false);
+        (self.acquired, self.spent, self.was_right, self.stale) = (0, false, false, false);
         let Some(form) = form? else { return Ok(false) };
         self.current = Some(Arc::new(SwapchainHandle::new(&self.surface.handle, form, old.as_deref())?));
         self.before = None;
@@ -222,13 +228,23 @@ impl Swapchain {
         let queue = queues.of(current.gpu.queues.families.graphics)?;
         // SAFETY: the image was taken, and a frame that was submitted leaves it as it is presented and signals the semaphore.
         match unsafe { current.functions.queue_present(queue, &info) } {
-            Ok(false) if !image.suboptimal => Ok(Shown::Right),
-            Ok(_) => Ok(Shown::Suboptimal),
+            Ok(false) if !image.suboptimal => {
+                self.was_right = true;
+                Ok(Shown::Right)
+            }
+            Ok(_) => {
+                // Images that fitted and no longer do are made anew; those that never did stay, as on a screen that is mounted turned.
+                self.stale |= self.was_right;
+                Ok(Shown::Suboptimal)
+            }
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => {
                 self.spent = true;
                 Ok(Shown::OutOfDate)
             }
-            Err(result) => Err(presenting(DOING)(result)),
+            Err(result) => {
+                self.spent = true;
+                Err(presenting(DOING)(result))
+            }
         }
     }
 

@@ -10,7 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// A buffer for contents that change from frame to frame, such as those of a camera, of moving objects or of particles. Clones share it.
 ///
 /// [`DynamicBuffer::write`] writes a copy that no frame in flight reads, and all that is recorded afterwards reads that copy. A
-/// copy is made when there is none left: one for each frame in flight, and one or two more. Then writing allocates nothing.
+/// copy is made when there is none left: there are as many as the writes that frames in flight read, and one or two more. They stay as
+/// long as the buffer, and then writing allocates nothing.
 #[derive(Clone)]
 pub struct DynamicBuffer(pub(crate) Arc<RawDynamicBuffer>);
 
@@ -37,10 +38,10 @@ impl Device {
     pub fn dynamic_buffer(&self, usage: BufferUsage, bytes: u64) -> Result<DynamicBuffer, Error> {
         let flags = flags_of(&self.gpu, usage, bytes)?;
         let bytes = bytes.max(16);
-        let raw = RawDynamicBuffer { gpu: self.gpu.clone(), flags, bytes, copies: Mutex::new(Copies::none()) };
-        let zeros = usize::try_from(bytes).map_or_else(|_| Vec::new(), |bytes| vec![0; bytes]);
-        raw.write(&zeros)?;
-        Ok(DynamicBuffer(Arc::new(raw)))
+        let mut first = copy(&self.gpu, flags, bytes)?;
+        first.clear()?;
+        let copies = Mutex::new(Copies { all: vec![Arc::new(first)], last: 0 });
+        Ok(DynamicBuffer(Arc::new(RawDynamicBuffer { gpu: self.gpu.clone(), flags, bytes, copies })))
     }
 }
 
@@ -93,9 +94,7 @@ impl RawDynamicBuffer {
         let at = match free {
             Some(at) => at,
             None => {
-                let (name, kind) = ("dynamic buffer", MemoryUse::Upload);
-                let copy = RawBuffer::shared(&self.gpu, name, self.bytes, self.flags, kind)?;
-                copies.all.push(Arc::new(copy));
+                copies.all.push(Arc::new(copy(&self.gpu, self.flags, self.bytes)?));
                 copies.all.len() - 1
             }
         };
@@ -105,8 +104,7 @@ impl RawDynamicBuffer {
     }
 }
 
-impl Copies {
-    const fn none() -> Copies {
-        Copies { all: Vec::new(), last: 0 }
-    }
+/// A copy with undefined contents.
+fn copy(gpu: &Arc<Gpu>, flags: vk::BufferUsageFlags, bytes: u64) -> Result<RawBuffer, Error> {
+    RawBuffer::shared(gpu, "dynamic buffer", bytes, flags, MemoryUse::Upload)
 }

@@ -148,6 +148,8 @@ fn what_a_dynamic_buffer_cannot_do_is_refused() {
         assert_eq!(refused.to_string(), "17 bytes were written to a dynamic buffer, which holds 16");
         let refused = device.dynamic_buffer(BufferUsage::Uniform, u64::MAX).err().expect("too much");
         assert!(matches!(refused, Error::BadResource { .. }), "{refused}");
+        let refused = device.dynamic_buffer(BufferUsage::Vertex, 1 << 50).err().expect("too much");
+        assert!(matches!(refused, Error::OutOfMemory { .. } | Error::Vulkan { .. }), "{refused}");
         let vertices = device.dynamic_buffer(BufferUsage::Vertex, 16).expect("memory");
         let fixed = device.buffer(BufferUsage::Uniform, &[0; 16]).expect("memory");
         let given =

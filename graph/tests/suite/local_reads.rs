@@ -5,8 +5,8 @@ use crate::testing::plans::{planned, scopes};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
-use framewright_graph::plan::{BindingKind, Plan, Stage, Work};
+use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Resource, Work};
+use framewright_graph::plan::{self, BindingKind, Plan, RenderScope, Stage};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::vulkan::{Accesses, Layout, Stages, StoreOp, Usage};
@@ -156,7 +156,7 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
     assert_eq!(barriers, [false, true, true], "{}", plan.tree());
     let mut without = plan;
     for step in &mut without.steps {
-        if let Work::Render(scope) = &mut step.work {
+        if let plan::Work::Render(scope) = &mut step.work {
             scope.passes.iter_mut().filter(|pass| &*pass.name == "marks").for_each(|pass| pass.local_barrier = false);
         }
     }
@@ -182,4 +182,26 @@ fn sizes_that_come_apart_or_together_are_compiled_anew_where_a_local_read_depend
         assert_eq!(*plan, compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is valid"));
         assert_eq!((scopes(plan).len(), compiler.reuse()), (count, reuse), "{light} texels");
     }
+}
+
+#[test]
+fn a_program_s_own_draws_share_no_scope_in_which_colours_come_and_go() {
+    // Pipelines of a program's own know one list of colours, in which the pass's own has location 0.
+    let mut raster = Raster::default();
+    let [albedo, lit] = ["albedo", "lit"].map(|name| raster.image(name, R8G8B8A8_UNORM, 1));
+    raster.objects("geometry").clear(albedo);
+    raster.full_screen("light").sample(albedo).color(lit, Blend::Replace);
+    raster.full_screen("grass").color(lit, Blend::Alpha);
+    let mut frame = raster.output(lit);
+    frame.passes[1].sampled.iter_mut().for_each(|sampled| sampled.own_pixel = true);
+    let colors = |frame: &Frame| -> Vec<(Vec<String>, usize)> {
+        let plan = compiled(frame, &device(true));
+        let names = |scope: &RenderScope| scope.passes.iter().map(|pass| pass.name.to_string()).collect();
+        scopes(&plan).into_iter().map(|scope| (names(scope), scope.color.len())).collect()
+    };
+    let named = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(colors(&frame), [(named(&["geometry", "light", "grass"]), 2)]);
+    let Work::Draw { draw, .. } = &mut frame.passes[2].work else { panic!("it draws") };
+    *draw = Draw::Custom;
+    assert_eq!(colors(&frame), [(named(&["geometry", "light"]), 2), (named(&["grass"]), 1)]);
 }

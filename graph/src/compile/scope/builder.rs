@@ -7,7 +7,7 @@ use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
 use super::trace::{Trace, Ways};
 use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
-use crate::frame::Frame;
+use crate::frame::{Draw, Frame, Work};
 use crate::plan::{Note, Stage};
 
 pub(super) struct Builder<'a> {
@@ -91,6 +91,7 @@ impl<'a> Builder<'a> {
                 && self.device.local_read
                 && local::possible(self.frame, adapted, op, used, &scope.color)
         };
+        let custom = is_custom(self.frame, adapted, op);
         let joins = match self.steps.last() {
             Some(Step::Scope(scope)) => {
                 let most = self.device.max_color_attachments as usize;
@@ -102,7 +103,7 @@ impl<'a> Builder<'a> {
                     });
                     clashes
                 };
-                scope.can_join(adapted, uses, most, |used| reads_locally(scope, used), clashes)
+                scope.can_join(adapted, uses, most, custom || scope.custom, |used| reads_locally(scope, used), clashes)
             }
             _ => Err(None),
         };
@@ -120,6 +121,7 @@ impl<'a> Builder<'a> {
                 self.local.extend(local.into_iter().map(|(number, _)| number));
                 let Some(Step::Scope(scope)) = self.steps.last_mut() else { return };
                 scope.local |= reads_any;
+                scope.custom |= custom;
                 for color in colors_of(adapted, uses) {
                     if !scope.color.contains(&color) {
                         scope.color.push(color);
@@ -159,6 +161,7 @@ impl<'a> Builder<'a> {
             resolves,
             depth_resolve: None,
             local: false,
+            custom: is_custom(self.frame, adapted, op),
         })));
     }
 
@@ -229,4 +232,10 @@ impl<'a> Builder<'a> {
         let at = self.frame.sources.place(sampled.span);
         self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
     }
+}
+
+/// Whether the program records what an operation draws.
+fn is_custom(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
+    let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
+    matches!(frame.passes[pass as usize].work, Work::Draw { draw: Draw::Custom, .. })
 }

@@ -23,12 +23,14 @@ impl Refusal {
 }
 
 impl Scope {
-    /// Whether a pass with these uses can join; if not, why, unless it has nothing in common with the scope.
+    /// Whether a pass with these uses can join; if not, why, unless it has nothing in common with the scope. `fixed`: the colours of
+    /// pass and scope must be the same.
     pub(super) fn can_join(
         &self,
         adapted: &Adapted,
         uses: &[Use],
         most_colors: usize,
+        fixed: bool,
         local: impl Fn(&Use) -> bool,
         clashes: impl Fn(&Use) -> bool,
     ) -> Result<(), Option<Refusal>> {
@@ -59,8 +61,8 @@ impl Scope {
         let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
         let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
         let colors = colors_of(adapted, uses);
-        let colors =
-            colors == self.color || ((reads_locally || self.local) && self.colors_fit(adapted, uses, most_colors));
+        let may_differ = (reads_locally || self.local) && !fixed;
+        let colors = colors == self.color || (may_differ && self.colors_fit(adapted, uses, most_colors));
         if !colors || !planes || !self.same_area(adapted, uses) {
             return refuse(Refusal::OtherAttachments);
         }

@@ -44,6 +44,8 @@ pub(crate) struct Scope {
     pub(crate) depth_resolve: Option<u32>,
     /// Whether passes read at their own position what others drew: then each draws into some of the colour attachments.
     pub(crate) local: bool,
+    /// Whether the program records some of its draws, and may bind pipelines of its own: these know one list of colours.
+    pub(crate) custom: bool,
 }
 
 impl Step {
