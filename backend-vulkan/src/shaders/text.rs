@@ -98,7 +98,7 @@ fn named_in(text: &str) -> Vec<String> {
     let text = without_comments(text);
     let named = text.lines().filter_map(|line| {
         let directive = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
-        directive.split('"').nth(1).map(str::to_owned)
+        directive.split(['"', '<', '>']).nth(1).map(str::to_owned)
     });
     named.collect()
 }
