@@ -206,7 +206,8 @@ typedef struct {
 } FramewrightRendererOptions;
 
 // Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
-// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile.
+// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
+// exception or longjmp leaves it.
 typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
 
 // What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
@@ -396,8 +397,9 @@ FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *render
 // Reads the pipeline, its shaders and pictures anew, and plans. Mistakes in the files leave all as it was.
 FramewrightStatus framewright_renderer_reload(FramewrightRenderer *renderer);
 
-// Plans the next frame if anything changed since the last call; every frame begins with it. `change` is told what did, unless it is NULL.
-// After an error the last good Plan stays, with the choices that it was made for.
+// Plans the next frame if anything changed; every frame begins with it. `change` is told the most that changed since the last call of this
+// function, by whatever call, unless it is NULL.
+// After an error the last good Plan stays, with the choices and the scene that it was made for.
 FramewrightStatus framewright_renderer_prepare(FramewrightRenderer *renderer,
                                                FramewrightChange *change);
 
@@ -411,13 +413,14 @@ FramewrightStatus framewright_renderer_submit(FramewrightRenderer *renderer,
                                               const FramewrightSubmission *among,
                                               uint64_t *frame);
 
-// Waits until the device is done with a frame.
+// Waits until the device is done with a frame. A frame of an earlier Plan counts as done.
 FramewrightStatus framewright_renderer_wait(FramewrightRenderer *renderer, uint64_t frame);
 
 // Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
 // device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
 // before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
-// the semaphore live until the frame was waited for.
+// the semaphore live until the frame was waited for. Until the frame is submitted or discarded, nothing is set for the renderer, and no
+// function is called that waits or plans.
 //
 // The commands find and leave images of the program's in the states that `framewright_renderer_states` tells, and change all state of the
 // command buffer. `images` are as in FramewrightSubmission. `frame` is told the frame's number, unless it is NULL. After an error the
@@ -447,7 +450,7 @@ FramewrightStatus framewright_renderer_states(FramewrightRenderer *renderer,
 // Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
 // of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, live as long as the renderer or
 // until others are imported, and are in the state that `framewright_renderer_states` says whenever a frame begins. After
-// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again.
+// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again: a frame is `FRAMEWRIGHT_STATUS_MISUSE` until they are.
 FramewrightStatus framewright_renderer_import_images(FramewrightRenderer *renderer,
                                                      const char *name,
                                                      const VkImage *images,

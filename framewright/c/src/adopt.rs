@@ -91,6 +91,11 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
     is_null(program.instance == vk::Instance::null(), "instance")?;
     is_null(program.physical_device == vk::PhysicalDevice::null(), "physical_device")?;
     is_null(program.device == vk::Device::null(), "device")?;
+    // SAFETY: the caller's word.
+    let queues = unsafe { list(program.queues, program.queue_count, "queues")? };
+    if let Some(number) = queues.iter().position(|queue| queue.queue == vk::Queue::null()) {
+        return Err(Problem::Misuse(format!("`queues[{number}].queue` of `program` is NULL")));
+    }
     // SAFETY: the system's loader is trusted; the handles and lists are the caller's word.
     unsafe {
         let entry = ash::Entry::load().map_err(|error| Error::NoLoader { reason: error.to_string() })?;
@@ -98,7 +103,6 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
         let device = ash::Device::load(instance.fp_v1_0(), program.device);
         let of_instance = names(&program.instance_extensions, "instance_extensions")?;
         let of_device = names(&program.device_extensions, "device_extensions")?;
-        let queues = list(program.queues, program.queue_count, "queues")?;
         let helper = helper_of(program.helper)?;
         let program = AdoptedDevice {
             instance: &instance,

@@ -3,6 +3,7 @@
 use crate::status::Problem;
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 
 /// Several texts.
@@ -154,8 +155,8 @@ pub(crate) unsafe fn handle<T>(
 /// It is NULL or comes from [`handle`], and nobody uses it any more.
 pub(crate) unsafe fn free<T>(handle: *mut T) {
     if !handle.is_null() {
-        // SAFETY: the caller's word.
-        drop(unsafe { Box::from_raw(handle) });
+        // SAFETY: the caller's word. Nobody sees what a panic leaves.
+        let _ = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(handle) })));
     }
 }
 

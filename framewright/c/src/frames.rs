@@ -11,10 +11,11 @@ use framewright::{
 };
 use std::ffi::c_char;
 use std::ptr;
+use std::sync::Arc;
 
 /// What became another one when a frame was prepared.
 #[repr(C)]
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FramewrightChange {
     /// Nothing: nothing was planned.
     Nothing = 0,
@@ -118,17 +119,29 @@ fn no_scene(pass: &str) -> Error {
 }
 
 impl State {
-    /// Plans the next frame, and has the scene follow the Plan.
-    fn prepare(&mut self) -> Result<FramewrightChange, Problem> {
-        let State { renderer, scene, objects, .. } = self;
+    /// Plans the next frame, has the scene follow the Plan, and keeps what changed until the program asks.
+    pub(crate) fn prepare(&mut self) -> Result<(), Problem> {
+        let State { renderer, scene, planned_scene, objects, unreported, imported, gone, .. } = self;
         let device = renderer.device().clone();
-        let prepared = renderer.prepare()?;
-        let plan = prepared.plan;
-        let change = match prepared.change {
+        let prepared = renderer.prepare().map(|prepared| match prepared.change {
             Change::Nothing => FramewrightChange::Nothing,
             Change::Values => FramewrightChange::Values,
             _ => FramewrightChange::Plan,
-        };
+        });
+        if prepared.is_err() && renderer.plan().is_some() {
+            // The renderer went back to the choices of that Plan, and so to the facts of its scene.
+            scene.clone_from(planned_scene);
+        }
+        let change = prepared?;
+        if scene.as_ref().map(Arc::as_ptr) != planned_scene.as_ref().map(Arc::as_ptr) {
+            *objects = None;
+            planned_scene.clone_from(scene);
+        }
+        let plan = renderer.prepare()?.plan;
+        *unreported = change.max(*unreported);
+        if change == FramewrightChange::Plan {
+            gone.append(imported);
+        }
         let kept = match (objects.take(), change) {
             (_, FramewrightChange::Plan) | (None, _) => None,
             (Some(objects), FramewrightChange::Nothing) => Some(objects),
@@ -141,7 +154,30 @@ impl State {
             (None, Some(scene)) => Some(SceneDrawSource::for_plan(&device, scene, plan.extent, plan)?),
             (kept, _) => kept,
         };
-        Ok(change)
+        Ok(())
+    }
+
+    /// The executor of the next frame, which the scene follows.
+    pub(crate) fn executor(&mut self) -> Result<&mut Executor, Problem> {
+        self.prepare()?;
+        Ok(self.renderer.executor_mut()?)
+    }
+
+    /// Notes that the Plan is another one.
+    pub(crate) fn planned_anew(&mut self) {
+        self.objects = None;
+        self.planned_scene.clone_from(&self.scene);
+        self.unreported = FramewrightChange::Plan;
+        self.gone.append(&mut self.imported);
+    }
+
+    /// Makes sure that no image of the program's is missing, which an executor before had.
+    fn has_imports(&self) -> Result<(), Problem> {
+        let executor = self.renderer.executor();
+        let gone = self.gone.iter().find(|name| executor.is_some_and(|it| it.image_info(name).is_some()));
+        gone.map_or(Ok(()), |name| {
+            Err(Problem::Misuse(format!("the Plan is another one: the images of `{name}` are to be imported again")))
+        })
     }
 
     /// Has the executor draw the scene, and returns the frame's number.
@@ -150,6 +186,7 @@ impl State {
         draw: impl FnOnce(&mut Executor, &mut dyn DrawSource) -> Result<u64, Error>,
     ) -> Result<u64, Problem> {
         self.prepare()?;
+        self.has_imports()?;
         let State { renderer, objects, callback, .. } = self;
         let mut source = Source { scene: objects.as_mut(), callback: *callback };
         let frame = draw(renderer.executor_mut()?, &mut source)?;
@@ -172,15 +209,19 @@ unsafe fn points(
     what: &str,
 ) -> Result<Vec<SemaphorePoint>, Problem> {
     let point = |it: &FramewrightSemaphore| {
+        if it.semaphore == vk::Semaphore::null() {
+            return Err(Problem::Misuse(format!("a semaphore of `{what}` is NULL")));
+        }
         let all = SemaphorePoint::timeline(it.semaphore, it.value);
-        if it.stages.is_empty() { all } else { SemaphorePoint { stages: it.stages, ..all } }
+        Ok(if it.stages.is_empty() { all } else { SemaphorePoint { stages: it.stages, ..all } })
     };
     // SAFETY: the caller's word.
-    Ok(unsafe { list(semaphores, count, what)? }.iter().map(point).collect())
+    unsafe { list(semaphores, count, what)? }.iter().map(point).collect()
 }
 
-/// Plans the next frame if anything changed since the last call; every frame begins with it. `change` is told what did, unless it is NULL.
-/// After an error the last good Plan stays, with the choices that it was made for.
+/// Plans the next frame if anything changed; every frame begins with it. `change` is told the most that changed since the last call of this
+/// function, by whatever call, unless it is NULL.
+/// After an error the last good Plan stays, with the choices and the scene that it was made for.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_prepare(
     renderer: *mut FramewrightRenderer,
@@ -189,7 +230,8 @@ pub unsafe extern "C" fn framewright_renderer_prepare(
     // SAFETY: the caller's word.
     unsafe {
         with(renderer, |state| {
-            optional_output(change, state.prepare()?);
+            state.prepare()?;
+            optional_output(change, std::mem::replace(&mut state.unreported, FramewrightChange::Nothing));
             Ok(())
         })
     }
@@ -233,7 +275,7 @@ pub unsafe extern "C" fn framewright_renderer_submit(
     }
 }
 
-/// Waits until the device is done with a frame.
+/// Waits until the device is done with a frame. A frame of an earlier Plan counts as done.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_wait(
     renderer: *mut FramewrightRenderer,
@@ -246,7 +288,8 @@ pub unsafe extern "C" fn framewright_renderer_wait(
 /// Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
 /// device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
 /// before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
-/// the semaphore live until the frame was waited for.
+/// the semaphore live until the frame was waited for. Until the frame is submitted or discarded, nothing is set for the renderer, and no
+/// function is called that waits or plans.
 ///
 /// The commands find and leave images of the program's in the states that `framewright_renderer_states` tells, and change all state of the
 /// command buffer. `images` are as in FramewrightSubmission. `frame` is told the frame's number, unless it is NULL. After an error the
@@ -265,8 +308,8 @@ pub unsafe extern "C" fn framewright_renderer_record_into(
         with(renderer, |state| {
             reference(done, "done")?;
             let done = points(done, 1, "done")?[0];
-            if commands == vk::CommandBuffer::null() || done.semaphore == vk::Semaphore::null() {
-                return Err(Problem::Misuse("the command buffer or the semaphore is NULL".to_owned()));
+            if commands == vk::CommandBuffer::null() {
+                return Err(Problem::Misuse("`commands` is NULL".to_owned()));
             }
             let images = choices(images, image_count)?;
             let drawn = state.draw(|executor, source| executor.record_into(commands, done, &images, source))?;
@@ -286,8 +329,9 @@ pub unsafe extern "C" fn framewright_renderer_discard(
     unsafe {
         with(renderer, |state| {
             // A frame of an earlier executor went with it.
-            if let Some(own) = frame.checked_sub(state.renderer.first_frame()) {
-                state.renderer.executor_mut()?.discard(own);
+            let own = frame.checked_sub(state.renderer.first_frame());
+            if let (Some(own), Some(executor)) = (own, state.renderer.current_executor_mut()) {
+                executor.discard(own);
             }
             Ok(())
         })

@@ -41,7 +41,7 @@ pub unsafe extern "C" fn framewright_renderer_image_info(
     unsafe {
         with(renderer, |state| {
             let name = text(name, "name")?;
-            let found = state.renderer.executor_mut()?.image_info(name).ok_or_else(|| unknown(name))?;
+            let found = state.executor()?.image_info(name).ok_or_else(|| unknown(name))?;
             output(info.cast(), "info", found)
         })
     }
@@ -59,7 +59,7 @@ pub unsafe extern "C" fn framewright_renderer_states(
     unsafe {
         with(renderer, |state| {
             let name = text(name, "name")?;
-            let found = state.renderer.executor_mut()?.external_states(name).ok_or_else(|| unknown(name))?;
+            let found = state.executor()?.external_states(name).ok_or_else(|| unknown(name))?;
             optional_output(before, found.before.into());
             optional_output(after, found.after.into());
             Ok(())
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn framewright_renderer_states(
 /// Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
 /// of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, live as long as the renderer or
 /// until others are imported, and are in the state that `framewright_renderer_states` says whenever a frame begins. After
-/// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again.
+/// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again: a frame is `FRAMEWRIGHT_STATUS_MISUSE` until they are.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_import_images(
     renderer: *mut FramewrightRenderer,
@@ -85,7 +85,10 @@ pub unsafe extern "C" fn framewright_renderer_import_images(
             if images.contains(&vk::Image::null()) {
                 return Err(Problem::Misuse("one of the `images` is NULL".to_owned()));
             }
-            Ok(state.renderer.executor_mut()?.import_images(name, images)?)
+            state.executor()?.import_images(name, images)?;
+            state.gone.remove(name);
+            state.imported.insert(name.to_owned());
+            Ok(())
         })
     }
 }
@@ -101,7 +104,7 @@ pub unsafe extern "C" fn framewright_renderer_image(
     unsafe {
         with(renderer, |state| {
             let name = text(name, "name")?;
-            let found = state.renderer.executor_mut()?.raw_image(name);
+            let found = state.renderer.executor().and_then(|executor| executor.raw_image(name));
             output(image, "image", found.ok_or_else(|| Problem::Misuse(format!("there is no image `{name}`")))?)
         })
     }

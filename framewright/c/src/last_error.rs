@@ -38,7 +38,9 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Problem>) -> FramewrightSta
         Ok(Err(problem)) => problem,
         Err(panic) => Problem::of_panic(&*panic),
     };
-    LAST.set(LastError::of(&problem));
+    // A thread that ends may have no place for words any more.
+    let keep = || LAST.try_with(|last| last.replace(LastError::of(&problem))).map(drop);
+    let _ = catch_unwind(AssertUnwindSafe(keep));
     problem.status()
 }
 
@@ -71,14 +73,15 @@ impl LastError {
 /// another call of this thread fails, or the thread ends.
 #[unsafe(no_mangle)]
 pub extern "C" fn framewright_last_error() -> *const c_char {
-    LAST.with_borrow(|last| last.text.as_ptr())
+    LAST.try_with(|last| last.borrow().text.as_ptr()).unwrap_or(c"".as_ptr())
 }
 
 /// The mistakes in files and choices that this error consists of, by their numbers from 0; NULL behind the last one, and if it is
 /// another error. They live as long as its text.
 #[unsafe(no_mangle)]
 pub extern "C" fn framewright_last_mistake(number: usize) -> *const FramewrightMistake {
-    LAST.with_borrow(|last| last.mistakes.get(number).map_or(ptr::null(), ptr::from_ref))
+    let found = |last: &RefCell<LastError>| last.borrow().mistakes.get(number).map_or(ptr::null(), ptr::from_ref);
+    LAST.try_with(found).unwrap_or(ptr::null())
 }
 
 #[cfg(test)]

@@ -34,7 +34,8 @@ pub struct FramewrightPass<'p> {
 pub struct FramewrightResources<'p>(&'p CustomRecorder<'p>);
 
 /// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
-/// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile.
+/// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
+/// exception or longjmp leaves it.
 pub type FramewrightRecord =
     Option<unsafe extern "C" fn(context: *mut c_void, pass: *const FramewrightPass<'_>) -> u32>;
 

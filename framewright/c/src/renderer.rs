@@ -2,12 +2,14 @@
 
 use crate::arguments::{FramewrightNames, Structure, free, handle, optional_text, output, reference, structure, text};
 use crate::device::FramewrightDevice;
+use crate::frames::FramewrightChange;
 use crate::last_error::call;
 use crate::passes::{Callback, FramewrightRecord};
 use crate::scene::FramewrightScene;
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
 use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
+use std::collections::BTreeSet;
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
 
@@ -18,10 +20,18 @@ pub struct FramewrightRenderer(Mutex<State>);
 pub(crate) struct State {
     pub(crate) renderer: Renderer,
     pub(crate) scene: Option<Arc<Scene>>,
+    /// The scene whose facts the Plan was made for.
+    pub(crate) planned_scene: Option<Arc<Scene>>,
     /// The scene on the device, for the Plan that there is.
     pub(crate) objects: Option<SceneDrawSource>,
     /// What records custom passes.
     pub(crate) callback: Option<Callback>,
+    /// The most that changed since the program asked.
+    pub(crate) unreported: FramewrightChange,
+    /// Names of external images that the executor has from the program.
+    pub(crate) imported: BTreeSet<String>,
+    /// Those that an executor before had, and that weren't imported again.
+    pub(crate) gone: BTreeSet<String>,
     /// What was read last.
     pub(crate) texels: Option<Texels>,
 }
@@ -186,8 +196,12 @@ pub unsafe extern "C" fn framewright_renderer_open(
         Ok(FramewrightRenderer(Mutex::new(State {
             renderer,
             scene: None,
+            planned_scene: None,
             objects: None,
             callback: None,
+            unreported: FramewrightChange::Nothing,
+            imported: BTreeSet::new(),
+            gone: BTreeSet::new(),
             texels: None,
         })))
     };
@@ -256,7 +270,6 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
     unsafe {
         with(renderer, |state| {
             state.renderer.set_facts(scene.as_ref().map(|scene| scene.facts()));
-            state.objects = None;
             state.scene = scene;
             Ok(())
         })
@@ -363,7 +376,7 @@ pub unsafe extern "C" fn framewright_renderer_reload(renderer: *mut FramewrightR
     unsafe {
         with(renderer, |state| {
             state.renderer.reload()?;
-            state.objects = None;
+            state.planned_anew();
             Ok(())
         })
     }

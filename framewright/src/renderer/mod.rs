@@ -372,6 +372,12 @@ impl Renderer {
         self.drawn.as_ref().map(|drawn| &drawn.executor)
     }
 
+    /// The same to change, as it is: it plans nothing, unlike [`Renderer::executor_mut`]. A frame that was recorded and not submitted is
+    /// taken back by it.
+    pub fn current_executor_mut(&mut self) -> Option<&mut Executor> {
+        self.drawn.as_mut().map(|drawn| &mut drawn.executor)
+    }
+
     /// The number of the executor's first frame: it counts its own from 0, and this type those of all executors.
     #[must_use]
     pub fn first_frame(&self) -> u64 {

@@ -43,6 +43,14 @@ static void devices(FramewrightDevice **device) {
     WRONG(framewright_device_adopt(NULL, &none), MISUSE, "`program` is NULL");
     FramewrightAdoptedDevice program = {.struct_size = sizeof program};
     WRONG(framewright_device_adopt(&program, &none), MISUSE, "`instance` of `program` is NULL");
+    /* Handles that nothing is asked of. */
+    FramewrightQueue queues[] = {{0, (VkQueue)device}, {0, VK_NULL_HANDLE}};
+    program.instance = (VkInstance)device;
+    program.physical_device = (VkPhysicalDevice)device;
+    program.device = (VkDevice)device;
+    program.queues = queues;
+    program.queue_count = 2;
+    WRONG(framewright_device_adopt(&program, &none), MISUSE, "`queues[1].queue` of `program` is NULL");
     WRONG(framewright_device_findings(NULL, ignore, NULL), MISUSE, "`device` is NULL");
     HOLDS(framewright_device_name(NULL) == NULL);
     framewright_device_free(NULL);
@@ -116,6 +124,16 @@ static void renderers(FramewrightRenderer *renderer, const FramewrightScene *sce
     WRONG(framewright_renderer_submit(renderer, &among, &frame), MISUSE, "`screen` has no image 3");
     choice.name = NULL;
     WRONG(framewright_renderer_submit(renderer, &among, &frame), MISUSE, "`name` is NULL");
+    choice.name = "screen";
+    choice.image = 0;
+    FramewrightSemaphore null = {.value = 1};
+    among.waits = &null;
+    among.wait_count = 1;
+    WRONG(framewright_renderer_submit(renderer, &among, &frame), MISUSE, "a semaphore of `waits` is NULL");
+    among.wait_count = 0;
+    among.signals = &null;
+    among.signal_count = 1;
+    WRONG(framewright_renderer_submit(renderer, &among, &frame), MISUSE, "a semaphore of `signals` is NULL");
     VkImageCreateInfo info;
     WRONG(framewright_renderer_image_info(renderer, "color", &info), MISUSE, "there is no external image `color`");
     WRONG(framewright_renderer_image_info(renderer, "screen", NULL), MISUSE, "`info` is NULL");

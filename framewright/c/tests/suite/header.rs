@@ -46,9 +46,9 @@ fn compilers_of_c_and_of_cpp_take_the_header() {
     }
 }
 
-/// Each function of the crate stands in the header, and the library has it.
+/// Each function of the crate stands in the header.
 #[test]
-fn the_header_names_what_the_library_has() {
+fn the_header_names_each_function_of_the_crate() {
     let header = text("framewright/c/framewright.h");
     let mut functions = 0;
     for file in in_repository("framewright/c/src").read_dir().expect("a folder") {

@@ -61,8 +61,25 @@ fn a_program_in_c_records_into_its_own_commands_on_its_own_device() {
     assert_eq!(said.lines().count(), 1, "{said}");
     assert!(picture(&program.path("picture.ppm")) == expected(), "another picture");
 
-    // The layer is awake: it tells that an image isn't destroyed.
+    // A frame is taken back, which planning would wait for.
     let text = text("examples/embed_own_device.c");
+    let recording = "    check(framewright_renderer_record_into(renderer, commands, &done, NULL, 0, &frame));\n";
+    let taken_back = [
+        recording,
+        "    check(framewright_renderer_set(renderer, \"msaa\", \"1\"));\n",
+        "    check(framewright_renderer_discard(renderer, frame));\n",
+        "    check(framewright_renderer_set(renderer, \"msaa\", NULL));\n",
+        "    vk(vkResetCommandPool(raw, pool, 0));\n    vk(vkBeginCommandBuffer(commands, &begin));\n",
+        recording,
+    ];
+    let discarding = text.replace(recording, &taken_back.concat());
+    assert_ne!(discarding, text);
+    let discarding = Program::of(&discarding);
+    let said = succeeded(&discarding.run(&["picture.ppm"], &VALIDATION));
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(picture(&discarding.path("picture.ppm")) == expected(), "another picture");
+
+    // The layer is awake: it tells that an image isn't destroyed.
     let leaky = text.replace("    vkDestroyImage(raw, image, NULL);\n", "");
     assert_ne!(leaky, text);
     let out = Program::of(&leaky).run(&["picture.ppm"], &VALIDATION);
@@ -108,6 +125,12 @@ fn a_program_in_c_records_custom_passes() {
         let [x, y] = [number % EXTENT[0] as usize, number / EXTENT[0] as usize];
         assert_eq!(texel, if x < 160 && y < 90 { [255, 255, 255] } else { [0, 0, 255] }, "{x}, {y}");
     }
+}
+
+#[test]
+fn changes_reach_the_scene_and_are_told_to_the_program() {
+    let Some(program) = program("framewright/c/tests/programs/changes.c") else { return };
+    succeeded(&program.run(&[], &[]));
 }
 
 #[test]
