@@ -40,8 +40,10 @@ fn integers_become_sample_zero_whether_the_scope_resolves_them_or_a_draw() {
         small.image_output(numbers);
         on_each_driver(|device| {
             let honest = device.profile();
-            assert!(!honest.refuted_integer_resolve, "{}", honest.name);
-            for (by_draw, inserted) in [(false, 0), (true, 1)] {
+            // NVIDIA's driver 580 takes the last sample.
+            let usual = u32::from(honest.refuted_integer_resolve);
+            assert!(usual == 0 || honest.source.contains("NVIDIA"), "{}", honest.source);
+            for (by_draw, inserted) in [(honest.refuted_integer_resolve, usual), (true, 1)] {
                 let profile = Profile { refuted_integer_resolve: by_draw, ..honest.clone() };
                 let plan = compile(&small.frame, &profile, &mut device.memory(), &Options::default());
                 let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
