@@ -7,7 +7,7 @@ mod pipeline;
 mod scales;
 mod scenes;
 
-use framewright_graph::shader::ShaderInterface;
+use framewright_graph::shader::{Component, FragmentOutput, ShaderInterface};
 use framewright_passes::scene::Scene;
 use framewright_tests::render::{Setup, device, floats, in_repository, render};
 use std::error::Error;
@@ -44,7 +44,8 @@ fn names() -> Result<Vec<String>, Box<dyn Error>> {
     Ok(names)
 }
 
-/// Whether a shader writes colour at all.
+/// Whether a shader writes colour, in floating point.
 fn draws_color(shader: &ShaderInterface) -> bool {
-    !shader.outputs.is_empty()
+    let is_float = |output: &FragmentOutput| output.component == Component::Float;
+    !shader.outputs.is_empty() && shader.outputs.iter().all(is_float)
 }
