@@ -2,7 +2,7 @@
 
 use crate::arguments::{Structure, list, optional_output, reference, structure, text};
 use crate::passes::Callback;
-use crate::renderer::{FramewrightRenderer, State, with};
+use crate::renderer::{FramewrightChange, FramewrightRenderer, State, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{Error, Executor};
@@ -12,18 +12,6 @@ use framewright::{
 use std::ffi::c_char;
 use std::ptr;
 use std::sync::Arc;
-
-/// What became another one when a frame was prepared.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum FramewrightChange {
-    /// Nothing: nothing was planned.
-    Nothing = 0,
-    /// At most numbers in the Plan.
-    Values = 1,
-    /// The Plan: images that the program imported are to be imported again.
-    Plan = 2,
-}
 
 /// An image of the program's that a frame uses.
 #[repr(C)]

@@ -29,7 +29,7 @@ pub use device::{
     framewright_device_free, framewright_device_name, framewright_device_open,
 };
 pub use frames::{
-    FramewrightChange, FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
+    FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
     framewright_renderer_frame, framewright_renderer_prepare, framewright_renderer_record_into,
     framewright_renderer_submit, framewright_renderer_wait,
 };
@@ -43,8 +43,8 @@ pub use passes::{
     framewright_pass_image,
 };
 pub use renderer::{
-    FramewrightFacts, FramewrightRenderer, FramewrightRendererOptions, FramewrightRotation, FramewrightStereo,
-    framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
+    FramewrightChange, FramewrightFacts, FramewrightRenderer, FramewrightRendererOptions, FramewrightRotation,
+    FramewrightStereo, framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
     framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
     framewright_renderer_set_facts, framewright_renderer_set_preset, framewright_renderer_set_recorder,
     framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,

@@ -2,7 +2,6 @@
 
 use crate::arguments::{FramewrightNames, Structure, free, handle, optional_text, output, reference, structure, text};
 use crate::device::FramewrightDevice;
-use crate::frames::FramewrightChange;
 use crate::last_error::call;
 use crate::passes::{Callback, FramewrightRecord};
 use crate::scene::FramewrightScene;
@@ -12,6 +11,18 @@ use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSo
 use std::collections::BTreeSet;
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
+
+/// What became another one when a frame was prepared.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FramewrightChange {
+    /// Nothing: nothing was planned.
+    Nothing = 0,
+    /// At most numbers in the Plan.
+    Values = 1,
+    /// The Plan: images that the program imported are to be imported again.
+    Plan = 2,
+}
 
 /// A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
 pub struct FramewrightRenderer(Mutex<State>);

@@ -7,7 +7,8 @@ mod pipeline;
 mod scales;
 mod scenes;
 
-use framewright_graph::shader::{Component, FragmentOutput, ShaderInterface};
+use framewright_graph::shader::{FragmentOutput, ShaderInterface};
+use framewright_graph::vulkan::Component;
 use framewright_passes::scene::Scene;
 use framewright_tests::render::{Setup, device, floats, in_repository, render};
 use std::error::Error;
