@@ -217,7 +217,7 @@ impl Executor {
     }
 
     /// What pipelines must fit that a program binds itself in the pass of this name, by [`crate::Recorder::raw`]; `None` if
-    /// no rendering scope has such a pass. Frames that are recorded later need them, so they can be made meanwhile.
+    /// no rendering scope has such a pass. So the pipelines can be made before the first frame.
     #[must_use]
     pub fn formats(&self, pass: &str) -> Option<ScopeFormats> {
         let scopes = self.plan.steps.iter().filter_map(|step| match &step.work {

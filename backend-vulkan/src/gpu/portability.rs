@@ -1,7 +1,7 @@
 //! Devices that are Vulkan on top of another interface and lack parts of it, as MoltenVK on Metal.
 //!
-//! The loader lists them only to programs that say they know, and whoever opens one must switch on `VK_KHR_portability_subset`
-//! with those of its features that are used.
+//! The loader lists them only for instances with the flag `ENUMERATE_PORTABILITY_KHR`. A program that opens one must switch on
+//! `VK_KHR_portability_subset`, with those of its features that are used.
 
 use super::minimum::has_extension;
 use ash::{khr, vk};

@@ -68,7 +68,7 @@ pub(crate) unsafe fn optional_text<'a>(pointer: *const c_char, what: &str) -> Re
 /// `count` values; NULL is right if there are none.
 ///
 /// # Safety
-/// The pointer is NULL or leads to so many values, for `'a`.
+/// The pointer is NULL, or `count` values stand there for `'a`.
 pub(crate) unsafe fn list<'a, T>(pointer: *const T, count: usize, what: &str) -> Result<&'a [T], Problem> {
     match (pointer.is_null(), count) {
         (_, 0) => Ok(&[]),

@@ -183,14 +183,14 @@ impl State {
 }
 
 /// # Safety
-/// The pointer leads to so many choices, or is NULL.
+/// The pointer is NULL, or `count` choices stand there.
 unsafe fn choices<'a>(choices: *const FramewrightChoice, count: usize) -> Result<Vec<(&'a str, usize)>, Problem> {
     // SAFETY: the caller's word.
     unsafe { list(choices, count, "images")?.iter().map(|it| Ok((text(it.name, "name")?, it.image))).collect() }
 }
 
 /// # Safety
-/// The pointer leads to so many semaphores, or is NULL.
+/// The pointer is NULL, or `count` semaphores stand there.
 unsafe fn points(
     semaphores: *const FramewrightSemaphore,
     count: usize,
