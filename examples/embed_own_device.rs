@@ -62,6 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         device_extensions: &[],
         features: &features,
         queues: &[(family, queue)],
+        allocator: None,
     };
     // SAFETY: all of it belongs together, and is destroyed below, after everything that was made from the adopted device.
     let device = unsafe { Device::adopt(&program, None)? };

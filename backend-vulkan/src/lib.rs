@@ -56,8 +56,11 @@ pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
 pub use gpu::{
     AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
-    SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features, optional_features, rotation_of_surface,
+    PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features, optional_features,
+    rotation_of_surface,
 };
+/// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
+pub use gpu_allocator;
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
 pub use present::{PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 use std::{env, fs, io};
 
-/// A folder of files that can be made anew: compiled shaders, and findings about drivers.
+/// A folder of files that can be made anew: compiled shaders, pipelines as drivers keep them, and findings about drivers.
 ///
 /// Any number of processes may use it at once, and programs of several versions. A file that is damaged, or that another
 /// version wrote, counts as none. Where the folder can't be written, nothing is kept.
@@ -28,8 +28,9 @@ pub struct CachedFiles {
 }
 
 /// The kinds of files, by the names of their folders. The cache's folder may hold others, which aren't touched.
-const KINDS: [&str; 2] = [SPIRV, SELF_TESTS];
+const KINDS: [&str; 3] = [SPIRV, PIPELINES, SELF_TESTS];
 const SPIRV: &str = "spirv";
+const PIPELINES: &str = "pipelines";
 const SELF_TESTS: &str = "self-tests";
 
 /// Beginning of the names of files that are being written.
@@ -92,6 +93,11 @@ impl Cache {
         self.folder.join(SPIRV)
     }
 
+    /// The folder of what drivers keep of pipelines.
+    pub(crate) fn pipelines(&self) -> PathBuf {
+        self.folder.join(PIPELINES)
+    }
+
     /// The folder of what self-tests of drivers found.
     pub(crate) fn self_tests(&self) -> PathBuf {
         self.folder.join(SELF_TESTS)
@@ -141,7 +147,7 @@ pub(crate) fn read_file(path: &Path, most: u64) -> Option<Vec<u8>> {
 
 /// The files in a folder that have names like ours. One that is removed meanwhile is left out; a folder that isn't there holds
 /// none.
-pub(crate) fn files_in(folder: &Path) -> io::Result<Vec<(PathBuf, fs::Metadata)>> {
+pub(super) fn files_in(folder: &Path) -> io::Result<Vec<(PathBuf, fs::Metadata)>> {
     let Some(entries) = absent_is_fine(fs::read_dir(folder))? else { return Ok(Vec::new()) };
     let mut files = Vec::new();
     for entry in entries {
@@ -241,8 +247,8 @@ mod tests {
         replace_file(folder.path(), &cache.self_tests(), b"12345").expect("written");
         assert!(cache.files().is_err());
         let counts = |files: Vec<CachedFiles>| files.iter().map(|it| (it.files, it.bytes)).collect::<Vec<_>>();
-        assert_eq!(counts(cache.clear().expect("cleared")), [(2, 6), (1, 5)]);
-        assert_eq!(counts(cache.files().expect("listed")), [(0, 0), (0, 0)]);
+        assert_eq!(counts(cache.clear().expect("cleared")), [(2, 6), (0, 0), (1, 5)]);
+        assert_eq!(counts(cache.files().expect("listed")), [(0, 0); 3]);
         assert_eq!(fs::read_dir(cache.spirv()).expect("listed").count(), 3);
     }
 

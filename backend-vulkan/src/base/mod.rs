@@ -4,15 +4,17 @@ mod cache;
 mod cancel;
 pub(crate) mod convert;
 mod error;
+mod kept_files;
 mod platform;
 
 pub use cache::{Cache, CachedFiles};
 pub use error::{Blame, Error, INSTALL};
 pub use platform::end_process;
 
-pub(crate) use cache::{files_in, identity_of, path_variable, read_file, replace_file};
+pub(crate) use cache::{identity_of, path_variable, read_file, replace_file};
 pub(crate) use cancel::{Cancel, SLICE};
 pub(crate) use convert::Clear;
+pub(crate) use kept_files::{bytes_in, digest, shrink, used_now};
 pub(crate) use platform::{
     apart_from_interrupts, in_words, limit_this_process, take_standard_output, with_usual_rights,
 };

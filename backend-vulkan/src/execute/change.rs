@@ -48,7 +48,7 @@ impl Executor {
         }
         for ChangedPipeline { step, pass, pipeline } in pipelines {
             if let PreparedStep::Render(made) = &mut self.prepared.steps[step] {
-                made[pass].pipeline = Some(pipeline);
+                made[pass].set_pipeline(pipeline);
             }
         }
         self.prepared.forget_commands();

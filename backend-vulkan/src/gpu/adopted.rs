@@ -10,8 +10,9 @@ use super::summary::summary;
 use crate::base::Error;
 use crate::process::Helper;
 use ash::{khr, vk};
+use gpu_allocator::vulkan::Allocator;
 use std::ffi::CStr;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// A device that the program made itself, and what it was made with: for [`Device::adopt`].
 ///
@@ -34,11 +35,14 @@ pub struct AdoptedDevice<'p> {
     /// Queues that may be used, with their families: one that does graphics and compute, and where there are, one that does compute
     /// and one that does transfers alone.
     pub queues: &'p [(u32, vk::Queue)],
+    /// The program's allocator of the device's memory, which then serves everything that is made from the adopted device; `None`: the
+    /// adopted device gets an allocator of its own. It is locked only while memory is allocated, given back or counted.
+    pub allocator: Option<Arc<Mutex<Allocator>>>,
 }
 
 impl Device {
-    /// Uses a device that the program made itself. It isn't destroyed when the last clone and the last thing made from it are gone. The
-    /// helper process tests it, as with [`DeviceOptions`](crate::DeviceOptions).
+    /// Uses a device that the program made itself. It isn't destroyed when the last clone and the last thing made from it are gone,
+    /// but its memory was given back to the program's allocator then, if there is one. The helper process tests it, as with [`DeviceOptions`](crate::DeviceOptions).
     ///
     /// # Errors
     /// [`Error::Lacking`] if the physical device is less than the minimum, and [`Error::NotEnabled`] with all that the device was created
@@ -47,6 +51,7 @@ impl Device {
     /// # Safety
     /// - The instance, the device and the queues live until everything made from the adopted device is gone, and belong together.
     /// - Extensions and features are those that they were created with; each structure in the chain of features is valid.
+    /// - An allocator is one of this device, made without `buffer_device_address` unless that feature is switched on.
     /// - While this crate draws, uploads or reads back, no other thread submits to these queues.
     pub unsafe fn adopt(program: &AdoptedDevice<'_>, helper: Option<Helper>) -> Result<Device, Error> {
         let on = |extensions: &[&CStr], name: &CStr| extensions.contains(&name);
@@ -78,8 +83,10 @@ impl Device {
             queues: program.queues.to_vec(),
             families,
             is_adopted: true,
+            allocator: program.allocator.clone(),
         };
-        let gpu = Gpu::of(instance, program.physical, summary, made)?;
+        let cache = helper.as_ref().and_then(Helper::cache);
+        let gpu = Gpu::of(instance, program.physical, summary, made, cache)?;
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 }

@@ -4,78 +4,27 @@
 //! were not asked for in a while are destroyed when none is left, so that a program whose shaders change again and again doesn't grow.
 
 use super::handle::Gpu;
-use crate::base::Error;
+use super::made_once::MadeOnce;
 use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
 use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Rotation};
-use std::collections::HashMap;
-use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// Pipelines that no executor asked for during this many rounds are destroyed. A round ends when the device's last executor goes.
-const KEPT_ROUNDS: u64 = 16;
 
 /// The caches of a device.
 #[derive(Default)]
 pub(crate) struct Caches {
-    pub(crate) samplers: Cache<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
-    pub(crate) set_layouts: Cache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
-    pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
-    pub(crate) pipelines: Cache<PipelineDescriptor, vk::Pipeline>,
-    pub(crate) compute_pipelines: Cache<(Spirv, vk::PipelineLayout), vk::Pipeline>,
+    pub(crate) samplers: MadeOnce<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
+    pub(crate) set_layouts: MadeOnce<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
+    pub(crate) pipeline_layouts: MadeOnce<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
+    pub(crate) pipelines: MadeOnce<PipelineDescriptor, vk::Pipeline>,
     /// How many executors there are.
     executors: Mutex<u32>,
 }
 
 /// An executor's hold on pipelines: none is destroyed while it is there.
 pub(crate) struct PipelineHold(Arc<Gpu>);
-
-/// One kind of object by its description.
-pub(crate) struct Cache<K, V>(Mutex<Known<K, V>>);
-
-struct Known<K, V> {
-    /// Each object, with the round in which it was last asked for.
-    objects: HashMap<K, (V, u64)>,
-    round: u64,
-}
-
-impl<K, V> Default for Cache<K, V> {
-    fn default() -> Self {
-        Cache(Mutex::new(Known { objects: HashMap::new(), round: 0 }))
-    }
-}
-
-impl<K: Hash + Eq, V: Copy> Cache<K, V> {
-    /// The object for `key`, made by `make` if there is none yet.
-    pub(crate) fn get(&self, key: K, make: impl FnOnce(&K) -> Result<V, Error>) -> Result<V, Error> {
-        let Known { objects, round } = &mut *self.known();
-        if let Some((found, asked)) = objects.get_mut(&key) {
-            *asked = *round;
-            return Ok(*found);
-        }
-        let made = make(&key)?;
-        objects.insert(key, (made, *round));
-        Ok(made)
-    }
-
-    fn drain(&self) -> Vec<V> {
-        self.known().objects.drain().map(|(_, (made, _))| made).collect()
-    }
-
-    /// Ends a round. Takes out what was not asked for in [`KEPT_ROUNDS`].
-    fn end_round(&self) -> Vec<V> {
-        let Known { objects, round } = &mut *self.known();
-        *round += 1;
-        let old = objects.extract_if(|_, (_, asked)| *asked + KEPT_ROUNDS < *round);
-        old.map(|(_, (made, _))| made).collect()
-    }
-
-    fn known(&self) -> MutexGuard<'_, Known<K, V>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 impl PipelineHold {
     pub(crate) fn new(gpu: &Arc<Gpu>) -> PipelineHold {
@@ -92,7 +41,7 @@ impl Drop for PipelineHold {
         if *executors > 0 || self.0.is_abandoned() {
             return;
         }
-        for pipeline in caches.pipelines.end_round().into_iter().chain(caches.compute_pipelines.end_round()) {
+        for pipeline in caches.pipelines.end_round() {
             // SAFETY: only executors use pipelines. The last one has waited for its frames, and no other begins while their number
             // is locked.
             unsafe { raw.destroy_pipeline(pipeline, None) };
@@ -113,7 +62,6 @@ impl Caches {
         // SAFETY: the caller's promise.
         unsafe {
             self.pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
-            self.compute_pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
             self.pipeline_layouts.drain().into_iter().for_each(|it| device.destroy_pipeline_layout(it, None));
             self.set_layouts.drain().into_iter().for_each(|it| device.destroy_descriptor_set_layout(it, None));
             self.samplers.drain().into_iter().for_each(|it| device.destroy_sampler(it, None));
@@ -167,9 +115,16 @@ pub struct ScopeFormats {
     pub view_mask: u32,
 }
 
+/// Everything that a pipeline is made of.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) enum PipelineDescriptor {
+    Graphics(Box<GraphicsDescriptor>),
+    Compute { shader: Spirv, layout: vk::PipelineLayout },
+}
+
 /// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(crate) struct PipelineDescriptor {
+pub(crate) struct GraphicsDescriptor {
     pub(crate) vertex: Spirv,
     /// `None`: nothing but depth is drawn.
     pub(crate) fragment: Option<Spirv>,

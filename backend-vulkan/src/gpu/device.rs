@@ -2,6 +2,7 @@
 
 use super::handle::Gpu;
 use super::instance::Instance;
+use super::pipeline_cache::PipelineCounts;
 use super::summary::{DeviceChoice, DeviceSummary, choose, devices};
 use super::validation::Messages;
 use crate::base::Error;
@@ -19,7 +20,7 @@ pub struct DeviceOptions {
     /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
     pub validation: bool,
     /// Where it is tested; `None`: in this process. In a helper process a driver that crashes in a test ends no more than that,
-    /// and what the tests find is kept for this version of the driver.
+    /// and what the tests find is kept for this version of the driver, as are its pipelines.
     pub helper: Option<Helper>,
     /// The display whose windows pictures are shown in, for [`Device::surface`]; `None`: nothing is shown.
     pub display: Option<RawDisplayHandle>,
@@ -63,8 +64,8 @@ impl Device {
         if !summary.missing.is_empty() {
             return Err(Error::Lacking { device: summary.name, missing: summary.missing });
         }
-        let gpu = Gpu::open(instance, physical, summary)?;
         let helper = options.helper.clone();
+        let gpu = Gpu::open(instance, physical, summary, helper.as_ref().and_then(Helper::cache))?;
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 
@@ -72,6 +73,13 @@ impl Device {
     #[must_use]
     pub fn summary(&self) -> &DeviceSummary {
         &self.gpu.summary
+    }
+
+    /// How many pipelines were made so far. They are made with an executor, by
+    /// [`Executor::change`](crate::Executor::change) and by [`Device::make_pipelines`], and never by a frame.
+    #[must_use]
+    pub fn pipeline_counts(&self) -> PipelineCounts {
+        self.gpu.pipeline_cache.counts()
     }
 
     /// Messages of the validation layer so far; empty without validation. The list stays readable after the device is gone,

@@ -4,15 +4,16 @@ use super::cached::Caches;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;
+use super::pipeline_cache::PipelineCache;
 use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
 use super::{minimum, portability};
-use crate::base::{Cancel, Error, convert};
+use crate::base::{Cache, Cancel, Error, convert};
 use ash::{ext, khr, vk};
 use framewright_graph::vulkan::Format;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::mem::ManuallyDrop;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// How long a device that was given up is waited for when its last user lets go of it.
 const LAST_CHANCE_NANOSECONDS: u64 = 10_000_000_000;
@@ -35,7 +36,8 @@ pub(crate) struct Gpu {
     pub(crate) queues: Queues,
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: Caches,
-    allocator: ManuallyDrop<Mutex<Allocator>>,
+    pub(crate) pipeline_cache: PipelineCache,
+    allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     abandoned: OnceLock<PendingWork>,
     /// Whether the program made the device itself, and destroys it.
     is_adopted: bool,
@@ -56,6 +58,8 @@ pub(super) struct Made {
     pub(super) queues: Vec<(u32, vk::Queue)>,
     /// Whether the program made the device itself, and destroys it.
     pub(super) is_adopted: bool,
+    /// The allocator of its memory; `None`: it gets its own.
+    pub(super) allocator: Option<Arc<Mutex<Allocator>>>,
 }
 
 /// Work that the device didn't finish in time: these timeline semaphores have not reached these values.
@@ -66,8 +70,13 @@ pub(crate) struct PendingWork {
 }
 
 impl Gpu {
-    /// Opens `physical`, a device of `instance` that lacks nothing of the minimum.
-    pub(super) fn open(instance: Instance, physical: vk::PhysicalDevice, summary: DeviceSummary) -> Result<Gpu, Error> {
+    /// Opens `physical`, a device of `instance` that lacks nothing of the minimum. `cache` keeps the driver's pipelines.
+    pub(super) fn open(
+        instance: Instance,
+        physical: vk::PhysicalDevice,
+        summary: DeviceSummary,
+        cache: Option<&Cache>,
+    ) -> Result<Gpu, Error> {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = minimum::has_local_read(&instance.raw, physical);
         let mut has = Features::of(&instance.raw, physical, false);
@@ -96,7 +105,8 @@ impl Gpu {
         // SAFETY: the device was created with one queue of each of these families.
         let queue = |family: &u32| (*family, unsafe { raw.get_device_queue(*family, 0) });
         let queues = families.indices.iter().map(queue).collect();
-        Gpu::of(instance, physical, summary, Made { raw, features, presents, families, queues, is_adopted: false })
+        let made = Made { raw, features, presents, families, queues, is_adopted: false, allocator: None };
+        Gpu::of(instance, physical, summary, made, cache)
     }
 
     /// A device that was made, of an instance that it keeps.
@@ -105,34 +115,22 @@ impl Gpu {
         physical: vk::PhysicalDevice,
         summary: DeviceSummary,
         made: Made,
+        cache: Option<&Cache>,
     ) -> Result<Gpu, Error> {
-        let Made { raw, features, presents, families, queues, is_adopted } = made;
+        let Made { raw, features, presents, families, queues, is_adopted, allocator } = made;
         let max_views = minimum::max_views(&instance.raw, physical, &features);
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
-        let allocator = Allocator::new(&AllocatorCreateDesc {
-            instance: instance.raw.clone(),
-            device: raw.clone(),
-            physical_device: physical,
-            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
-            buffer_device_address: false,
-            allocation_sizes: gpu_allocator::AllocationSizes::default(),
-        });
-        let allocator = match allocator {
-            Ok(allocator) => allocator,
-            Err(error) => {
-                if !is_adopted {
-                    // SAFETY: nothing was made from the device yet.
-                    unsafe { raw.destroy_device(None) };
-                }
-                return Err(Error::OutOfMemory {
-                    what: "the device".into(),
-                    bytes: 0,
-                    parts: Vec::new(),
-                    reason: error.to_string(),
-                });
-            }
+        let made_of_device = || {
+            let allocator = allocator.map_or_else(|| own_allocator(&instance.raw, physical, &raw), Ok)?;
+            Ok((allocator, PipelineCache::open(&raw, cache, &summary.identity)?))
         };
+        let (allocator, pipeline_cache) = made_of_device().inspect_err(|_| {
+            if !is_adopted {
+                // SAFETY: nothing that was made from the device is left.
+                unsafe { raw.destroy_device(None) };
+            }
+        })?;
         let local_read =
             features.local_read().then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
         let labels = are_shown(&instance, physical).then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
@@ -147,7 +145,8 @@ impl Gpu {
             queues: Queues::new(families, queues),
             summary,
             caches: Caches::default(),
-            allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            pipeline_cache,
+            allocator: ManuallyDrop::new(allocator),
             abandoned: OnceLock::new(),
             is_adopted,
             cancel: Cancel::default(),
@@ -222,6 +221,29 @@ impl Gpu {
     }
 }
 
+/// An allocator for the memory of a device.
+fn own_allocator(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    device: &ash::Device,
+) -> Result<Arc<Mutex<Allocator>>, Error> {
+    let allocator = Allocator::new(&AllocatorCreateDesc {
+        instance: instance.clone(),
+        device: device.clone(),
+        physical_device: physical,
+        debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+        buffer_device_address: false,
+        allocation_sizes: gpu_allocator::AllocationSizes::default(),
+    });
+    let failed = |error: gpu_allocator::AllocationError| Error::OutOfMemory {
+        what: "the device".into(),
+        bytes: 0,
+        parts: Vec::new(),
+        reason: error.to_string(),
+    };
+    Ok(Arc::new(Mutex::new(allocator.map_err(failed)?)))
+}
+
 impl Drop for Gpu {
     fn drop(&mut self) {
         if let Some(PendingWork { semaphores, values }) = self.abandoned.get() {
@@ -238,6 +260,7 @@ impl Drop for Gpu {
         // device closes, the device closes before its instance, and none of them is touched again.
         unsafe {
             self.caches.destroy(&self.raw);
+            self.pipeline_cache.close(&self.raw);
             ManuallyDrop::drop(&mut self.allocator);
             if !self.is_adopted {
                 self.raw.destroy_device(None);

@@ -8,7 +8,9 @@ mod handle;
 mod instance;
 mod labels;
 pub mod layer;
+mod made_once;
 mod minimum;
+mod pipeline_cache;
 mod portability;
 pub(crate) mod queues;
 mod summary;
@@ -21,12 +23,13 @@ pub use cached::{SamplerDescriptor, ScopeFormats};
 pub use device::{Device, DeviceOptions};
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;
+pub use pipeline_cache::PipelineCounts;
 pub use summary::{DeviceChoice, DeviceSummary};
 pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
 pub(crate) use cached::{
-    LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+    GraphicsDescriptor, LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
 };
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};

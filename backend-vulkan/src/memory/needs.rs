@@ -45,7 +45,8 @@ impl Device {
         LiveMemory { gpu: self.gpu.clone() }
     }
 
-    /// Memory of this device that everything made from it takes: executors, buffers, textures.
+    /// Memory of this device that everything made from it takes: executors, buffers, textures. With an allocator of the program's, that
+    /// of the program is in it.
     #[must_use]
     pub fn memory_in_use(&self) -> MemoryInUse {
         let report = self.gpu.allocator().generate_report();

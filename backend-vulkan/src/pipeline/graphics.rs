@@ -1,8 +1,8 @@
-//! Pipelines, one for each description.
+//! Graphics pipelines.
 
+use super::shader_module::ShaderModule;
 use crate::base::{Error, convert};
-use crate::gpu::{Gpu, PipelineDescriptor, RotationConstants, VertexAttribute};
-use crate::shaders::Spirv;
+use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute};
 use ash::vk;
 use framewright_graph::frame::Blend;
 
@@ -24,89 +24,19 @@ impl RotationConstants {
     }
 }
 
-impl Gpu {
-    /// The graphics pipeline of this description. It bears the name of who first asked for it: others may be using it
-    /// already.
-    pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        self.caches.pipelines.get(descriptor, |descriptor| {
-            let vertex = ShaderModule::new(self, &descriptor.vertex)?;
-            let fragment =
-                descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(self, fragment)).transpose()?;
-            let pipeline = create(self, descriptor, &vertex, fragment.as_ref())?;
-            self.name(pipeline, name);
-            Ok(pipeline)
-        })
-    }
-
-    /// The compute pipeline of a shader and a layout, named likewise.
-    pub(crate) fn compute_pipeline(
-        &self,
-        name: &str,
-        shader: Spirv,
-        layout: vk::PipelineLayout,
-    ) -> Result<vk::Pipeline, Error> {
-        self.caches.compute_pipelines.get((shader, layout), |(shader, layout)| {
-            let module = ShaderModule::new(self, shader)?;
-            let stage = vk::PipelineShaderStageCreateInfo::default()
-                .stage(vk::ShaderStageFlags::COMPUTE)
-                .module(module.raw)
-                .name(c"main");
-            let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(*layout);
-            // SAFETY: everything that `info` points to outlives the call; the interface was matched with the layout.
-            let made = unsafe { self.raw.create_compute_pipelines(vk::PipelineCache::null(), &[info], None) };
-            let pipeline = only(made)?;
-            self.name(pipeline, name);
-            Ok(pipeline)
-        })
-    }
-}
-
-/// The one pipeline that was asked for.
-fn only(made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>) -> Result<vk::Pipeline, Error> {
-    let doing = "creating a pipeline";
-    let made = made.map_err(|(_, result)| Error::vulkan(doing)(result))?;
-    made.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })
-}
-
-/// A shader module, needed only while a pipeline is created.
-struct ShaderModule<'d> {
-    gpu: &'d Gpu,
-    raw: vk::ShaderModule,
-}
-
-impl<'d> ShaderModule<'d> {
-    fn new(gpu: &'d Gpu, spirv: &[u32]) -> Result<ShaderModule<'d>, Error> {
-        let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3.
-        let raw =
-            unsafe { gpu.raw.create_shader_module(&info, None) }.map_err(Error::vulkan("creating a shader module"))?;
-        Ok(ShaderModule { gpu, raw })
-    }
-}
-
-impl Drop for ShaderModule<'_> {
-    fn drop(&mut self) {
-        // SAFETY: pipelines don't need their modules any more.
-        unsafe { self.gpu.raw.destroy_shader_module(self.raw, None) };
-    }
-}
-
-fn create(
-    gpu: &Gpu,
-    descriptor: &PipelineDescriptor,
-    vertex: &ShaderModule<'_>,
-    fragment: Option<&ShaderModule<'_>>,
-) -> Result<vk::Pipeline, Error> {
+pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<vk::Pipeline, Error> {
+    let vertex = ShaderModule::new(gpu, &descriptor.vertex)?;
+    let fragment = descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(gpu, fragment)).transpose()?;
     let formats = &descriptor.formats;
     let (entries, constants) = (RotationConstants::entries(), descriptor.turned.map(RotationConstants::constants));
     let constants = constants.as_deref();
     let specialization = constants.map(|data| vk::SpecializationInfo::default().map_entries(&entries).data(data));
     let stage = |stage, module: &ShaderModule<'_>| {
-        let info = vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main");
+        let info = module.stage(stage);
         specialization.as_ref().map_or(info, |specialization| info.specialization_info(specialization))
     };
-    let fragment = fragment.map(|fragment| stage(vk::ShaderStageFlags::FRAGMENT, fragment));
-    let stages: Vec<_> = [stage(vk::ShaderStageFlags::VERTEX, vertex)].into_iter().chain(fragment).collect();
+    let fragment = fragment.as_ref().map(|fragment| stage(vk::ShaderStageFlags::FRAGMENT, fragment));
+    let stages: Vec<_> = [stage(vk::ShaderStageFlags::VERTEX, &vertex)].into_iter().chain(fragment).collect();
     let bindings: Vec<_> = (0..)
         .zip(&descriptor.strides)
         .map(|(binding, stride)| {
@@ -164,6 +94,8 @@ fn create(
         .color_attachment_locations(local.map_or(&[][..], |local| &local.locations[..]));
     let mut inputs = vk::RenderingInputAttachmentIndexInfoKHR::default()
         .color_attachment_input_indices(local.map_or(&[][..], |local| &local.inputs[..]));
+    let mut feedback = vk::PipelineCreationFeedback::default();
+    let mut told = vk::PipelineCreationFeedbackCreateInfo::default().pipeline_creation_feedback(&mut feedback);
     let mut info = vk::GraphicsPipelineCreateInfo::default()
         .stages(&stages)
         .vertex_input_state(&vertex_input)
@@ -175,12 +107,14 @@ fn create(
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
         .layout(descriptor.layout)
-        .push_next(&mut rendering);
+        .push_next(&mut rendering)
+        .push_next(&mut told);
     if local.is_some() {
         info = info.push_next(&mut locations).push_next(&mut inputs);
     }
     // SAFETY: everything that `info` points to outlives the call; interfaces were matched with the layout.
-    only(unsafe { gpu.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) })
+    let made = unsafe { gpu.raw.create_graphics_pipelines(gpu.pipeline_cache.raw, &[info], None) };
+    gpu.created(made, feedback)
 }
 
 /// Items of the colour attachments of a scope or its pipelines; where there is none, one that is unused, without image or

@@ -18,7 +18,7 @@ impl Gpu {
     /// The set layout with these bindings, in any order.
     pub(crate) fn set_layout(&self, mut bindings: Vec<LayoutBinding>) -> Result<vk::DescriptorSetLayout, Error> {
         bindings.sort();
-        self.caches.set_layouts.get(bindings, |bindings| {
+        self.caches.set_layouts.get(&bindings, |bindings| {
             let bindings: Vec<_> = bindings
                 .iter()
                 .map(|it| {
@@ -38,7 +38,7 @@ impl Gpu {
 
     /// The pipeline layout with these set layouts, and room for the parts of images that passes use.
     pub(crate) fn pipeline_layout(&self, sets: Vec<vk::DescriptorSetLayout>) -> Result<vk::PipelineLayout, Error> {
-        self.caches.pipeline_layouts.get(sets, |sets| {
+        self.caches.pipeline_layouts.get(&sets, |sets| {
             let parts = [vk::PushConstantRange { stage_flags: PARTS_STAGES, offset: 0, size: PARTS_BYTES }];
             let info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets).push_constant_ranges(&parts);
             // SAFETY: the set layouts live as long as the device.

@@ -1,11 +1,13 @@
 //! Samplers, layouts, descriptor sets and pipelines, and whether a shader fits its pass.
 
+mod create;
 mod descriptor_set;
 mod fit;
 mod graphics;
 mod layouts;
 pub(crate) mod parameters;
 mod samplers;
+mod shader_module;
 
 pub(crate) use descriptor_set::{DescriptorSet, DescriptorTarget};
 pub(crate) use fit::{

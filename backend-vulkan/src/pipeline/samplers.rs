@@ -17,7 +17,7 @@ impl Gpu {
             AddressMode::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
             AddressMode::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
         };
-        self.caches.samplers.get((descriptor, compare), |(it, compare)| {
+        self.caches.samplers.get(&(descriptor, compare), |(it, compare)| {
             let info = vk::SamplerCreateInfo::default()
                 .mag_filter(convert::filter(it.magnify))
                 .min_filter(convert::filter(it.minify))

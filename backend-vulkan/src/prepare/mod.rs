@@ -17,6 +17,7 @@ mod prepared;
 mod rings;
 mod scope;
 mod step;
+mod steps;
 mod supplied;
 mod textures;
 mod uses;

@@ -8,7 +8,7 @@ use super::pass_set::PassSets;
 use super::supplied::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
+use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -18,15 +18,14 @@ use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
+use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
     pub(crate) draw: Draw,
     pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
-    pub(crate) pipeline: Option<vk::Pipeline>,
-    /// The description of the pipeline, if the size of the scope is a constant of it.
-    sized: Option<PipelineDescriptor>,
+    pub(crate) pipeline: Option<PassPipeline>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
     pub(crate) local: Option<LocalRead>,
     pub(crate) state: PassState,
@@ -34,6 +33,12 @@ pub(crate) struct PreparedDraw {
     vertices: Vec<BufferId>,
     indices: Option<BufferId>,
     indirect: Option<BufferId>,
+}
+
+/// A pipeline of a pass. Its handle is null until it is made.
+pub(crate) struct PassPipeline {
+    pub(crate) raw: vk::Pipeline,
+    pub(super) descriptor: PipelineDescriptor,
 }
 
 /// State of the pass's pipeline that a recorder must know.
@@ -49,7 +54,7 @@ pub(crate) struct PassState {
 /// A dispatch's objects.
 pub(crate) struct PreparedDispatch {
     pub(crate) sets: PassSets,
-    pub(crate) pipeline: vk::Pipeline,
+    pub(crate) pipeline: PassPipeline,
     pub(crate) supplied: SuppliedSets,
     /// Invocations of a workgroup.
     size: [u32; 3],
@@ -58,9 +63,20 @@ pub(crate) struct PreparedDispatch {
 impl PreparedDraw {
     /// The pipeline for a scope of another size; `None` if the one that it has serves for all sizes.
     pub(crate) fn resized(&self, gpu: &Gpu, name: &str, extent: [u32; 2]) -> Result<Option<vk::Pipeline>, Error> {
-        let Some(descriptor) = &self.sized else { return Ok(None) };
-        let turned = descriptor.turned.map(|turned| RotationConstants { extent, ..turned });
-        gpu.pipeline(name, PipelineDescriptor { turned, ..descriptor.clone() }).map(Some)
+        let Some(PassPipeline { descriptor: PipelineDescriptor::Graphics(descriptor), .. }) = &self.pipeline else {
+            return Ok(None);
+        };
+        let Some(turned) = descriptor.turned.filter(|turned| turned.extent != [0; 2]) else { return Ok(None) };
+        let turned = Some(RotationConstants { extent, ..turned });
+        let resized = GraphicsDescriptor { turned, ..(**descriptor).clone() };
+        gpu.pipeline(name, &PipelineDescriptor::Graphics(resized.into())).map(Some)
+    }
+
+    /// Takes another pipeline in place of the one that it has.
+    pub(crate) fn set_pipeline(&mut self, raw: vk::Pipeline) {
+        if let Some(pipeline) = &mut self.pipeline {
+            pipeline.raw = raw;
+        }
     }
 
     /// The command of the pass in a frame; its number in the scope and that of its target are `numbers`.
@@ -84,7 +100,8 @@ impl PreparedDraw {
             _ => DrawnVertices::Source,
         };
         let bindings = bindings(list, frame, plan, &mut self.sets, self.state.supplied.layout)?;
-        Ok(DrawCommand { pipeline: self.pipeline, bindings, pass, target, vertices })
+        let pipeline = self.pipeline.as_ref().map(|pipeline| pipeline.raw);
+        Ok(DrawCommand { pipeline, bindings, pass, target, vertices })
     }
 }
 
@@ -101,7 +118,7 @@ impl PreparedDispatch {
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
         let bindings = bindings(list, frame, pass, &mut self.sets, self.supplied.layout)?;
-        Ok(DispatchCommand { pipeline: self.pipeline, bindings, groups, supplied: self.supplied.are_read() })
+        Ok(DispatchCommand { pipeline: self.pipeline.raw, bindings, groups, supplied: self.supplied.are_read() })
     }
 
     /// How many workgroups it takes.
@@ -149,13 +166,20 @@ fn indirect(pass: &plan::Pass) -> Result<BufferId, String> {
     buffers(pass, BufferRole::Indirect).first().copied().ok_or_else(|| "no buffer tells its counts".to_owned())
 }
 
-/// The objects of a dispatch.
+impl PassPipeline {
+    /// One that is yet to be made.
+    const fn unmade(descriptor: PipelineDescriptor) -> PassPipeline {
+        PassPipeline { raw: vk::Pipeline::null(), descriptor }
+    }
+}
+
+/// The objects of a dispatch, but for its pipeline.
 pub(super) fn prepare_dispatch(
-    frame: &Frame<'_>,
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDispatch, Error> {
-    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
@@ -168,20 +192,21 @@ pub(super) fn prepare_dispatch(
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
-    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
-    let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, supplied.layout)?;
+    let descriptor = PipelineDescriptor::Compute { shader: shader.compute, layout: supplied.layout };
+    let pipeline = PassPipeline::unmade(descriptor);
     Ok(PreparedDispatch { sets, pipeline, supplied, size })
 }
 
-/// The objects of a pass of a rendering scope.
+/// The objects of a pass of a rendering scope, but for its pipeline.
 pub(super) fn prepare_draw(
-    frame: &Frame<'_>,
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
     scope: &RenderScope,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDraw, Error> {
-    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
     let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
@@ -199,7 +224,6 @@ pub(super) fn prepare_draw(
         draw,
         sets,
         pipeline: None,
-        sized: None,
         local: None,
         state: PassState {
             formats: formats.clone(),
@@ -237,7 +261,7 @@ pub(super) fn prepare_draw(
     if indices.is_none() {
         check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
     }
-    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
     let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
@@ -245,7 +269,7 @@ pub(super) fn prepare_draw(
     let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
     let placed = form == Some(EyeForm::Halves) && shader.interface.uses_frag_coord;
     let turned = (rotation.turns() || placed).then_some(RotationConstants { rotation, extent });
-    let descriptor = PipelineDescriptor {
+    let descriptor = GraphicsDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
         layout: supplied.layout,
@@ -259,12 +283,11 @@ pub(super) fn prepare_draw(
         local: local.clone(),
         turned,
     };
-    let sized = descriptor.turned.filter(|turned| turned.extent != [0; 2]).map(|_| descriptor.clone());
-    let pipeline = Some(gpu.pipeline(&pass.name, descriptor)?);
+    let pipeline = Some(PassPipeline::unmade(PipelineDescriptor::Graphics(descriptor.into())));
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
     let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
-    Ok(PreparedDraw { pipeline, sized, local, state, vertices, ..nothing(sets) })
+    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

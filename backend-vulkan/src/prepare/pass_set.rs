@@ -2,7 +2,7 @@
 
 use super::descriptions::part;
 use super::frame::Frame;
-use super::rings::{Period, RingCache};
+use super::rings::RingCache;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
@@ -19,7 +19,8 @@ pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
     bindings: Vec<(LayoutBinding, BoundResource)>,
     params: Option<(Block, Arc<RawBuffer>)>,
-    made: RingCache<PassSet>,
+    /// `None` before the first frame.
+    made: Option<RingCache<PassSet>>,
 }
 
 /// The block, buffer or image that is bound to one name.
@@ -41,8 +42,12 @@ impl PassSets {
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
-    pub(super) fn new(frame: &Frame<'_>, pass: &plan::Pass, shader: &[shader::Binding]) -> Result<PassSets, Error> {
-        let (gpu, plan) = (frame.gpu, frame.plan);
+    pub(super) fn new(
+        gpu: &Arc<Gpu>,
+        plan: &Plan,
+        pass: &plan::Pass,
+        shader: &[shader::Binding],
+    ) -> Result<PassSets, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
         let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
@@ -67,19 +72,12 @@ impl PassSets {
             bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
-        let resources = bindings.iter().filter_map(|(_, bound)| match bound {
-            BoundResource::Params => None,
-            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
-            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
-        });
-        let made = RingCache::new(frame.physical.period(resources));
-        Ok(PassSets { layout, bindings, params, made })
+        Ok(PassSets { layout, bindings, params, made: None })
     }
 
     /// Sets without bindings.
     pub(crate) fn empty(gpu: &Gpu) -> Result<PassSets, Error> {
-        let (layout, made) = (gpu.set_layout(Vec::new())?, RingCache::new(Period::every(1)));
-        Ok(PassSets { layout, bindings: Vec::new(), params: None, made })
+        Ok(PassSets { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), params: None, made: None })
     }
 
     /// The block `params` with the values that `pass` has now, for [`PassSets::take`]; `None`: the shader has none.
@@ -97,7 +95,7 @@ impl PassSets {
 
     /// Forgets all sets: other images or buffers stand for the Plan's now. None may be in use.
     pub(super) fn forget(&mut self) {
-        self.made.forget();
+        self.made = None;
     }
 
     /// The set for a frame; `None` if it would be empty.
@@ -106,7 +104,13 @@ impl PassSets {
             return Ok(None);
         }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
-        self.made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
+        let resources = bindings.iter().filter_map(|(_, bound)| match bound {
+            BoundResource::Params => None,
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
+        });
+        let made = self.made.get_or_insert_with(|| RingCache::new(frame.physical.period(resources)));
+        made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
     }
 }
 

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::pass_set::PassSets;
 use super::physical::PhysicalResources;
 use super::step::{PreparedStep, period};
+use super::steps::prepare_steps;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::shaders::ShaderLibrary;
@@ -41,8 +42,7 @@ impl PreparedPlan {
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
         let frame = Frame { gpu, plan, physical: &physical, number: 0 };
-        let steps = plan.steps.iter().map(|step| PreparedStep::new(&frame, step, shaders));
-        let steps = steps.collect::<Result<Vec<PreparedStep>, _>>()?;
+        let steps = prepare_steps(gpu, plan, shaders)?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
         let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
         prepared.prepare_frame(gpu, plan, 0)?;

@@ -7,22 +7,24 @@ use super::frame::Frame;
 use super::pass::{PreparedDraw, prepare_draw};
 use super::variant::view_mask;
 use crate::base::{Error, convert};
-use crate::gpu::{LocalRead, c_string};
+use crate::gpu::{Gpu, LocalRead, c_string};
 use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{Attachment, ImageId, RenderScope};
+use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Subresources};
+use std::sync::Arc;
 
 /// The objects of a rendering scope's passes.
 pub(super) fn prepare_scope(
-    frame: &Frame<'_>,
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
     scope: &RenderScope,
     shaders: &mut ShaderLibrary,
 ) -> Result<Vec<PreparedDraw>, Error> {
-    let passes = scope.passes.iter().map(|pass| prepare_draw(frame, scope, pass, shaders));
+    let passes = scope.passes.iter().map(|pass| prepare_draw(gpu, plan, scope, pass, shaders));
     let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
     if passes.iter().any(|pass| pass.local.is_some()) {
         // A pass's locations and inputs of attachments hold for the rest of the scope: the others set them back.

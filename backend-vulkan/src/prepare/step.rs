@@ -3,7 +3,7 @@
 use super::command_list::{Command, CommandList};
 use super::descriptions::name_and_role;
 use super::frame::Frame;
-use super::pass::{PreparedDispatch, PreparedDraw, prepare_dispatch};
+use super::pass::{PassPipeline, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
 use super::poison::push_poisoned_barriers;
 use super::prepared::Debugging;
@@ -12,11 +12,12 @@ use super::scope::{prepare_scope, push_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
 use crate::commands::{TransferCommand, TransferSide, memory_barrier};
-use crate::gpu::c_string;
+use crate::gpu::{Gpu, c_string};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
+use std::sync::Arc;
 
 /// The objects of a step's work.
 pub(crate) enum PreparedStep {
@@ -29,11 +30,16 @@ pub(crate) enum PreparedStep {
 }
 
 impl PreparedStep {
-    /// The objects of a step, as far as they are the same in all frames.
-    pub(super) fn new(frame: &Frame<'_>, step: &Step, shaders: &mut ShaderLibrary) -> Result<PreparedStep, Error> {
+    /// The objects of a step, as far as they are the same in all frames, but for its pipelines.
+    pub(super) fn new(
+        gpu: &Arc<Gpu>,
+        plan: &Plan,
+        step: &Step,
+        shaders: &mut ShaderLibrary,
+    ) -> Result<PreparedStep, Error> {
         Ok(match &step.work {
-            Work::Render(scope) => PreparedStep::Render(prepare_scope(frame, scope, shaders)?),
-            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(frame, pass, shaders)?),
+            Work::Render(scope) => PreparedStep::Render(prepare_scope(gpu, plan, scope, shaders)?),
+            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, pass, shaders)?),
             _ => PreparedStep::Plain,
         })
     }
@@ -88,6 +94,15 @@ impl PreparedStep {
         match self {
             PreparedStep::Dispatch(dispatch) => Some(dispatch),
             PreparedStep::Render(_) | PreparedStep::Plain => None,
+        }
+    }
+
+    /// The pipelines of its passes; `None` for a pass without one.
+    pub(super) fn pipelines(&mut self) -> Vec<Option<&mut PassPipeline>> {
+        match self {
+            PreparedStep::Render(passes) => passes.iter_mut().map(|pass| pass.pipeline.as_mut()).collect(),
+            PreparedStep::Dispatch(pass) => vec![Some(&mut pass.pipeline)],
+            PreparedStep::Plain => Vec::new(),
         }
     }
 

@@ -4,24 +4,18 @@
 //! included. It is taken only where all of that is the same now.
 
 use super::compile::Includes;
-use crate::base::{Cache, files_in, identity_of, read_file, replace_file};
+use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file, shrink, used_now};
 use crate::process::{
     CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
 };
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
 
 /// Bytes of all files above which the files that were used least recently are removed. A stage takes some 50 KiB.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Larger files aren't kept, and are none of ours.
 const LARGEST_FILE: u64 = MOST_BYTES / 16;
-
-/// The last use of a file is known to this precision.
-const PRECISION: Duration = Duration::from_secs(3600);
 
 /// Compiled stages in a folder.
 pub(super) struct SpirvCache {
@@ -135,53 +129,12 @@ fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
     digest(&(stage, text, macros))
 }
 
-fn digest(of: &(impl Hash + ?Sized)) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    of.hash(&mut hasher);
-    hasher.finish()
-}
-
-/// Notes that a file was used, unless that was noted a short time ago.
-fn used_now(path: &Path) {
-    let now = SystemTime::now();
-    let last = fs::metadata(path).and_then(|file| file.modified());
-    // A time to come is none at which it was used.
-    if last.is_ok_and(|last| now.duration_since(last).map_or(true, |ago| ago > PRECISION)) {
-        // Without this it only looks as if it had not been used.
-        let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(now));
-    }
-}
-
-fn sum(files: &[(PathBuf, fs::Metadata)]) -> u64 {
-    files.iter().fold(0, |sum, (_, file)| sum.saturating_add(file.len()))
-}
-
-/// The bytes of all files in a folder.
-fn bytes_in(folder: &Path) -> u64 {
-    sum(&files_in(folder).unwrap_or_default())
-}
-
-/// Removes the files that were used least recently until all take at most `bytes`. Returns the bytes of the others.
-fn shrink(folder: &Path, bytes: u64) -> u64 {
-    let mut files = files_in(folder).unwrap_or_default();
-    files.sort_by_cached_key(|(_, file)| file.modified().ok());
-    let mut left = sum(&files);
-    for (path, file) in files {
-        if left <= bytes {
-            break;
-        }
-        // If another process removed it, that one counts it.
-        if fs::remove_file(path).is_ok() {
-            left -= file.len();
-        }
-    }
-    left
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::process::ShaderStage;
+    use std::fs::{self, File};
+    use std::time::{Duration, SystemTime};
 
     fn job(text: &str) -> CompileJob {
         CompileJob { stage: ShaderStage::Vertex, shown: "a.vert".to_owned(), text: text.to_owned(), macros: Vec::new() }

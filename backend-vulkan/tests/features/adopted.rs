@@ -5,7 +5,9 @@ use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::ash::{self, vk};
+use framewright_vulkan::gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use framewright_vulkan::{AdoptedDevice, Device, Error, Executor, ExecutorOptions};
+use std::sync::{Arc, Mutex};
 
 /// The features that the program switches on: by the structures of Vulkan's versions.
 #[derive(Default)]
@@ -60,6 +62,7 @@ fn adopted(
     raw: &ash::Device,
     features: &vk::PhysicalDeviceFeatures2<'_>,
     families: &[u32],
+    allocator: Option<&Arc<Mutex<Allocator>>>,
 ) -> Result<Device, Error> {
     let (instance, physical) = like.raw_physical();
     // SAFETY: the device was made with a queue of this family.
@@ -73,6 +76,7 @@ fn adopted(
         device_extensions: &[],
         features,
         queues: &queues,
+        allocator: allocator.cloned(),
     };
     // SAFETY: all of it belongs together, and lives until the test is over.
     unsafe { Device::adopt(&program, None) }
@@ -90,7 +94,7 @@ fn numbers() -> Frame {
 /// Draws with a device that the program made, which then destroys it: the layer would say if anything were left.
 fn draws_with(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) {
     let raw = made(like, features);
-    let device = adopted(like, &raw, features, &[0]).expect("it has all that is needed");
+    let device = adopted(like, &raw, features, &[0], None).expect("it has all that is needed");
     let plan = planned(&device, &numbers(), &Options::default());
     let mut executor =
         Executor::new(&device, &plan, &mut library(&[]), &ExecutorOptions::default()).expect("an executor");
@@ -131,6 +135,41 @@ fn a_device_of_the_program_draws_and_stays_the_programs() {
 }
 
 #[test]
+fn memory_comes_from_the_programs_allocator_and_goes_back_to_it() {
+    on_each_driver(|like| {
+        let mut features = ByVersion::all();
+        let mut features = features.chain();
+        let raw = made(like, &mut features);
+        let (instance, physical) = like.raw_physical();
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.clone(),
+            device: raw.clone(),
+            physical_device: physical,
+            debug_settings: Default::default(),
+            buffer_device_address: false,
+            allocation_sizes: Default::default(),
+        });
+        let allocator = Arc::new(Mutex::new(allocator.expect("an allocator")));
+        let allocations = || allocator.lock().expect("no thread panicked").generate_report().allocations.len();
+        let device = adopted(like, &raw, &features, &[0], Some(&allocator)).expect("it has all that is needed");
+        assert_eq!(allocations(), 0);
+        let plan = planned(&device, &numbers(), &Options::default());
+        let mut executor =
+            Executor::new(&device, &plan, &mut library(&[]), &ExecutorOptions::default()).expect("an executor");
+        frame(&mut executor);
+        assert!(allocations() > 0);
+        assert_eq!(device.memory_in_use().allocations, allocations());
+        assert_eq!(texels(&mut executor, "numbers", 0), [0, 1, 10, 11]);
+        drop((device, executor));
+        assert_eq!(allocations(), 0);
+        let allocator = Arc::into_inner(allocator).expect("the program's alone again");
+        drop(allocator);
+        // SAFETY: nothing made from the device is left.
+        unsafe { raw.destroy_device(None) };
+    });
+}
+
+#[test]
 fn what_a_device_was_created_without_is_named() {
     on_each_driver(|like| {
         let mut all = ByVersion::all();
@@ -138,7 +177,7 @@ fn what_a_device_was_created_without_is_named() {
         let missing = |change: fn(&mut ByVersion), families: &[u32]| {
             let mut features = ByVersion::all();
             change(&mut features);
-            match adopted(like, &raw, &features.chain(), families) {
+            match adopted(like, &raw, &features.chain(), families, None) {
                 Err(Error::NotEnabled { missing, .. }) => missing,
                 Err(error) => panic!("{error}"),
                 Ok(_) => panic!("it was adopted"),

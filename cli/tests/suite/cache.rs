@@ -1,6 +1,6 @@
 //! The cache: compiled shaders are taken from it where nothing that they were made from has changed, and only there.
 
-use crate::testing::{FORWARD, Outcome, Place};
+use crate::testing::{FORWARD, Outcome, Place, Vulkan};
 use serde_json::Value;
 use std::ffi::OsStr;
 use std::fs;
@@ -162,17 +162,53 @@ fn the_cache_is_listed_and_cleared_and_what_others_keep_beside_it_stays() {
         kinds.iter().map(|kind| kind["files"].as_u64().expect("a number")).collect()
     };
     let list = ["cache", "--format", "json"];
-    assert_eq!(files(&list), [0, 0]);
+    assert_eq!(files(&list), [0; 3]);
     run(&place, &CHECK).exits(0);
-    assert_eq!(files(&list), [2, 0]);
+    assert_eq!(files(&list), [2, 0, 0]);
     let said = run(&place, &["cache"]).exits(0).out;
     assert!(said.starts_with("kept in ") && said.contains("\n  spirv: 2 files, "), "{said}");
     place.file("cache/framewright/other", "stays");
-    assert_eq!(files(&["cache", "--clear", "--format", "json"]), [2, 0]);
-    assert_eq!(files(&list), [0, 0]);
+    assert_eq!(files(&["cache", "--clear", "--format", "json"]), [2, 0, 0]);
+    assert_eq!(files(&list), [0; 3]);
     assert!(place.path("cache/framewright/other").exists());
     run(&place, &["check", "p.ron", "--no-cache"]).exits(0);
-    assert_eq!(files(&list), [0, 0]);
+    assert_eq!(files(&list), [0; 3]);
+}
+
+/// EM-9: what a driver keeps of pipelines stays for the next command; damage to it, or another driver's, does no harm.
+#[test]
+fn pipelines_are_kept_as_the_driver_gives_them_and_damage_does_no_harm() {
+    let place = place();
+    let Some(driver) = Vulkan::LAVAPIPE.variables() else { return };
+    let cache = place.path("cache").to_string_lossy().into_owned();
+    let variables = [&driver[..], &[("XDG_CACHE_HOME", &*cache)]].concat();
+    let picture = || {
+        place
+            .run_with(&variables, &["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "4x4", "-o", "p.png"])
+            .exits(0);
+        fs::read(place.path("p.png")).expect("it is written")
+    };
+    let files = || -> Vec<PathBuf> {
+        let entries = fs::read_dir(place.path("cache/framewright/pipelines")).expect("a folder");
+        entries.map(|entry| entry.expect("listed").path()).collect()
+    };
+    let first = picture();
+    let [file] = &files()[..] else { panic!("one file for the device: {:?}", files()) };
+    let whole = fs::read(file).expect("read");
+    for bytes in [&whole[..0], &whole[..whole.len() - 1], &[7; 1000], &[&*whole, b"more"].concat()] {
+        fs::write(file, bytes).expect("written");
+        assert!(picture() == first);
+        assert!(fs::read(file).expect("read") == whole, "it is written again as it was");
+    }
+    place
+        .run_with(
+            &variables,
+            &["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "4x4", "-o", "p.png", "--no-cache"],
+        )
+        .exits(0);
+    fs::remove_dir_all(place.path("cache/framewright/pipelines")).expect("removed");
+    place.file("cache/framewright/pipelines", "no folder");
+    assert!(picture() == first);
 }
 
 #[test]

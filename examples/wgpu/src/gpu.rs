@@ -60,6 +60,7 @@ impl Gpu {
                 device_extensions: &extensions,
                 features: &switched_on,
                 queues: &[(0, raw.get_device_queue(0, 0))],
+                allocator: None,
             };
             let framewright = framewright::Device::adopt(&adopted, None)?;
             let hints = wgpu::MemoryHints::default();

@@ -112,6 +112,7 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
             device_extensions: &of_device.iter().map(CString::as_c_str).collect::<Vec<&CStr>>(),
             features: reference(program.features, "features")?,
             queues: &queues.iter().map(|queue| (queue.family, queue.queue)).collect::<Vec<_>>(),
+            allocator: None,
         };
         Ok(FramewrightDevice::new(Device::adopt(&program, helper.clone())?, helper))
     }

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::options::RendererOptions;
 use choices::Choices;
 use framewright_graph::base::ReadFiles;
-use framewright_graph::compile::{Compiler, heap_size};
+use framewright_graph::compile::Compiler;
 use framewright_graph::device::Profile;
 use framewright_graph::expand;
 use framewright_graph::frame::Stereo;
@@ -206,6 +206,30 @@ impl Renderer {
         Ok(Prepared { plan: &self.drawn()?.plan, change })
     }
 
+    /// Another renderer of the pipeline, with the choices of this one. It reads the files anew, and has drawn nothing. Choices can be
+    /// tried with it on another thread, and [`Renderer::make_pipelines`] called, while this one draws.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::open`]; [`Error::Mistakes`] if the files no longer have the preset.
+    pub fn try_clone(&self) -> Result<Renderer, Error> {
+        let mut other = Renderer::open(&self.device, &self.path, self.options.clone())?;
+        other.reading.choose(self.choices.preset.as_deref())?;
+        other.choices = self.choices.clone();
+        Ok(other)
+    }
+
+    /// Makes all pipelines that the next frame needs: shaders are compiled, and the driver's pipelines made on several threads. The device
+    /// keeps them while there is an executor, so that a renderer that comes to the same choices finds them made. What a user may choose next
+    /// is so made ahead, in the background: see [`Renderer::try_clone`].
+    ///
+    /// # Errors
+    /// The mistakes of the pipeline, its shaders and choices, or those of making pipelines. The choices stay.
+    pub fn make_pipelines(&mut self) -> Result<(), Error> {
+        let Renderer { device, profile, options, reading, choices, compiler, .. } = self;
+        let plan = reading.plan(compiler, device, profile, choices, options)?;
+        reading.make_pipelines(device, plan)
+    }
+
     /// Goes back to the choices that the last good Plan was made for.
     fn go_back(&mut self) {
         if let Some(drawn) = &self.drawn {
@@ -218,13 +242,7 @@ impl Renderer {
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
         let Renderer { device, profile, options, reading, choices, compiler, drawn, .. } = self;
-        let set = choices.known(reading.document());
-        let frame = Arc::new(reading.expand(&choices.inputs(&set, &options.dump, Some(profile)))?);
-        let plan = compiler.compile(&frame, profile, &mut device.memory(), &options.compile);
-        let plan = plan.map_err(|diagnostics| reading.wrong(diagnostics))?;
-        if let Some(too_large) = heap_size::too_large(plan, &frame, profile) {
-            return Err(reading.wrong(vec![too_large]));
-        }
+        let plan = reading.plan(compiler, device, profile, choices, options)?;
         let stays = |drawn: &&mut Drawn| !anew && drawn.plan.differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
             drawn.executor.change(plan)?;

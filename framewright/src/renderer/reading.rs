@@ -1,10 +1,13 @@
 //! A pipeline's files as they were read, with the shaders that they name.
 
+use super::choices::Choices;
 use crate::error::Error;
 use crate::files::PipelineFile;
 use crate::options::RendererOptions;
 use crate::pipeline::{Pipeline, shaders};
 use framewright_graph::base::{Diagnostic, ReadFiles};
+use framewright_graph::compile::{Compiler, heap_size};
+use framewright_graph::device::Profile;
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::Frame;
 use framewright_graph::language::{Document, SettingsFile};
@@ -47,11 +50,35 @@ impl Reading {
         Error::mistakes(&self.pipeline.sources, diagnostics)
     }
 
+    /// The Plan of a frame of these choices, made by `compiler`.
+    pub(super) fn plan<'c>(
+        &mut self,
+        compiler: &'c mut Compiler,
+        device: &Device,
+        profile: &Arc<Profile>,
+        choices: &Choices,
+        options: &RendererOptions,
+    ) -> Result<&'c Plan, Error> {
+        let set = choices.known(self.document());
+        let frame = Arc::new(self.expand(&choices.inputs(&set, &options.dump, Some(profile)))?);
+        let plan = compiler.compile(&frame, profile, &mut device.memory(), &options.compile);
+        let plan = plan.map_err(|diagnostics| self.wrong(diagnostics))?;
+        match heap_size::too_large(plan, &frame, profile) {
+            Some(too_large) => Err(self.wrong(vec![too_large])),
+            None => Ok(plan),
+        }
+    }
+
     /// The frame of these inputs.
-    pub(super) fn expand(&mut self, inputs: &Inputs<'_>) -> Result<Frame, Error> {
+    fn expand(&mut self, inputs: &Inputs<'_>) -> Result<Frame, Error> {
         let Pipeline { document, sources, .. } = &self.pipeline;
         let frame = expand::expand(document, Arc::clone(sources), inputs, &mut self.shaders);
         frame.map_err(|diagnostics| self.wrong(diagnostics))
+    }
+
+    /// Makes the pipelines of `plan`.
+    pub(super) fn make_pipelines(&mut self, device: &Device, plan: &Plan) -> Result<(), Error> {
+        Ok(device.make_pipelines(plan, &mut self.shaders)?)
     }
 
     /// An executor of `plan`.

@@ -101,6 +101,36 @@ fn values_stay_with_the_executor_and_all_else_gets_a_new_one() {
     render::silent(device).expect("silent");
 }
 
+/// EM-9: what a setting will need is made by another thread, and the frame that has the setting makes no pipeline.
+#[test]
+fn pipelines_for_a_setting_are_made_ahead() {
+    // A device of its own: others would make pipelines on it at the same time.
+    let Some(device) = render::own_device() else { return };
+    let made = || device.pipeline_counts().made;
+    let mut renderer = renderer(&device, "forward");
+    draw(&mut renderer, 1);
+    let first = made();
+    assert!(first > 2, "{first}");
+    let mut ahead = renderer.try_clone().expect("the files are there");
+    let ahead = std::thread::spawn(move || {
+        ahead.make_pipelines().expect("made");
+        let like_before = ahead.device().pipeline_counts().made;
+        ahead.set("msaa", 1).expect("allowed");
+        ahead.make_pipelines().expect("made");
+        like_before
+    });
+    draw(&mut renderer, 3);
+    assert_eq!(ahead.join().expect("no panic"), first, "the clone has the choices that were made");
+    let with_ahead = made();
+    assert!(with_ahead > first);
+    renderer.set("msaa", 1).expect("allowed");
+    draw(&mut renderer, 3);
+    assert_eq!(made(), with_ahead);
+    renderer.set("hdr", false).expect("allowed");
+    draw(&mut renderer, 1);
+    assert!(made() > with_ahead, "nobody made these ahead");
+}
+
 #[test]
 fn passes_follow_the_facts_of_the_scene() {
     let Some(device) = render::device() else { return };
