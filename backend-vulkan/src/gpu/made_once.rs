@@ -122,20 +122,26 @@ mod tests {
 
     #[test]
     fn one_object_is_made_once_however_many_threads_ask_for_it() {
-        let (objects, made, all_ask) = (MadeOnce::default(), AtomicU32::new(0), Barrier::new(8));
-        thread::scope(|scope| {
-            for _ in 0..8 {
-                scope.spawn(|| {
-                    all_ask.wait();
-                    for key in 0..100 {
-                        let make = |key: &u32| Ok((*key, made.fetch_add(1, Ordering::Relaxed)));
-                        let found = objects.get(&key, make).expect("it is made");
-                        assert_eq!((found.0, objects.find(&key)), (key, Some(found)));
-                    }
-                });
-            }
-        });
-        assert_eq!(made.into_inner(), 100);
+        let objects = MadeOnce::default();
+        for key in 0..20 {
+            let (made, asking) = (AtomicU32::new(0), AtomicU32::new(0));
+            // It takes until all threads ask for it.
+            let make = |_: &u32| {
+                while asking.load(Ordering::Relaxed) < 8 {
+                    thread::yield_now();
+                }
+                Ok(made.fetch_add(1, Ordering::Relaxed))
+            };
+            let ask = || {
+                asking.fetch_add(1, Ordering::Relaxed);
+                objects.get(&key, make).expect("it is made")
+            };
+            thread::scope(|scope| {
+                let threads: Vec<_> = (0..8).map(|_| scope.spawn(ask)).collect();
+                assert!(threads.into_iter().all(|thread| thread.join().expect("no panic") == 0));
+            });
+            assert_eq!((made.into_inner(), objects.find(&key)), (1, Some(0)));
+        }
     }
 
     #[test]
