@@ -115,10 +115,10 @@ pub enum Error {
         /// How long it was waited for.
         seconds: u64,
     },
-    /// An error while a frame was executed step by step.
+    /// An error of a frame that was executed step by step, or with breadcrumbs.
     #[error("{error}, at {}", escape(step))]
     AtStep {
-        /// The step: its number in the Plan, and its passes.
+        /// The step: its number in the Plan, and its passes. With breadcrumbs one for each queue that was at work.
         step: String,
         /// The error.
         error: Box<Error>,

@@ -8,7 +8,7 @@ use crate::base::Error;
 use crate::commands::{CommandPool, Readback, record};
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, Frame, PreparedPlan};
-use crate::record::{CommandState, DrawSource, FragmentCounts, Recorded, Recording, Timing};
+use crate::record::{Breadcrumbs, CommandState, DrawSource, FragmentCounts, Observers, Recorded, Recording, Timing};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -18,10 +18,7 @@ use std::time::Instant;
 pub(super) struct FrameSlot {
     /// By batch.
     pub(super) commands: Vec<(CommandPool, vk::CommandBuffer)>,
-    /// If frames are timed.
-    pub(super) timing: Option<Timing>,
-    /// If their fragments are counted.
-    pub(super) fragments: Option<FragmentCounts>,
+    pub(super) observers: Observers,
     pub(super) recorded: Recorded,
     /// By output, if they are kept.
     pub(super) outputs: Vec<Readback>,
@@ -61,10 +58,13 @@ impl FrameSlot {
         });
         Ok(FrameSlot {
             commands: commands.collect::<Result<_, _>>()?,
-            timing: options.timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
-            fragments: match options.fragment_counts {
-                true => FragmentCounts::new(gpu, plan, batches.len())?,
-                false => None,
+            observers: Observers {
+                timing: options.timestamps.then(|| Timing::new(gpu, plan, batches.len())).transpose()?,
+                fragments: match options.fragment_counts {
+                    true => FragmentCounts::new(gpu, plan, batches.len())?,
+                    false => None,
+                },
+                breadcrumbs: options.breadcrumbs.then(|| Breadcrumbs::new(gpu, batches.len())).transpose()?,
             },
             recorded: Recorded::default(),
             outputs: Vec::new(),
@@ -86,9 +86,9 @@ impl FrameSlot {
             pool.reset()?;
         }
         let buffers: &[(CommandPool, vk::CommandBuffer)] = &self.commands;
-        recorded(&mut self.recorded, (&mut self.timing, &mut self.fragments), |recorded, timing, fragments| {
+        recorded(&mut self.recorded, &mut self.observers, |recorded, observers| {
             let state = CommandState::default();
-            let mut recording = Recording { frame, prepared, source, timing, fragments, recorded, state };
+            let mut recording = Recording { frame, prepared, source, observers, recorded, state };
             for (batch, (_, buffer)) in batches.iter().zip(buffers) {
                 record(frame.gpu, *buffer, |commands| {
                     record_batch(&mut recording, commands, batch, extras, &self.outputs)
@@ -108,9 +108,9 @@ impl FrameSlot {
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
-        recorded(&mut self.recorded, (&mut self.timing, &mut self.fragments), |recorded, timing, fragments| {
+        recorded(&mut self.recorded, &mut self.observers, |recorded, observers| {
             let state = CommandState::default();
-            let mut recording = Recording { frame, prepared, source, timing, fragments, recorded, state };
+            let mut recording = Recording { frame, prepared, source, observers, recorded, state };
             record_batch(&mut recording, commands, batch, extras, &self.outputs)
         })
     }
@@ -119,17 +119,12 @@ impl FrameSlot {
 /// Begins a frame, has `record` record it, and notes how long that took.
 fn recorded(
     recorded: &mut Recorded,
-    (timing, fragments): (&mut Option<Timing>, &mut Option<FragmentCounts>),
-    record: impl FnOnce(&mut Recorded, Option<&mut Timing>, Option<&mut FragmentCounts>) -> Result<(), Error>,
+    observers: &mut Observers,
+    record: impl FnOnce(&mut Recorded, &mut Observers) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let begun = Instant::now();
-    if let Some(timing) = timing {
-        timing.begin_frame();
-    }
-    if let Some(fragments) = fragments {
-        fragments.begin_frame();
-    }
-    record(recorded, timing.as_mut(), fragments.as_mut())?;
+    observers.begin_frame()?;
+    record(recorded, observers)?;
     recorded.end(begun.elapsed());
     Ok(())
 }

@@ -8,9 +8,9 @@ use crate::base::Error;
 use crate::commands::{Readback, Timeline};
 use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, Frame, PreparedPlan, batches, title};
-use crate::record::{DrawSource, FrameReport, report};
+use crate::record::{DrawSource, FrameReport, Observers, report};
 use ash::vk;
-use framewright_graph::plan::{Plan, Queue};
+use framewright_graph::plan::{Plan, Queue, Step};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -24,6 +24,8 @@ pub(crate) struct Frames {
     batches: Vec<Batch>,
     /// Whether each batch, then a step, is waited for before the next is submitted.
     step_by_step: bool,
+    /// The titles of the Plan's steps, if breadcrumbs tell of them.
+    titles: Vec<String>,
     /// One for each of the Plan's queues that it uses.
     timelines: Vec<(Queue, Timeline)>,
     /// Where the Plan uses no queue or several, the order of a frame and the program's semaphores: twice the frame's number and 1 when
@@ -66,6 +68,10 @@ impl Frames {
             gpu: gpu.clone(),
             timeout: options.timeout,
             step_by_step: options.step_by_step,
+            titles: match options.breadcrumbs {
+                true => plan.steps.iter().enumerate().map(|(number, step)| numbered(plan, number, step)).collect(),
+                false => Vec::new(),
+            },
             timelines,
             outer,
             values_per_frame: plan.steps.len() as u64 + 1,
@@ -135,8 +141,23 @@ impl Frames {
     fn at_step(&self, plan: &Plan, part: usize, error: Error) -> Error {
         let batch = part.checked_sub(1).and_then(|batch| self.batches.get(batch)).filter(|_| self.step_by_step);
         let Some(step) = batch.map(|batch| batch.steps.start) else { return error };
-        let title = format!("step {step}: {}", title(plan, &plan.steps[step]));
-        Error::AtStep { step: title, error: Box::new(error) }
+        Error::AtStep { step: numbered(plan, step, &plan.steps[step]), error: Box::new(error) }
+    }
+
+    /// The error of a wait, with the steps that the device was at if breadcrumbs tell: those of the oldest frame that isn't done.
+    fn at_breadcrumbs(&self, error: Error) -> Error {
+        if !matches!(error, Error::Timeout { .. } | Error::DeviceLost { .. }) {
+            return error;
+        }
+        let frames = self.slots.iter().filter(|slot| !slot.finished);
+        let frames = frames.filter_map(|slot| Some((slot.frame?.0, slot.observers.breadcrumbs.as_ref()?.running())));
+        let oldest = frames.filter(|(_, steps)| !steps.is_empty()).min_by_key(|(frame, _)| *frame);
+        let titles = oldest.iter().flat_map(|(_, steps)| steps).filter_map(|step| self.titles.get(*step));
+        let titles: Vec<&str> = titles.map(String::as_str).collect();
+        if titles.is_empty() {
+            return error;
+        }
+        Error::AtStep { step: titles.join("; "), error: Box::new(error) }
     }
 
     /// Records the next frame into a command buffer of the program's, which tells by `done` when the device is done with it. Else as
@@ -330,13 +351,15 @@ impl Frames {
         match end {
             FrameEnd::Own { outer } => {
                 self.expect(self.batches.len(), frame, outer);
-                self.gpu.wait_for(DRAWING, &self.pending, self.timeout)?;
+                let done = self.gpu.wait_for(DRAWING, &self.pending, self.timeout);
+                done.map_err(|error| self.at_breadcrumbs(error))?;
             }
             FrameEnd::Given(SemaphorePoint { semaphore, value, .. }) => {
                 (self.given.semaphores[0], self.given.values[0]) = (semaphore, value);
                 // The semaphore is the program's, and may be gone when the device ends: it is not kept.
                 let done = self.gpu.wait_until(DRAWING, &self.given, self.timeout);
-                done.inspect_err(|_| self.gpu.abandon(&PendingWork::default()))?;
+                done.inspect_err(|_| self.gpu.abandon(&PendingWork::default()))
+                    .map_err(|error| self.at_breadcrumbs(error))?;
             }
         }
         self.slots[at].finished = true;
@@ -362,7 +385,8 @@ impl Frames {
 
     /// The report of a frame that was waited for, and whose place no later one has taken.
     pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Result<FrameReport, Error> {
-        let FrameSlot { timing, fragments, recorded, .. } = &self.slots[self.slot_of(frame)];
+        let FrameSlot { observers: Observers { timing, fragments, .. }, recorded, .. } =
+            &self.slots[self.slot_of(frame)];
         report(&self.gpu, plan, &self.batches, timing.as_ref(), fragments.as_ref(), recorded)
     }
 
@@ -382,6 +406,11 @@ impl Drop for Frames {
         // A wait that fails has given the device up, and nothing is freed.
         let _ = self.wait_for_all();
     }
+}
+
+/// A step with its number.
+fn numbered(plan: &Plan, number: usize, step: &Step) -> String {
+    format!("step {number}: {}", title(plan, step))
 }
 
 /// A point on a timeline, for all stages.

@@ -1,6 +1,7 @@
 //! Recording of a prepared frame's commands.
 
 mod bindings;
+mod breadcrumbs;
 mod canvas;
 mod custom;
 mod dispatch;
@@ -8,6 +9,7 @@ mod draw_source;
 mod fragments;
 mod guarded;
 mod held;
+mod observers;
 mod recorder;
 mod scope;
 mod state;
@@ -22,8 +24,10 @@ pub use recorder::{IndexType, Recorder};
 pub use state::{CullMode, FrontFace};
 pub use timing::{FrameReport, PassReport, StepReport};
 
+pub(crate) use breadcrumbs::Breadcrumbs;
 pub(crate) use fragments::FragmentCounts;
 pub(crate) use guarded::Guarded;
+pub(crate) use observers::Observers;
 pub(crate) use state::CommandState;
 pub(crate) use step::{Recorded, Recording};
 pub(crate) use timing::{Timing, report};

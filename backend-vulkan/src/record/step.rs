@@ -4,10 +4,10 @@ use super::bindings::bind;
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
-use super::fragments::FragmentCounts;
 use super::held::HeldResources;
+use super::observers::Observers;
 use super::state::CommandState;
-use super::timing::{Counts, Timing};
+use super::timing::Counts;
 use crate::base::Error;
 use crate::commands::barrier_call;
 use crate::prepare::{Command, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
@@ -20,10 +20,7 @@ pub(crate) struct Recording<'r> {
     pub(crate) frame: &'r Frame<'r>,
     pub(crate) prepared: &'r PreparedPlan,
     pub(crate) source: &'r mut dyn DrawSource,
-    /// If the frame is timed.
-    pub(crate) timing: Option<&'r mut Timing>,
-    /// If its fragments are counted.
-    pub(crate) fragments: Option<&'r mut FragmentCounts>,
+    pub(crate) observers: &'r mut Observers,
     pub(crate) recorded: &'r mut Recorded,
     /// Of the command buffer that is being recorded.
     pub(crate) state: CommandState,
@@ -57,24 +54,18 @@ impl Recording<'_> {
     /// Begins the command buffer of a batch.
     pub(crate) fn begin_batch(&mut self, commands: vk::CommandBuffer, queue: Queue) {
         self.state.begin_commands();
-        if let Some(timing) = &mut self.timing {
-            timing.begin_batch(commands, queue);
-        }
-        if let Some(fragments) = &mut self.fragments {
-            fragments.begin_batch(commands, queue);
-        }
+        self.observers.begin_batch(commands, queue);
     }
 
     /// Ends the command buffer of a batch.
     pub(crate) fn end_batch(&mut self, commands: vk::CommandBuffer) {
-        if let Some(fragments) = &mut self.fragments {
-            fragments.end_batch(commands);
-        }
+        self.observers.end_batch(commands);
     }
 
     /// Records a step.
     pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
+        self.observers.begin_step(commands, step);
         let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
         for command in list.step(step, self.frame.turn()).ok_or_else(unprepared)? {
             match command {
@@ -105,21 +96,14 @@ impl Recording<'_> {
                 }
             }
         }
-        self.stamp(commands);
+        self.observers.stamp(commands);
         Ok(())
     }
 
     /// Notes what was recorded for a pass, and when it ends.
     fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
         self.recorded.counts.push(counts);
-        self.stamp(commands);
-    }
-
-    /// Writes the next timestamp, if the frame is timed.
-    fn stamp(&mut self, commands: vk::CommandBuffer) {
-        if let Some(timing) = &mut self.timing {
-            timing.stamp(commands);
-        }
+        self.observers.stamp(commands);
     }
 
     fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass) -> Result<u32, Error> {

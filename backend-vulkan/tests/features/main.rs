@@ -9,6 +9,7 @@ mod testing;
 mod adopted;
 mod allocations;
 mod blending;
+mod breadcrumbs;
 mod compute;
 mod debugging;
 mod depth;

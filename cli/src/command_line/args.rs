@@ -214,6 +214,9 @@ pub(crate) struct RunArguments {
     /// Submit each step by itself and wait for it. A device that is lost or stops is told with its step.
     #[arg(long)]
     pub(crate) step_by_step: bool,
+    /// Have the device note each step that it begins. A device that is lost or stops is told with the step that it was at.
+    #[arg(long)]
+    pub(crate) breadcrumbs: bool,
     /// Draw every image after every pass that wrote it twice, once in this mode too, and name the first that differs.
     #[arg(long, value_enum, conflicts_with_all = ["output", "dump", "dump_all", "save_plan", "validate"])]
     pub(crate) bisect: Option<DebugMode>,
@@ -248,6 +251,7 @@ impl RunArguments {
             poison: self.planning.poison,
             full_barriers: self.full_barriers,
             step_by_step: self.step_by_step,
+            breadcrumbs: self.breadcrumbs,
             ..ExecutorOptions::default()
         }
     }
