@@ -1,8 +1,14 @@
 //! `framewright window`: a scene through a pipeline, in a window that follows files, mouse and keys.
 
 mod choices;
+mod chosen;
+mod opening;
 mod orbit;
+mod pace;
+mod pictures;
+mod problems;
 mod session;
+mod view;
 
 use crate::command_line::windows::WindowArguments;
 use crate::error::Error;
