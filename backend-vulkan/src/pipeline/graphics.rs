@@ -28,14 +28,16 @@ impl Gpu {
     /// The graphics pipeline of this description. It bears the name of who first asked for it: others may be using it
     /// already.
     pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        self.caches.pipelines.get(descriptor, |descriptor| {
-            let vertex = ShaderModule::new(self, &descriptor.vertex)?;
-            let fragment =
-                descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(self, fragment)).transpose()?;
-            let pipeline = create(self, descriptor, &vertex, fragment.as_ref())?;
-            self.name(pipeline, name);
-            Ok(pipeline)
-        })
+        self.caches.pipelines.get(descriptor, |descriptor| self.own_pipeline(name, descriptor))
+    }
+
+    /// A graphics pipeline of this description that belongs to the caller, who destroys it.
+    pub(crate) fn own_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
+        let vertex = ShaderModule::new(self, &descriptor.vertex)?;
+        let fragment = descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(self, fragment)).transpose()?;
+        let pipeline = create(self, descriptor, &vertex, fragment.as_ref())?;
+        self.name(pipeline, name);
+        Ok(pipeline)
     }
 
     /// The compute pipeline of a shader and a layout, named likewise.
@@ -77,7 +79,7 @@ struct ShaderModule<'d> {
 impl<'d> ShaderModule<'d> {
     fn new(gpu: &'d Gpu, spirv: &[u32]) -> Result<ShaderModule<'d>, Error> {
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3.
+        // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3, or was built for it.
         let raw =
             unsafe { gpu.raw.create_shader_module(&info, None) }.map_err(Error::vulkan("creating a shader module"))?;
         Ok(ShaderModule { gpu, raw })

@@ -21,6 +21,7 @@ mod held;
 mod imports;
 mod local_reads;
 mod outlasting;
+mod overlays;
 mod own_pipelines;
 mod presenting;
 mod queues;
