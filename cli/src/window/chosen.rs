@@ -57,7 +57,7 @@ impl Chosen {
     }
 
     /// The value of a setting: in the next frame, or in the one that is shown.
-    fn value<'r>(&'r self, renderer: &'r Renderer, setting: &Setting) -> Option<&'r str> {
+    pub(super) fn value<'r>(&'r self, renderer: &'r Renderer, setting: &Setting) -> Option<&'r str> {
         if let Some(value) = self.turned.get(&*setting.name.text) {
             return Some(value);
         }

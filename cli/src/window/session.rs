@@ -1,6 +1,8 @@
 //! What a window shows: a scene through a pipeline, with the choices of the user, frame after frame.
 
 use super::chosen::Chosen;
+use super::following::Following;
+use super::list::{Contents, List};
 use super::orbit::Orbit;
 use super::pace::{Pace, Speed};
 use super::problems::Problems;
@@ -13,19 +15,12 @@ use crate::system::text;
 use framewright::{Presentation, ReadFiles, Renderer, Scene, SceneDrawSource, Stereo, Swapchain};
 use framewright_vulkan::{Device, Helper, Surface, SwapchainOptions};
 use std::path::Path;
-use std::time::{Duration, Instant};
-
-/// Files are looked at this often.
-const FILES: Duration = Duration::from_millis(100);
-/// Files that change stay as they are for this long before they are read.
-const AT_REST: Duration = Duration::from_millis(50);
 
 /// What a window shows.
 pub(super) struct Session<'a> {
     arguments: &'a WindowArguments,
     renderer: Renderer,
     scene: Scene,
-    scene_read: ReadFiles,
     /// Draws the scene; `None` until it is made for the Plan.
     source: Option<SceneDrawSource>,
     swapchain: Swapchain,
@@ -43,9 +38,13 @@ pub(super) struct Session<'a> {
     /// Whether the next one is to be written.
     picture_wanted: bool,
     problems: Problems,
-    /// When files were looked at.
-    looked: Instant,
+    following: Following,
     pace: Pace,
+    /// The speed that was told last.
+    speed: Option<Speed>,
+    list: List,
+    /// Pixels of the screen for one of a usual screen, along each side.
+    scale: f64,
 }
 
 impl<'a> Session<'a> {
@@ -71,7 +70,6 @@ impl<'a> Session<'a> {
             arguments,
             orbit: Orbit::new(&scene),
             scene,
-            scene_read,
             source: None,
             swapchain: Swapchain::new(surface, &swapchain)?,
             view: View::new(arguments.planning.rotate, stereo),
@@ -82,8 +80,11 @@ impl<'a> Session<'a> {
             shown: 0,
             picture_wanted: false,
             problems: Problems::default(),
-            looked: Instant::now(),
+            following: Following::new(scene_read),
             pace: Pace::new(),
+            speed: None,
+            list: List::new(arguments.list),
+            scale: 1.0,
             renderer,
         };
         session.fit()?;
@@ -104,10 +105,14 @@ impl<'a> Session<'a> {
             self.refit = false;
             let fitted = self.fit();
             self.problems.refuse(fitted)?;
+            self.list.changed();
         }
         self.follow_files()?;
         let prepared = self.prepare();
         self.problems.refuse(prepared)?;
+        if self.list.is_due() {
+            self.show_list()?;
+        }
         let Some(source) = &mut self.source else { return Ok(false) };
         source.set_camera(self.orbit.camera())?;
         match self.renderer.present(source, &mut self.swapchain) {
@@ -151,6 +156,7 @@ impl<'a> Session<'a> {
                 let mut made = SceneDrawSource::for_plan(&device, &self.scene, plan.extent, plan)?;
                 made.set_camera(self.orbit.camera())?;
                 (*source, self.last) = (Some(made), None);
+                self.list.replanned();
             }
         }
         Ok(())
@@ -158,15 +164,12 @@ impl<'a> Session<'a> {
 
     /// Reads files anew that have changed.
     fn follow_files(&mut self) -> Result<(), Error> {
-        if self.looked.elapsed() < FILES {
+        if !self.following.is_due() {
             return Ok(());
         }
-        self.looked = Instant::now();
-        if self.renderer.files_changed() {
-            std::thread::sleep(AT_REST);
-            let reloaded = self.renderer.reload().map_err(Error::from);
+        if let Some(reloaded) = self.following.pipeline(&mut self.renderer) {
             // What was chosen while the file was wrong counts again.
-            let reloaded = reloaded.and_then(|_| {
+            let reloaded = reloaded.and_then(|()| {
                 self.source = None;
                 self.renderer.set_scene(&self.scene);
                 self.fit()
@@ -178,10 +181,7 @@ impl<'a> Session<'a> {
                 text::say(&format!("`{}` is drawn as it is now", text::path(&self.arguments.pipeline.file)));
             }
         }
-        if self.scene_read.changed() {
-            std::thread::sleep(AT_REST);
-            self.scene_read = ReadFiles::default();
-            let read = inputs::scene(&self.arguments.scene, &self.scene_read);
+        if let Some(read) = self.following.scene(&self.arguments.scene) {
             let read = read.map(|scene| {
                 self.renderer.set_scene(&scene);
                 self.orbit.follow(&scene);
@@ -204,6 +204,7 @@ impl<'a> Session<'a> {
             && let Ok(report) = self.renderer.report(before)
         {
             self.pace.took(report.milliseconds);
+            self.list.took(report);
         }
         if std::mem::take(&mut self.picture_wanted)
             && let Some(picture) = self.picture()?
@@ -221,6 +222,7 @@ impl<'a> Session<'a> {
     /// The title of the window, if it is time for another.
     pub(super) fn title(&mut self) -> Option<String> {
         let speed = self.pace.told()?;
+        self.speed = Some(speed);
         let name = pictures::name(&self.arguments.pipeline.file);
         let [width, height] = self.swapchain.extent().unwrap_or_default();
         let setting = self.chosen.setting(&self.renderer);
@@ -233,6 +235,29 @@ impl<'a> Session<'a> {
         let title =
             format!("{name} · {width}×{height} · {milliseconds:.1} ms · {each_second:.0} frames/s{setting}{wrong}");
         Some(text::escape(&title))
+    }
+
+    /// Makes the list anew.
+    fn show_list(&mut self) -> Result<(), Error> {
+        let (Some(extent), Some(plan)) = (self.swapchain.extent(), self.renderer.plan()) else { return Ok(()) };
+        let name = pictures::name(&self.arguments.pipeline.file);
+        let (wrong, times) = (self.problems.first(), self.list.times(plan));
+        let contents = Contents::of(&name, extent, &self.renderer, &self.chosen, self.speed, wrong, times);
+        self.list.show(&contents, self.scale, &mut self.swapchain)
+    }
+
+    /// Shows the list of settings and times, or takes it away.
+    ///
+    /// # Errors
+    /// Those of [`Session::frame`].
+    pub(super) fn turn_list(&mut self) -> Result<(), Error> {
+        self.list.turn(&mut self.swapchain)
+    }
+
+    /// The screen has another scale factor.
+    pub(super) fn rescaled(&mut self, scale: f64) {
+        self.scale = scale;
+        self.list.changed();
     }
 
     /// The window has another size.
@@ -248,6 +273,7 @@ impl<'a> Session<'a> {
     /// Chooses the next setting for keys to turn, or the one before, and says which.
     pub(super) fn choose_setting(&mut self, forwards: bool) {
         self.chosen.choose(&self.renderer, forwards);
+        self.list.changed();
     }
 
     /// Gives the setting its next value, or the one before.
@@ -256,6 +282,7 @@ impl<'a> Session<'a> {
     /// Those of [`Session::frame`].
     pub(super) fn turn_setting(&mut self, forwards: bool) -> Result<(), Error> {
         let turned = self.chosen.turn(&mut self.renderer, forwards);
+        self.list.changed();
         self.problems.refuse(turned)
     }
 
@@ -297,7 +324,7 @@ impl<'a> Session<'a> {
     /// Those of the device and of the disk.
     pub(super) fn write(&mut self, path: &Path) -> Result<(), Error> {
         match self.picture()? {
-            Some(picture) => outputs::write(&[(path, &picture)], &self.scene_read),
+            Some(picture) => outputs::write(&[(path, &picture)], self.following.scene_files()),
             None => Ok(()),
         }
     }
