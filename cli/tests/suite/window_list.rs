@@ -148,6 +148,26 @@ fn em_4_a_mistake_is_in_the_list_while_the_last_good_frame_is_shown() {
 }
 
 #[test]
+fn em_4_the_preset_in_force_is_in_the_list_and_its_name_is_escaped() {
+    let Some(server) = server(true) else { return };
+    let place = Place::new();
+    let presets = "presets: [(name: \"low\\u{1b}[2J\", set: {\"msaa\": 1}),";
+    place.file("mine.ron", forward_with("presets: [", presets));
+    let name = "low\u{1b}[2J";
+    let shown = |more: &[&str]| {
+        let words = [&["mine.ron", "--size", "600x400", "--list"][..], &SCENE, more].concat();
+        let window = Window::open(&place, &server, Vulkan::LAVAPIPE, &words)?;
+        let first = if more.is_empty() { FIRST } else { FIRST + 1 };
+        let shown = window.shows(SIZE, "a mark at the first setting", |shown| is_marked(shown, first));
+        // `preset low\u{1b}[2J`, behind the first word.
+        Some((7..20).map(|column| row(&shown, 1, column..column + 1).iter().any(|texel| texel[0] > 225)).collect())
+    };
+    let Some(with): Option<Vec<bool>> = shown(&["--preset", name]) else { return };
+    assert_eq!(with, [[true; 12].as_slice(), &[false]].concat());
+    assert!(shown(&[]).is_some());
+}
+
+#[test]
 fn em_4_the_list_survives_two_hundred_resizes_without_a_finding() {
     let Some(server) = server(true) else { return };
     let place = Place::new();

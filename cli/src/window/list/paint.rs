@@ -14,7 +14,7 @@ use std::convert::Infallible;
 const MARGIN: u32 = 4;
 
 /// Behind the text: dark, and the picture shines through.
-const GROUND: [u8; 4] = [8, 10, 14, 216];
+const GROUND: [u8; 4] = [8, 10, 14, 232];
 const BAR: Rgb888 = Rgb888::new(38, 78, 130);
 
 /// The cells of a window that characters of the list stand in.
@@ -38,8 +38,8 @@ impl Grid {
     /// The cells of a window of this size on a screen of this scale factor.
     pub(super) fn new([width, height]: [u32; 2], scale: f64) -> Grid {
         // The larger font stands for half a step.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number above zero")]
-        let halves = (scale.clamp(1.0, 16.0) * 2.0).round() as u32;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what is no number becomes 0")]
+        let halves = ((scale * 2.0).round() as u32).clamp(2, 32);
         let font = if halves.is_multiple_of(2) { &MONO_9X15 } else { &MONO_10X20 };
         let zoom = halves / 2;
         let Size { width: wide, height: high } = font.character_size;
@@ -69,7 +69,7 @@ pub(super) fn painted(lines: &[Line], grid: &Grid) -> Option<Painted> {
 fn color(tone: Tone) -> Rgb888 {
     match tone {
         Tone::Plain => Rgb888::new(235, 235, 235),
-        Tone::Dim => Rgb888::new(160, 165, 175),
+        Tone::Dim => Rgb888::new(190, 195, 205),
         Tone::Chosen => Rgb888::new(255, 214, 90),
         Tone::Wrong => Rgb888::new(255, 130, 115),
     }
