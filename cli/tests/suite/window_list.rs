@@ -148,23 +148,26 @@ fn em_4_a_mistake_is_in_the_list_while_the_last_good_frame_is_shown() {
 }
 
 #[test]
-fn em_4_the_preset_in_force_is_in_the_list_and_its_name_is_escaped() {
+fn em_4_the_preset_in_force_is_in_the_list_and_what_files_say_is_escaped() {
     let Some(server) = server(true) else { return };
     let place = Place::new();
-    let presets = "presets: [(name: \"low\\u{1b}[2J\", set: {\"msaa\": 1}),";
-    place.file("mine.ron", forward_with("presets: [", presets));
-    let name = "low\u{1b}[2J";
-    let shown = |more: &[&str]| {
-        let words = [&["mine.ron", "--size", "600x400", "--list"][..], &SCENE, more].concat();
-        let window = Window::open(&place, &server, Vulkan::LAVAPIPE, &words)?;
-        let first = if more.is_empty() { FIRST } else { FIRST + 1 };
-        let shown = window.shows(SIZE, "a mark at the first setting", |shown| is_marked(shown, first));
-        // `preset low\u{1b}[2J`, behind the first word.
-        Some((7..20).map(|column| row(&shown, 1, column..column + 1).iter().any(|texel| texel[0] > 225)).collect())
+    place.file("a\u{1b}[2J.ron", forward_with("presets: [", "presets: [(name: \"low\", set: {\"msaa\": 1}),"));
+    // The characters of a row that aren't spaces.
+    let written = |shown: &RgbImage, of: u32| {
+        let bright = |column: &u32| row(shown, of, *column..*column + 1).iter().any(|texel| texel[0] > 225);
+        (0..40).filter(bright).collect::<Vec<_>>()
     };
-    let Some(with): Option<Vec<bool>> = shown(&["--preset", name]) else { return };
-    assert_eq!(with, [[true; 12].as_slice(), &[false]].concat());
-    assert!(shown(&[]).is_some());
+    for (more, lines) in [(&[][..], FIRST), (&["--preset", "low"], FIRST + 1)] {
+        let words = [&["a\u{1b}[2J.ron", "--size", "600x400", "--list"][..], &SCENE, more].concat();
+        let Some(window) = Window::open(&place, &server, Vulkan::LAVAPIPE, &words) else { return };
+        let shown = window.shows(SIZE, "a mark at the first setting", |shown| is_marked(shown, lines));
+        // `a\u{1b}[2J · 600×400`
+        assert_eq!(written(&shown, 0), [0..10, 11..12, 13..20].into_iter().flatten().collect::<Vec<_>>());
+        if !more.is_empty() {
+            // `preset low`
+            assert_eq!(written(&shown, 1), [0..6, 7..10].into_iter().flatten().collect::<Vec<_>>());
+        }
+    }
 }
 
 #[test]
