@@ -150,14 +150,12 @@ impl<'s> Window<'s> {
         self.x.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
     }
 
-    /// What the window shows, once it is on the screen.
-    pub(crate) fn picture(&self, [width, height]: [u16; 2]) -> RgbImage {
-        self.is_focused();
+    /// What the window shows; `None` while it isn't on the screen in this size.
+    fn picture(&self, [width, height]: [u16; 2]) -> Option<RgbImage> {
         let format = ImageFormat::Z_PIXMAP;
-        let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).expect("sent").reply();
-        let data = image.expect("a picture").data;
-        let texels = data.chunks_exact(4).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
-        RgbImage::from_raw(width.into(), height.into(), texels).expect("all pixels")
+        let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).expect("sent").reply().ok()?;
+        let texels = image.data.chunks_exact(4).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
+        RgbImage::from_raw(width.into(), height.into(), texels)
     }
 
     /// Waits until what the window shows is so, and returns it.
@@ -165,8 +163,7 @@ impl<'s> Window<'s> {
     pub(crate) fn shows(&self, size: [u16; 2], what: &str, so: impl Fn(&RgbImage) -> bool) -> RgbImage {
         let begun = Instant::now();
         loop {
-            let picture = self.picture(size);
-            if so(&picture) {
+            if let Some(picture) = self.picture(size).filter(&so) {
                 return picture;
             }
             assert!(begun.elapsed() < Duration::from_secs(60), "the window doesn't show {what}");

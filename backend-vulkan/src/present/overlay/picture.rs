@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     fn picture(offset: [i32; 2]) -> OverlayPicture {
-        let texels: Vec<u8> = (0..3 * 2 * 4).collect();
+        let texels: Vec<u8> = (1..=3 * 2 * 4).collect();
         OverlayPicture::new(&Overlay { extent: [3, 2], offset, texels: &texels })
     }
 
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn only_other_texels_are_sent_again() {
         let mut overlay = picture([0, 0]);
-        let texels: Vec<u8> = (0..3 * 2 * 4).collect();
+        let texels: Vec<u8> = (1..=3 * 2 * 4).collect();
         assert!(!overlay.change(&Overlay { extent: [3, 2], offset: [7, 7], texels: &texels }));
         assert_eq!(overlay.offset, [7, 7]);
         assert!(overlay.change(&Overlay { extent: [2, 3], offset: [7, 7], texels: &texels }));
