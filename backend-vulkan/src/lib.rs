@@ -63,7 +63,7 @@ pub use gpu::{
 pub use gpu_allocator;
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
-pub use present::{PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
+pub use present::{Overlay, PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
 pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;

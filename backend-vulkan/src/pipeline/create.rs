@@ -20,14 +20,17 @@ impl Gpu {
     /// The pipeline of this description. It bears the name of who first asked for it: others may be using it
     /// already.
     pub(crate) fn pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        self.caches.pipelines.get(descriptor, |descriptor| {
-            let pipeline = match descriptor {
-                PipelineDescriptor::Graphics(descriptor) => graphics::create(self, descriptor)?,
-                PipelineDescriptor::Compute { shader, layout } => create_compute(self, shader, *layout)?,
-            };
-            self.name(pipeline, name);
-            Ok(pipeline)
-        })
+        self.caches.pipelines.get(descriptor, |descriptor| self.own_pipeline(name, descriptor))
+    }
+
+    /// A pipeline of this description that belongs to the caller, who destroys it.
+    pub(crate) fn own_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
+        let pipeline = match descriptor {
+            PipelineDescriptor::Graphics(descriptor) => graphics::create(self, descriptor)?,
+            PipelineDescriptor::Compute { shader, layout } => create_compute(self, shader, *layout)?,
+        };
+        self.name(pipeline, name);
+        Ok(pipeline)
     }
 
     /// The pipelines of these descriptions with their names. Those that there aren't yet are made on as many threads as the machine

@@ -13,7 +13,7 @@ pub(super) struct ShaderModule<'d> {
 impl<'d> ShaderModule<'d> {
     pub(super) fn new(gpu: &'d Gpu, spirv: &[u32]) -> Result<ShaderModule<'d>, Error> {
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3.
+        // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3, or was built for it.
         let raw =
             unsafe { gpu.raw.create_shader_module(&info, None) }.map_err(Error::vulkan("creating a shader module"))?;
         Ok(ShaderModule { gpu, raw })

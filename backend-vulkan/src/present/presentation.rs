@@ -1,6 +1,7 @@
 //! Frames of a Plan that are shown in a window.
 
-use super::swapchain::{Shown, Swapchain, SwapchainHandle};
+use super::handle::SwapchainHandle;
+use super::swapchain::{Shown, Swapchain};
 use crate::base::{Error, convert};
 use crate::execute::{Executor, SemaphorePoint, Submission};
 use crate::record::DrawSource;
@@ -29,7 +30,8 @@ impl Executor {
     /// Nothing is waited for but a free image, and the oldest frame on its way if as many are as may be.
     ///
     /// # Errors
-    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output or the window's images are none for it;
+    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output or the window's images are none for it or for
+    /// the overlay;
     /// [`Error::SurfaceLost`]; [`Error::Timeout`] if no image becomes free.
     pub fn present(
         &mut self,
@@ -46,16 +48,22 @@ impl Executor {
         }
         self.show_in(&current, name)?;
         self.make_room()?;
+        let laid_over = swapchain.ready_overlay()?;
         let Some(image) = swapchain.acquire()? else { return Ok(Presentation::OutOfDate) };
         let (done, value) = image.done;
         let images = [(name, image.number as usize)];
         let waits = [SemaphorePoint::binary(image.free)];
-        let signals = [SemaphorePoint::binary(image.drawn), SemaphorePoint::timeline(done, value)];
-        let among = Submission { images: &images, waits: &waits, signals: &signals };
+        let signals = [SemaphorePoint::timeline(done, value), SemaphorePoint::binary(image.drawn)];
+        // Under an overlay the image isn't drawn yet when the frame is done.
+        let signals = if laid_over { &signals[..1] } else { &signals[..] };
+        let among = Submission { images: &images, waits: &waits, signals };
         // SAFETY: the semaphores are the swapchain's and nothing else uses them meanwhile, and the image is free when the wait is
         // over. The swapchain lives until this executor's frames are done.
         let submitted = unsafe { self.submit_with(source, &among) };
         let frame = submitted.inspect_err(|_| swapchain.give_up())?;
+        if laid_over {
+            swapchain.lay_over(&image).inspect_err(|_| swapchain.give_up())?;
+        }
         Ok(match swapchain.show(&image)? {
             Shown::Right => Presentation::Shown(frame),
             Shown::Suboptimal => Presentation::Suboptimal(frame),

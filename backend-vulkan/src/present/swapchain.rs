@@ -1,19 +1,21 @@
 //! Swapchains: the images that a surface shows one after the other.
 
-use super::form::{COLOR_SPACE, SwapchainForm};
+use super::form::SwapchainForm;
+use super::handle::SwapchainHandle;
 use super::options::{PresentMode, SwapchainOptions};
-use super::surface::{Surface, SurfaceHandle, presenting};
-use crate::base::{Error, SLICE, convert};
-use crate::commands::Timeline;
-use crate::gpu::{Gpu, PendingWork};
-use ash::{khr, vk};
-use framewright_graph::plan;
+use super::overlay::{Overlay, OverlayLayer};
+use super::surface::{Surface, presenting};
+use crate::base::{Error, SLICE};
+use crate::gpu::PendingWork;
+use ash::vk;
 use framewright_graph::vulkan::{Format, Rotation, Usage};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// The images that a surface shows. [`Executor::present`](crate::Executor::present) draws into them.
 pub struct Swapchain {
+    /// Before the images that it is laid over: dropping it waits for the device.
+    overlay: OverlayLayer,
     surface: Surface,
     options: SwapchainOptions,
     /// `None`: the surface has no area, as that of a minimised window.
@@ -31,23 +33,6 @@ pub struct Swapchain {
     /// Whether images fitted, and no longer do: then new ones of the same form may fit better.
     stale: bool,
     pending: PendingWork,
-}
-
-/// Vulkan's swapchain.
-pub(crate) struct SwapchainHandle {
-    gpu: Arc<Gpu>,
-    functions: khr::swapchain::Device,
-    raw: vk::SwapchainKHR,
-    pub(crate) images: Vec<vk::Image>,
-    form: SwapchainForm,
-    /// Signalled when an image is free, in turn; one more than there are images.
-    free: Vec<vk::Semaphore>,
-    /// By image: signalled when it is drawn.
-    drawn: Vec<vk::Semaphore>,
-    /// How many of the frames that were drawn into its images are done.
-    done: Timeline,
-    /// Outlives the swapchain.
-    _surface: Arc<SurfaceHandle>,
 }
 
 /// An image that may be drawn into.
@@ -81,6 +66,7 @@ impl Swapchain {
     /// [`Error::BadResource`] if the surface has none of the formats; [`Error::SurfaceLost`], [`Error::OutOfMemory`].
     pub fn new(surface: &Surface, options: &SwapchainOptions) -> Result<Swapchain, Error> {
         let mut swapchain = Swapchain {
+            overlay: OverlayLayer::new(&surface.handle.gpu)?,
             surface: surface.clone(),
             options: options.clone(),
             current: None,
@@ -140,6 +126,28 @@ impl Swapchain {
     /// Chooses another present mode, from the next [`Swapchain::resize`] on.
     pub fn set_mode(&mut self, mode: PresentMode) {
         self.options.mode = mode;
+    }
+
+    /// Lays a picture over what the window shows, from the next frame on, in place of the one before; `None`: none. It is copied.
+    /// Frames, what they leave and their times stay as they are. The first frame after a change sends the texels to the device,
+    /// unless they are those that it has.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if the picture has no area, is larger than an image of the device, or has another number of bytes
+    /// than its texels take.
+    pub fn set_overlay(&mut self, overlay: Option<&Overlay<'_>>) -> Result<(), Error> {
+        self.overlay.set(overlay)
+    }
+
+    /// Makes ready to lay the overlay over the next image. Returns whether any of it can be seen.
+    pub(crate) fn ready_overlay(&mut self) -> Result<bool, Error> {
+        self.current.as_ref().map_or(Ok(false), |current| self.overlay.ready(current, self.options.timeout))
+    }
+
+    /// Lays the overlay over an image, in place of the frame that draws it: it signals that the image is drawn.
+    /// [`Swapchain::ready_overlay`] must have said that it can be seen.
+    pub(crate) fn lay_over(&mut self, image: &FreeImage) -> Result<(), Error> {
+        self.overlay.lay_over(image.number, image.done, image.drawn, self.options.timeout)
     }
 
     /// The format of the images; `None` while the surface has no area.
@@ -252,105 +260,4 @@ impl Swapchain {
     pub(crate) fn give_up(&mut self) {
         self.spent = true;
     }
-}
-
-impl SwapchainHandle {
-    /// A swapchain of this form, in place of an old one.
-    fn new(
-        surface: &Arc<SurfaceHandle>,
-        form: SwapchainForm,
-        old: Option<&SwapchainHandle>,
-    ) -> Result<SwapchainHandle, Error> {
-        let gpu = &surface.gpu;
-        let info = vk::SwapchainCreateInfoKHR::default()
-            .surface(surface.raw)
-            .min_image_count(form.images)
-            .image_format(convert::format(form.format))
-            .image_color_space(COLOR_SPACE)
-            .image_extent(vk::Extent2D { width: form.extent[0], height: form.extent[1] })
-            .image_array_layers(1)
-            .image_usage(form.usage)
-            .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
-            .pre_transform(form.transform)
-            .composite_alpha(form.alpha)
-            .present_mode(form.mode)
-            .clipped(true)
-            .old_swapchain(old.map_or(vk::SwapchainKHR::null(), |old| old.raw));
-        let functions = khr::swapchain::Device::new(&gpu.instance.raw, &gpu.raw);
-        let done = Timeline::new(gpu)?;
-        let alone = surface.alone();
-        // SAFETY: the surface lives, can be presented to, offers all that is asked for, and no other thread has it meanwhile.
-        let raw = unsafe { functions.create_swapchain(&info, None) }.map_err(presenting("making a swapchain"))?;
-        drop(alone);
-        let mut made = SwapchainHandle {
-            gpu: gpu.clone(),
-            functions,
-            raw,
-            images: Vec::new(),
-            form,
-            free: Vec::new(),
-            drawn: Vec::new(),
-            done,
-            _surface: surface.clone(),
-        };
-        // SAFETY: the swapchain lives.
-        made.images = unsafe { made.functions.get_swapchain_images(raw) }
-            .map_err(presenting("asking for the images of a swapchain"))?;
-        for _ in &made.images {
-            made.drawn.push(semaphore(gpu)?);
-        }
-        for _ in 0..=made.images.len() {
-            made.free.push(semaphore(gpu)?);
-        }
-        Ok(made)
-    }
-
-    /// Why its images can't be the image of a Plan; `None` if they can.
-    pub(crate) fn unfit(&self, image: &plan::Image) -> Option<String> {
-        let form = &self.form;
-        let wanted = convert::usage(image.usage);
-        let [width, height, _] = image.made();
-        if image.format != form.format {
-            return Some(format!("it is {}, and those of the window are {}", image.format, form.format));
-        }
-        if [width, height] != form.extent {
-            let [own_width, own_height] = form.extent;
-            return Some(format!(
-                "it has {width}x{height} texels, and those of the window have {own_width}x{own_height}"
-            ));
-        }
-        if image.samples > 1 || image.mips > 1 || image.made_layers() > 1 {
-            return Some("it has several samples, mip levels or layers, and those of the window have one".to_owned());
-        }
-        if !form.usage.contains(wanted) {
-            let lacking = wanted & !form.usage;
-            return Some(format!("it is used as {lacking:?}, and those of the window can't be"));
-        }
-        None
-    }
-}
-
-impl Drop for SwapchainHandle {
-    fn drop(&mut self) {
-        if self.gpu.is_abandoned() {
-            return;
-        }
-        let queues = self.gpu.queues.lock();
-        let Ok(queue) = queues.of(self.gpu.queues.families.graphics) else { return };
-        // SAFETY: the queue is locked. When it has nothing left to do, nothing waits for the semaphores any more, also no
-        // presentation. Executors that drew into the images held on to this, and are done with them.
-        unsafe {
-            let _ = self.gpu.raw.queue_wait_idle(queue);
-            for semaphore in self.free.drain(..).chain(self.drawn.drain(..)) {
-                self.gpu.raw.destroy_semaphore(semaphore, None);
-            }
-            self.functions.destroy_swapchain(self.raw, None);
-        }
-    }
-}
-
-fn semaphore(gpu: &Gpu) -> Result<vk::Semaphore, Error> {
-    // SAFETY: the device lives.
-    unsafe { gpu.raw.create_semaphore(&vk::SemaphoreCreateInfo::default(), None) }
-        .map_err(Error::vulkan("making a semaphore"))
 }

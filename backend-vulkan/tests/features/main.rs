@@ -22,6 +22,7 @@ mod held;
 mod imports;
 mod local_reads;
 mod outlasting;
+mod overlays;
 mod own_pipelines;
 mod presenting;
 mod queues;

@@ -28,7 +28,7 @@ use x11rb::protocol::xproto::{ConfigureWindowAux, ConnectionExt, CreateWindowAux
 use x11rb::xcb_ffi::XCBConnection;
 use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
-const SHADERS: &[(&str, &str)] = &[
+pub(crate) const SHADERS: &[(&str, &str)] = &[
     (
         "count.comp",
         "#version 460
@@ -66,19 +66,24 @@ fn executor(device: &Device, plan: &Plan) -> Executor {
 }
 
 /// An executor for the images of a swapchain.
-fn executor_for(device: &Device, swapchain: &Swapchain) -> Executor {
+pub(crate) fn executor_for(device: &Device, swapchain: &Swapchain) -> Executor {
+    executor(device, &planned_for(device, swapchain))
+}
+
+/// A Plan for the images of a swapchain, which counts its frames.
+pub(crate) fn planned_for(device: &Device, swapchain: &Swapchain) -> Plan {
     let (format, extent) = (swapchain.format().expect("an area"), swapchain.extent().expect("an area"));
-    executor(device, &planned(device, &counting(format, extent, Some(PRESENTED)), &Options::default()))
+    planned(device, &counting(format, extent, Some(PRESENTED)), &Options::default())
 }
 
 /// UNORM formats, so that texels are what the shader says.
-fn options(extent: [u32; 2]) -> SwapchainOptions {
+pub(crate) fn options(extent: [u32; 2]) -> SwapchainOptions {
     let formats = vec![Format::R8G8B8A8_UNORM, Format::B8G8R8A8_UNORM];
     SwapchainOptions { extent, formats, ..SwapchainOptions::default() }
 }
 
 /// A window of an X server.
-struct Window {
+pub(crate) struct Window {
     connection: XCBConnection,
     screen: usize,
     window: u32,
@@ -98,7 +103,7 @@ impl Window {
         Window { connection, screen, window }
     }
 
-    fn resize(&self, [width, height]: [u32; 2]) {
+    pub(crate) fn resize(&self, [width, height]: [u32; 2]) {
         let size = ConfigureWindowAux::new().width(width).height(height);
         self.connection.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
     }
@@ -115,7 +120,7 @@ impl Window {
     }
 
     /// Waits until the window shows the picture of this size with this count.
-    fn shows(&self, extent: [u32; 2], count: u32) {
+    pub(crate) fn shows(&self, extent: [u32; 2], count: u32) {
         let expected = [count, extent[0] - 1].map(|component| u8::try_from(component).expect("small"));
         let begun = Instant::now();
         while self.edge(extent) != expected {
@@ -128,6 +133,14 @@ impl Window {
         }
     }
 
+    /// Red, green and blue of each pixel, row by row, as the server shows them.
+    pub(crate) fn pixels(&self, [width, height]: [u32; 2]) -> Vec<[u8; 3]> {
+        let [width, height] = [width, height].map(|side| u16::try_from(side).expect("small"));
+        let image = self.connection.get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, u32::MAX);
+        let data = image.expect("sent").reply().expect("a picture").data;
+        data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect()
+    }
+
     /// Red and green of the pixel at the right end of the first row, as the server shows it.
     fn edge(&self, [width, _]: [u32; 2]) -> [u8; 2] {
         let x = i16::try_from(width - 1).expect("small");
@@ -138,7 +151,7 @@ impl Window {
 }
 
 /// Runs a test with a window of 64 by 48 pixels on each driver that has surfaces of X.
-fn in_windows(test: impl Fn(&Device, &Window, &Surface)) {
+pub(crate) fn in_windows(test: impl Fn(&Device, &Window, &Surface)) {
     let server = match XServer::start() {
         Ok(server) => server,
         Err(missing) => {

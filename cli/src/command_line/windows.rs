@@ -23,6 +23,9 @@ pub(crate) struct WindowArguments {
     /// Picture of the last frame, to write when the window closes: a .png file.
     #[arg(short, long, value_name = "FILE.png", value_parser = png_file)]
     pub(crate) output: Option<PathBuf>,
+    /// Lay the list of settings and times over the picture from the beginning, as the key L does.
+    #[arg(long)]
+    pub(crate) list: bool,
     /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
     #[arg(long)]
     pub(crate) validate: bool,

@@ -1,8 +1,16 @@
 //! `framewright window`: a scene through a pipeline, in a window that follows files, mouse and keys.
 
 mod choices;
+mod chosen;
+mod following;
+mod list;
+mod opening;
 mod orbit;
+mod pace;
+mod pictures;
+mod problems;
 mod session;
+mod view;
 
 use crate::command_line::windows::WindowArguments;
 use crate::error::Error;
@@ -28,6 +36,7 @@ const MINIMISED: Duration = Duration::from_millis(50);
 const WHEEL_STEP: f64 = 40.0;
 
 const KEYS: &str = "keys: up, down: choose a setting; left, right: change it; E: one eye or two; T: rotate the screen; R: the scene's own camera; \
+                    L: the list of settings and times; \
                     P: write a picture; Esc: end. The mouse turns the camera, with the right button it shifts it, the wheel \
                     goes nearer";
 
@@ -114,7 +123,8 @@ impl<'a> App<'a> {
         let canary = if arguments.validate { Some(device.canary()?) } else { None };
         let surface = device.surface(window.clone())?;
         let PhysicalSize { width, height } = window.inner_size();
-        let session = Session::new(arguments, &device, helper, &surface, [width, height])?;
+        let mut session = Session::new(arguments, &device, helper, &surface, [width, height])?;
+        session.rescaled(window.scale_factor());
         text::say(KEYS);
         let messages = device.messages();
         Ok(Open { session, device, messages, canary, held: None, cursor: [0.0; 2], window })
@@ -159,6 +169,7 @@ impl<'a> App<'a> {
         match event {
             WindowEvent::CloseRequested => self.close(events),
             WindowEvent::Resized(PhysicalSize { width, height }) => session.resized([width, height]),
+            WindowEvent::ScaleFactorChanged { scale_factor, .. } => session.rescaled(scale_factor),
             WindowEvent::CursorMoved { position, .. } => {
                 let moved = [position.x - cursor[0], position.y - cursor[1]];
                 *cursor = [position.x, position.y];
@@ -204,6 +215,7 @@ impl<'a> App<'a> {
                 "e" => session.turn_eyes()?,
                 "t" => session.turn_screen()?,
                 "r" => session.orbit().reset(),
+                "l" => session.turn_list()?,
                 "p" => session.take_picture(),
                 _ => {}
             },

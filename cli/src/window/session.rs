@@ -1,68 +1,50 @@
 //! What a window shows: a scene through a pipeline, with the choices of the user, frame after frame.
 
-use super::choices;
+use super::chosen::Chosen;
+use super::following::Following;
+use super::list::{Contents, List};
 use super::orbit::Orbit;
+use super::pace::{Pace, Speed};
+use super::problems::Problems;
+use super::view::View;
+use super::{opening, pictures, view};
 use crate::command_line::windows::WindowArguments;
 use crate::error::Error;
 use crate::files::{inputs, outputs};
-use crate::picture::{FileFormat, Picture};
-use crate::planning::draws;
-use crate::system::{Exit, text};
-use framewright::{Presentation, ReadFiles, Renderer, RendererOptions, Scene, SceneDrawSource, Stereo, Swapchain};
-use framewright_graph::language::Setting;
-use framewright_graph::plan::Resource;
-use framewright_graph::vulkan::Rotation;
+use crate::system::text;
+use framewright::{Presentation, ReadFiles, Renderer, Scene, SceneDrawSource, Stereo, Swapchain};
 use framewright_vulkan::{Device, Helper, Surface, SwapchainOptions};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
-
-/// The title of the window is written this often.
-const TITLE: Duration = Duration::from_millis(500);
-/// Files are looked at this often.
-const FILES: Duration = Duration::from_millis(100);
-/// Files that change stay as they are for this long before they are read.
-const AT_REST: Duration = Duration::from_millis(50);
+use std::path::Path;
 
 /// What a window shows.
 pub(super) struct Session<'a> {
     arguments: &'a WindowArguments,
     renderer: Renderer,
     scene: Scene,
-    scene_read: ReadFiles,
     /// Draws the scene; `None` until it is made for the Plan.
     source: Option<SceneDrawSource>,
     swapchain: Swapchain,
     orbit: Orbit,
-    rotation: Rotation,
-    stereo: Stereo,
+    view: View,
     /// The size of the window, where the surface leaves that to the program.
     size: [u32; 2],
     /// Whether the images no longer fit the window.
     refit: bool,
-    /// The setting that keys turn.
-    setting: usize,
-    /// Values that keys gave to settings since the frame that is shown was planned.
-    turned: BTreeMap<String, String>,
+    chosen: Chosen,
     /// The last frame that was shown.
     last: Option<u64>,
     /// How many were shown.
     shown: u32,
     /// Whether the next one is to be written.
     picture_wanted: bool,
-    /// What keeps the files from being shown as they are, until they are read again.
-    mistake: Option<String>,
-    /// What keeps the newest choices from being shown, until a frame is.
-    refused: Option<String>,
-    looked: Instant,
-    title: Title,
-}
-
-/// The title of the window, and what it counts.
-struct Title {
-    since: Instant,
-    frames: u32,
-    milliseconds: f64,
+    problems: Problems,
+    following: Following,
+    pace: Pace,
+    /// The speed that was told last.
+    speed: Option<Speed>,
+    list: List,
+    /// Pixels of the screen for one of a usual screen, along each side.
+    scale: f64,
 }
 
 impl<'a> Session<'a> {
@@ -77,34 +59,9 @@ impl<'a> Session<'a> {
         surface: &Surface,
         size: [u32; 2],
     ) -> Result<Session<'a>, Error> {
-        let (read, scene_read) = (ReadFiles::default(), ReadFiles::default());
-        // Says that it is a shipped one.
-        drop(inputs::pipeline(&arguments.pipeline, &read)?);
+        let scene_read = ReadFiles::default();
+        let mut renderer = opening::renderer(arguments, device, helper)?;
         let scene = inputs::scene(&arguments.scene, &scene_read)?;
-        let mut options = RendererOptions::default();
-        options.files = inputs::options(&arguments.pipeline);
-        options.settings.clone_from(&arguments.pipeline.settings);
-        options.draws = draws(&arguments.pipeline, &read)?;
-        options.helper = Some(helper);
-        options.compile = arguments.planning.options();
-        options.executor.poison = arguments.planning.poison;
-        options.executor.frames_in_flight = 2;
-        options.executor.timestamps = true;
-        options.executor.readback = true;
-        let mut renderer = Renderer::open(device, &arguments.pipeline.file, options)?;
-        let of_command_line = |error: framewright::Error| match Error::from(error) {
-            Error::Mistakes { mut mistakes } => {
-                mistakes.exit = Exit::Usage;
-                Error::Mistakes { mistakes }
-            }
-            other => other,
-        };
-        if arguments.pipeline.preset.is_some() {
-            renderer.preset(arguments.pipeline.preset.as_deref()).map_err(of_command_line)?;
-        }
-        for one in &arguments.pipeline.set {
-            renderer.set(&one.name, &one.value).map_err(of_command_line)?;
-        }
         renderer.set_scene(&scene);
         let stereo = Stereo::first_fit(&arguments.pipeline.stereo.0, &device.profile());
         let stereo = stereo.map_err(|why| Error::Stereo { why })?;
@@ -113,22 +70,21 @@ impl<'a> Session<'a> {
             arguments,
             orbit: Orbit::new(&scene),
             scene,
-            scene_read,
             source: None,
             swapchain: Swapchain::new(surface, &swapchain)?,
-            rotation: arguments.planning.rotate,
-            stereo,
+            view: View::new(arguments.planning.rotate, stereo),
             size,
             refit: false,
-            setting: 0,
-            turned: BTreeMap::new(),
+            chosen: Chosen::default(),
             last: None,
             shown: 0,
             picture_wanted: false,
-            mistake: None,
-            refused: None,
-            looked: Instant::now(),
-            title: Title { since: Instant::now(), frames: 0, milliseconds: 0.0 },
+            problems: Problems::default(),
+            following: Following::new(scene_read),
+            pace: Pace::new(),
+            speed: None,
+            list: List::new(arguments.list),
+            scale: 1.0,
             renderer,
         };
         session.fit()?;
@@ -148,11 +104,15 @@ impl<'a> Session<'a> {
             }
             self.refit = false;
             let fitted = self.fit();
-            self.note(fitted)?;
+            self.problems.refuse(fitted)?;
+            self.list.changed();
         }
         self.follow_files()?;
         let prepared = self.prepare();
-        self.note(prepared)?;
+        self.problems.refuse(prepared)?;
+        if self.list.is_due() {
+            self.show_list()?;
+        }
         let Some(source) = &mut self.source else { return Ok(false) };
         source.set_camera(self.orbit.camera())?;
         match self.renderer.present(source, &mut self.swapchain) {
@@ -170,7 +130,7 @@ impl<'a> Session<'a> {
             Err(framewright::Error::Vulkan(error @ framewright_vulkan::Error::BadResource { .. }))
                 if self.shown > 0 =>
             {
-                self.note(Err(error.into()))?;
+                self.problems.refuse(Err(error.into()))?;
                 return Ok(false);
             }
             Err(error) => return Err(error.into()),
@@ -180,29 +140,14 @@ impl<'a> Session<'a> {
 
     /// Fits the frame to the window's images.
     fn fit(&mut self) -> Result<(), Error> {
-        let Some(extent) = self.swapchain.extent() else { return Ok(()) };
-        // A preview: the window isn't turned, and shows the picture as a turned screen would be given it.
-        let [width, height] = self.rotation.extent(extent);
-        let two = self.stereo != Stereo::Off;
-        if two && width % 2 == 1 {
-            text::say("note: a picture of an odd width can't be halved for two eyes: one is shown");
-        }
-        let two = two && width.is_multiple_of(2);
-        self.renderer.set_stereo(if two { self.stereo } else { Stereo::Off })?;
-        self.renderer.fit(&self.swapchain)?;
-        if self.rotation.turns() {
-            self.renderer.set_extent([if two { width / 2 } else { width }, height])?;
-            self.renderer.set_rotation(self.rotation);
-        }
-        Ok(())
+        self.view.fit(&mut self.renderer, &self.swapchain)
     }
 
     /// Plans what changed, and has the scene drawn by it.
     fn prepare(&mut self) -> Result<(), Error> {
         use framewright::Change;
         let device = self.renderer.device().clone();
-        // They are in the Plan now, or were refused.
-        self.turned.clear();
+        self.chosen.planned();
         let framewright::Prepared { plan, change, .. } = self.renderer.prepare()?;
         match (&mut self.source, change) {
             (Some(_), Change::Nothing) => {}
@@ -211,66 +156,62 @@ impl<'a> Session<'a> {
                 let mut made = SceneDrawSource::for_plan(&device, &self.scene, plan.extent, plan)?;
                 made.set_camera(self.orbit.camera())?;
                 (*source, self.last) = (Some(made), None);
+                self.list.replanned();
             }
         }
         Ok(())
     }
 
-    /// Keeps what another choice can mend, and says it once. The last good frame stays.
-    fn note(&mut self, result: Result<(), Error>) -> Result<(), Error> {
-        keep(result, &mut self.refused)
-    }
-
     /// Reads files anew that have changed.
     fn follow_files(&mut self) -> Result<(), Error> {
-        if self.looked.elapsed() < FILES {
+        if !self.following.is_due() {
             return Ok(());
         }
-        self.looked = Instant::now();
-        if self.renderer.files_changed() {
-            std::thread::sleep(AT_REST);
-            let reloaded = self.renderer.reload().map_err(Error::from);
+        if let Some(reloaded) = self.following.pipeline(&mut self.renderer) {
             // What was chosen while the file was wrong counts again.
-            let reloaded = reloaded.and_then(|_| {
+            let reloaded = reloaded.and_then(|()| {
                 self.source = None;
                 self.renderer.set_scene(&self.scene);
                 self.fit()
             });
             let fine = reloaded.is_ok();
-            keep(reloaded, &mut self.mistake)?;
+            self.problems.mistake(reloaded)?;
             if fine {
-                self.mistake = None;
+                self.problems.mended();
                 text::say(&format!("`{}` is drawn as it is now", text::path(&self.arguments.pipeline.file)));
             }
         }
-        if self.scene_read.changed() {
-            std::thread::sleep(AT_REST);
-            self.scene_read = ReadFiles::default();
-            let read = inputs::scene(&self.arguments.scene, &self.scene_read);
+        if let Some(read) = self.following.scene(&self.arguments.scene) {
             let read = read.map(|scene| {
                 self.renderer.set_scene(&scene);
                 self.orbit.follow(&scene);
                 (self.scene, self.source) = (scene, None);
             });
             if read.is_ok() {
-                self.mistake = None;
+                self.problems.mended();
             }
-            keep(read, &mut self.mistake)?;
+            self.problems.mistake(read)?;
         }
         Ok(())
     }
 
     fn count(&mut self, frame: u64) -> Result<(), Error> {
         (self.last, self.shown) = (Some(frame), self.shown.saturating_add(1));
-        self.refused = None;
-        self.title.frames += 1;
+        self.problems.shown();
+        self.pace.count();
         // The frame before is done, or nearly: nothing waits for the one that was just begun.
         if let Some(before) = frame.checked_sub(1)
             && let Ok(report) = self.renderer.report(before)
         {
-            self.title.milliseconds = report.milliseconds;
+            self.pace.took(report.milliseconds);
+            self.list.took(report);
         }
-        if std::mem::take(&mut self.picture_wanted) { self.write_by_a_free_name() } else { Ok(()) }
+        if std::mem::take(&mut self.picture_wanted)
+            && let Some(picture) = self.picture()?
+        {
+            pictures::write_by_a_free_name(&self.arguments.pipeline.file, &picture);
+        }
+        Ok(())
     }
 
     /// How many frames were shown.
@@ -280,25 +221,43 @@ impl<'a> Session<'a> {
 
     /// The title of the window, if it is time for another.
     pub(super) fn title(&mut self) -> Option<String> {
-        let elapsed = self.title.since.elapsed();
-        if elapsed < TITLE {
-            return None;
-        }
-        let each_second = f64::from(self.title.frames) / elapsed.as_secs_f64();
-        (self.title.since, self.title.frames) = (Instant::now(), 0);
-        let name = self.arguments.pipeline.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let speed = self.pace.told()?;
+        self.speed = Some(speed);
+        let name = pictures::name(&self.arguments.pipeline.file);
         let [width, height] = self.swapchain.extent().unwrap_or_default();
-        let milliseconds = self.title.milliseconds;
-        let setting = self.setting().map(|(setting, value)| format!(" · {} = {value}", setting.name.text));
-        let setting = setting.unwrap_or_default();
-        let wrong = if self.mistake.is_some() || self.refused.is_some() {
-            " · the last good frame is shown: see the terminal"
-        } else {
-            ""
+        let setting = self.chosen.setting(&self.renderer);
+        let setting = setting.map(|(setting, value)| format!(" · {} = {value}", setting.name.text)).unwrap_or_default();
+        let wrong = match self.problems.first() {
+            Some(_) => " · the last good frame is shown: see the terminal",
+            None => "",
         };
+        let Speed { milliseconds, each_second } = speed;
         let title =
             format!("{name} · {width}×{height} · {milliseconds:.1} ms · {each_second:.0} frames/s{setting}{wrong}");
         Some(text::escape(&title))
+    }
+
+    /// Makes the list anew.
+    fn show_list(&mut self) -> Result<(), Error> {
+        let (Some(extent), Some(plan)) = (self.swapchain.extent(), self.renderer.plan()) else { return Ok(()) };
+        let name = pictures::name(&self.arguments.pipeline.file);
+        let (wrong, times) = (self.problems.first(), self.list.times(plan));
+        let contents = Contents::of(&name, extent, &self.renderer, &self.chosen, self.speed, wrong, times);
+        self.list.show(&contents, self.scale, &mut self.swapchain)
+    }
+
+    /// Shows the list of settings and times, or takes it away.
+    ///
+    /// # Errors
+    /// Those of [`Session::frame`].
+    pub(super) fn turn_list(&mut self) -> Result<(), Error> {
+        self.list.turn(&mut self.swapchain)
+    }
+
+    /// The screen has another scale factor.
+    pub(super) fn rescaled(&mut self, scale: f64) {
+        self.scale = scale;
+        self.list.changed();
     }
 
     /// The window has another size.
@@ -313,15 +272,8 @@ impl<'a> Session<'a> {
 
     /// Chooses the next setting for keys to turn, or the one before, and says which.
     pub(super) fn choose_setting(&mut self, forwards: bool) {
-        let count = self.renderer.document().settings.len();
-        if count > 0 {
-            self.setting = (self.setting.min(count - 1) + if forwards { 1 } else { count - 1 }) % count;
-        }
-        if let Some((setting, value)) = self.setting() {
-            let about = setting.about.as_ref().map_or_else(String::new, |about| format!(": {about}"));
-            let line = format!("{} = {value}{about} ({})", setting.name.text, setting.kind.allowed());
-            text::say(&text::escape(&line));
-        }
+        self.chosen.choose(&self.renderer, forwards);
+        self.list.changed();
     }
 
     /// Gives the setting its next value, or the one before.
@@ -329,27 +281,9 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_setting(&mut self, forwards: bool) -> Result<(), Error> {
-        let Some((setting, value)) = self.setting() else { return Ok(()) };
-        let (name, next) = (setting.name.text.to_string(), choices::next(setting, value, forwards));
-        let Some(next) = next else { return Ok(()) };
-        let set = self.renderer.set(&name, &next).map_err(Error::from);
-        if set.is_ok() {
-            text::say(&text::escape(&format!("{name} = {next}")));
-            self.turned.insert(name, next);
-        }
-        self.note(set)
-    }
-
-    /// The setting that keys turn, and its value: in the next frame, or in the one that is shown.
-    fn setting(&self) -> Option<(&Setting, &str)> {
-        let settings = &self.renderer.document().settings;
-        let setting = settings.get(self.setting.min(settings.len().checked_sub(1)?))?;
-        if let Some(value) = self.turned.get(&*setting.name.text) {
-            return Some((setting, value));
-        }
-        let used = &self.renderer.plan()?.settings;
-        let used = used.iter().find(|used| *used.name == *setting.name.text)?;
-        Some((setting, &used.value))
+        let turned = self.chosen.turn(&mut self.renderer, forwards);
+        self.list.changed();
+        self.problems.refuse(turned)
     }
 
     /// Shows one eye's picture, or both beside each other.
@@ -357,23 +291,16 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_eyes(&mut self) -> Result<(), Error> {
-        self.stereo = if self.stereo == Stereo::Off { Stereo::DoubleWide } else { Stereo::Off };
+        self.view.turn_eyes();
         let mut fitted = self.fit().and_then(|()| self.prepare());
-        if self.stereo != Stereo::Off && fitted.is_ok() && !self.shows_two_eyes() {
+        if self.view.wants_two_eyes() && fitted.is_ok() && !self.renderer.plan().is_some_and(view::shows_two_eyes) {
             text::say("note: the first output has no picture for each eye: one is shown");
-            self.stereo = Stereo::Off;
+            self.view.turn_eyes();
             fitted = self.fit();
         } else if fitted.is_ok() {
-            text::say(if self.stereo == Stereo::Off { "one eye" } else { "both eyes beside each other" });
+            text::say(if self.view.wants_two_eyes() { "both eyes beside each other" } else { "one eye" });
         }
-        self.note(fitted)
-    }
-
-    /// Whether the first output has the pictures of both eyes beside each other.
-    fn shows_two_eyes(&self) -> bool {
-        let plan = self.renderer.plan();
-        let output = plan.and_then(|plan| Some((plan, plan.outputs.first()?.resource)));
-        matches!(output, Some((plan, Resource::Image(image))) if plan.image(image).eyes.is_some())
+        self.problems.refuse(fitted)
     }
 
     /// Turns the picture by a quarter, as screens that are mounted turned are given it.
@@ -381,11 +308,9 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_screen(&mut self) -> Result<(), Error> {
-        let at = Rotation::ALL.iter().position(|rotation| *rotation == self.rotation).unwrap_or(0);
-        self.rotation = Rotation::ALL[(at + 1) % Rotation::ALL.len()];
-        text::say(&format!("rotated by {}°", self.rotation.degrees()));
+        self.view.turn_screen();
         let fitted = self.fit();
-        self.note(fitted)
+        self.problems.refuse(fitted)
     }
 
     /// Has the next frame that is shown written beside where the command was called.
@@ -393,54 +318,19 @@ impl<'a> Session<'a> {
         self.picture_wanted = true;
     }
 
-    /// Writes the picture that was shown last, by a name that is free.
-    fn write_by_a_free_name(&mut self) -> Result<(), Error> {
-        let stem = self.arguments.pipeline.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut names = (1..1000).map(|number| PathBuf::from(format!("{stem}-{number:03}.png")));
-        if let (Some(path), Some(picture)) = (names.find(|path| !path.exists()), self.picture()?) {
-            match outputs::write_new(&path, &picture) {
-                Ok(()) => text::say(&format!("wrote `{}`", text::path(&path))),
-                Err(error) => text::say(&error.shown()),
-            }
-        }
-        Ok(())
-    }
-
     /// Writes the picture that was shown last.
     ///
     /// # Errors
-    /// Those of [`Session::picture`], and of the disk.
+    /// Those of the device and of the disk.
     pub(super) fn write(&mut self, path: &Path) -> Result<(), Error> {
         match self.picture()? {
-            Some(picture) => outputs::write(&[(path, &picture)], &self.scene_read),
+            Some(picture) => outputs::write(&[(path, &picture)], self.following.scene_files()),
             None => Ok(()),
         }
     }
 
     /// The picture that was shown last, as a PNG file, upright.
     fn picture(&mut self) -> Result<Option<Vec<u8>>, Error> {
-        let (Some(frame), Some(plan)) = (self.last, self.renderer.plan()) else { return Ok(None) };
-        let Some(output) = plan.outputs.first() else { return Ok(None) };
-        let (name, encoding) = (output.name.to_string(), output.encoding);
-        let texels = self.renderer.read_back(frame, &name)?;
-        let [width, height, _] = texels.extent;
-        let picture = Picture { format: texels.format, encoding, extent: [width, height], bytes: &texels.bytes };
-        let encoded = FileFormat::Png.encode(&picture);
-        encoded.map(Some).map_err(|problem| Error::Picture { image: name, problem })
-    }
-}
-
-/// Keeps an error that a change to a file or another choice can mend, and says it, unless it was said last.
-fn keep(result: Result<(), Error>, kept: &mut Option<String>) -> Result<(), Error> {
-    match result {
-        Err(error) if error.can_be_mended_in_files() => {
-            let shown = error.shown();
-            if kept.as_ref() != Some(&shown) {
-                text::say(&shown);
-                *kept = Some(shown);
-            }
-            Ok(())
-        }
-        other => other,
+        self.last.map_or(Ok(None), |frame| pictures::encoded(&mut self.renderer, frame))
     }
 }

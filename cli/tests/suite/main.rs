@@ -60,4 +60,5 @@ mod variants;
 mod views;
 mod what_shaders_need;
 mod window;
+mod window_list;
 mod without_a_program;

@@ -4,6 +4,7 @@
 use crate::testing::{FORWARD, Outcome, Place, Vulkan, forward_with, outcome};
 use framewright_tests::sweep;
 use framewright_tests::x_server::XServer;
+use image::RgbImage;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use std::io::{BufRead, BufReader};
@@ -12,18 +13,18 @@ use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
-    ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, InputFocus, KEY_PRESS_EVENT,
+    ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT,
     KEY_RELEASE_EVENT, MapState,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
 
-const SCENE: [&str; 2] = ["--scene", "spheres_and_cubes"];
-const SIZE: [&str; 2] = ["--size", "192x108"];
+pub(crate) const SCENE: [&str; 2] = ["--scene", "spheres_and_cubes"];
+pub(crate) const SIZE: [&str; 2] = ["--size", "192x108"];
 
 /// A server, with or without a window manager; `None` where there is none, which fails in CI.
-fn server(manager: bool) -> Option<XServer> {
+pub(crate) fn server(manager: bool) -> Option<XServer> {
     let started = if manager { XServer::with_manager() } else { XServer::start() };
     match started {
         Ok(server) => Some(server),
@@ -36,7 +37,7 @@ fn server(manager: bool) -> Option<XServer> {
 }
 
 /// Runs a command that ends by itself.
-fn run(place: &Place, server: &XServer, variables: &[(&str, &str)], words: &[&str]) -> Outcome {
+pub(crate) fn run(place: &Place, server: &XServer, variables: &[(&str, &str)], words: &[&str]) -> Outcome {
     let mut command = place.command(words);
     command.env_remove("WAYLAND_DISPLAY").env("DISPLAY", server.display()).envs(variables.iter().copied());
     outcome(&mut command)
@@ -74,7 +75,7 @@ fn the_picture_in_the_window_is_the_one_that_run_writes() {
 }
 
 /// An open window of the command's, and what the test does to it.
-struct Window<'s> {
+pub(crate) struct Window<'s> {
     child: Child,
     /// Its lines on standard error.
     said: Receiver<String>,
@@ -85,7 +86,7 @@ struct Window<'s> {
 }
 
 impl<'s> Window<'s> {
-    fn open(place: &Place, server: &'s XServer, vulkan: Vulkan, words: &[&str]) -> Option<Window<'s>> {
+    pub(crate) fn open(place: &Place, server: &'s XServer, vulkan: Vulkan, words: &[&str]) -> Option<Window<'s>> {
         let mut command = place.command(&[&["window"][..], words].concat());
         command.env_remove("WAYLAND_DISPLAY").env("DISPLAY", server.display()).envs(vulkan.variables()?);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
@@ -117,7 +118,7 @@ impl<'s> Window<'s> {
 
     /// Reads what the command says until it says `text`.
     #[track_caller]
-    fn waits_for(&self, text: &str) {
+    pub(crate) fn waits_for(&self, text: &str) {
         let mut all = String::new();
         while !all.contains(text) {
             match self.said.recv_timeout(Duration::from_secs(60)) {
@@ -128,7 +129,7 @@ impl<'s> Window<'s> {
     }
 
     /// Waits until the title has these words.
-    fn waits_for_title(&self, words: &str) {
+    pub(crate) fn waits_for_title(&self, words: &str) {
         let begun = Instant::now();
         loop {
             let utf8 = self.x.intern_atom(false, b"_NET_WM_NAME").expect("sent").reply().expect("an atom").atom;
@@ -144,9 +145,30 @@ impl<'s> Window<'s> {
         }
     }
 
-    fn resize(&self, [width, height]: [u32; 2]) {
+    pub(crate) fn resize(&self, [width, height]: [u32; 2]) {
         let size = ConfigureWindowAux::new().width(width).height(height);
         self.x.configure_window(self.window, &size).expect("sent").check().expect("it has the size");
+    }
+
+    /// What the window shows; `None` while it isn't on the screen in this size.
+    fn picture(&self, [width, height]: [u16; 2]) -> Option<RgbImage> {
+        let format = ImageFormat::Z_PIXMAP;
+        let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).expect("sent").reply().ok()?;
+        let texels = image.data.chunks_exact(4).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
+        RgbImage::from_raw(width.into(), height.into(), texels)
+    }
+
+    /// Waits until what the window shows is so, and returns it.
+    #[track_caller]
+    pub(crate) fn shows(&self, size: [u16; 2], what: &str, so: impl Fn(&RgbImage) -> bool) -> RgbImage {
+        let begun = Instant::now();
+        loop {
+            if let Some(picture) = self.picture(size).filter(&so) {
+                return picture;
+            }
+            assert!(begun.elapsed() < Duration::from_secs(60), "the window doesn't show {what}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// Asks the window manager to minimise the window, or to show it again.
@@ -180,7 +202,7 @@ impl<'s> Window<'s> {
     }
 
     /// Presses and releases a key, by its code on a usual keyboard.
-    fn press(&self, code: u8) {
+    pub(crate) fn press(&self, code: u8) {
         self.is_focused();
         for event in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
             self.x.xtest_fake_input(event, code, 0, self.root, 0, 0, 0).expect("sent").check().expect("a key");
@@ -188,7 +210,7 @@ impl<'s> Window<'s> {
     }
 
     /// Waits until the command ends, and returns its exit code with what else it said.
-    fn ends(mut self) -> (Option<i32>, String) {
+    pub(crate) fn ends(mut self) -> (Option<i32>, String) {
         let begun = Instant::now();
         let code = loop {
             if let Some(status) = self.child.try_wait().expect("its status") {
@@ -208,11 +230,12 @@ impl Drop for Window<'_> {
     }
 }
 
-const ESCAPE: u8 = 9;
+pub(crate) const ESCAPE: u8 = 9;
 const LEFT: u8 = 113;
-const RIGHT: u8 = 114;
-const DOWN: u8 = 116;
+pub(crate) const RIGHT: u8 = 114;
+pub(crate) const DOWN: u8 = 116;
 const LETTER_E: u8 = 26;
+pub(crate) const LETTER_L: u8 = 46;
 const LETTER_P: u8 = 33;
 const LETTER_T: u8 = 28;
 

@@ -1,0 +1,38 @@
+//! Pictures of what a window shows.
+
+use crate::error::Error;
+use crate::files::outputs;
+use crate::picture::{FileFormat, Picture};
+use crate::system::text;
+use framewright::Renderer;
+use std::path::{Path, PathBuf};
+
+/// The picture of a frame, as a PNG file, upright.
+///
+/// # Errors
+/// Those of the device; [`Error::Picture`].
+pub(super) fn encoded(renderer: &mut Renderer, frame: u64) -> Result<Option<Vec<u8>>, Error> {
+    let Some(output) = renderer.plan().and_then(|plan| plan.outputs.first()) else { return Ok(None) };
+    let (name, encoding) = (output.name.to_string(), output.encoding);
+    let texels = renderer.read_back(frame, &name)?;
+    let [width, height, _] = texels.extent;
+    let picture = Picture { format: texels.format, encoding, extent: [width, height], bytes: &texels.bytes };
+    let encoded = FileFormat::Png.encode(&picture);
+    encoded.map(Some).map_err(|problem| Error::Picture { image: name, problem })
+}
+
+/// Writes a picture by a name that is free, beside where the command was called, and says the name or what is wrong with it.
+pub(super) fn write_by_a_free_name(pipeline: &Path, picture: &[u8]) {
+    let stem = name(pipeline);
+    let mut names = (1..1000).map(|number| PathBuf::from(format!("{stem}-{number:03}.png")));
+    let Some(path) = names.find(|path| !path.exists()) else { return };
+    match outputs::write_new(&path, picture) {
+        Ok(()) => text::say(&format!("wrote `{}`", text::path(&path))),
+        Err(error) => text::say(&error.shown()),
+    }
+}
+
+/// The name of a pipeline, by its file.
+pub(super) fn name(pipeline: &Path) -> String {
+    pipeline.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
