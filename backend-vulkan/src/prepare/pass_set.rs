@@ -64,7 +64,8 @@ impl PassSets {
                 }
                 _ => image(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
-            bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
+            bindings
+                .push((LayoutBinding { binding: wanted.binding, ty, count: 1, stages: stages(wanted.stages) }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
         let resources = bindings.iter().filter_map(|(_, bound)| match bound {
@@ -136,7 +137,7 @@ impl PassSet {
                     DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
                 }
             };
-            targets.push((*binding, target));
+            targets.push((*binding, vec![target]));
         }
         let set = DescriptorSet::new(frame.gpu, &targets)?;
         Ok(PassSet { set, _images: images, _buffers: buffers })

@@ -60,7 +60,7 @@ pub(super) fn reflect(
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == ShaderStage::Fragment;
-    check_capabilities(&module, stage, both_eyes)?;
+    let features = check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
@@ -90,6 +90,7 @@ pub(super) fn reflect(
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
+        features,
     };
     let input_attachments = module
         .variables()

@@ -28,5 +28,6 @@ mod resolves;
 mod state;
 mod submitting;
 mod subresources;
+mod texture_arrays;
 mod textures;
 mod transfers;

@@ -43,6 +43,8 @@ pub struct ShaderInterface {
     pub unturned: Vec<Unturned>,
     /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
+    /// The features beyond the minimum that a device must have for it, by Vulkan's names.
+    pub features: Vec<&'static str>,
 }
 
 /// A pass samples at most this many images of which only a part is in use: the places of the parts take all the bytes of
@@ -76,12 +78,22 @@ pub struct Binding {
     pub binding: u32,
     /// Name in the shader: of the variable, or for a block without instance name, of the block.
     pub name: String,
-    /// Kind and shape.
+    /// Kind and shape; of an array those of each element.
     pub kind: BindingKind,
+    /// The elements of an array, at least 1; `None`: it is no array.
+    pub length: Option<u32>,
     /// Whether the pass chooses its type: the shader declares `uniform TEXTURE_NAME NAME`.
     pub adapts: bool,
     /// Stages that use it.
     pub stages: Stages,
+}
+
+impl Binding {
+    /// How many descriptors it takes: one for each element of an array.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.length.unwrap_or(1)
+    }
 }
 
 /// Kind and shape of a resource.
