@@ -46,11 +46,12 @@ pub(super) fn bindings(
         let (element, length) = element(module, ty);
         let kind = match (element, length) {
             (Some(element), length) => match kind(module, variable, instruction, element) {
-                one if length.is_none() || set != PASS_SET && is_image(&one) => one,
-                _ => no_array(),
+                one if length.is_none() => one,
+                one => elements(one),
             },
             (None, _) => endless(),
         };
+        let length = length.filter(|_| !matches!(kind, BindingKind::Other(_)));
         if stage == ShaderStage::Vertex && writes(&kind) {
             let name = module.name(variable);
             let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
@@ -83,7 +84,7 @@ fn writes(kind: &BindingKind) -> bool {
 /// Kind and shape of a resource of type `ty`.
 fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
     match (ty.class.opcode, storage_class(instruction)) {
-        (Op::TypeArray | Op::TypeRuntimeArray, _) => no_array(),
+        (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of arrays", "declare one array"),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
             Some(image) => {
                 let compares = image.operands.get(2).and_then(number) == Some(1);
@@ -139,13 +140,15 @@ fn element<'m>(module: &IndexedModule<'m>, ty: &'m Instruction) -> (Option<&'m I
     }
 }
 
-/// Whether shaders can be given an array of such resources.
-fn is_image(kind: &BindingKind) -> bool {
-    matches!(kind, BindingKind::SampledImage(_))
-}
-
-fn no_array() -> BindingKind {
-    other("an array of resources", "give each a name of its own; layers of one image are sampled by a `sampler2DArray`")
+/// The kind of an array whose elements are of a kind.
+fn elements(of: BindingKind) -> BindingKind {
+    match of {
+        BindingKind::UniformBlock(_) | BindingKind::StorageBlock { .. } => {
+            other("an array of blocks", "declare one storage block that holds an array")
+        }
+        BindingKind::InputAttachment { .. } => other("an array of input attachments", "give each a name of its own"),
+        image => image,
+    }
 }
 
 fn endless() -> BindingKind {

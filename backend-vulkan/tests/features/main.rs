@@ -18,6 +18,7 @@ mod geometry;
 mod growth;
 mod hand_over;
 mod held;
+mod image_arrays;
 mod imports;
 mod local_reads;
 mod outlasting;

@@ -3,18 +3,21 @@
 mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
+mod element;
 mod interface_file;
 mod param_type;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
+use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
 pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied, SuppliedKind};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
+pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 
@@ -86,14 +89,6 @@ pub struct Binding {
     pub adapts: bool,
     /// Stages that use it.
     pub stages: Stages,
-}
-
-impl Binding {
-    /// How many descriptors it takes: one for each element of an array.
-    #[must_use]
-    pub fn count(&self) -> u32 {
-        self.length.unwrap_or(1)
-    }
 }
 
 /// Kind and shape of a resource.
@@ -255,7 +250,7 @@ pub struct Variant {
     /// that are missing here are two-dimensional images of floating point, so that mistakes in a pass can be told from its
     /// shader.
     pub textures: Vec<(Arc<str>, ImageShape)>,
-    /// The shader's names of images that the pass samples: the macro `HAS_NAME` is defined.
+    /// The shader's names of images and arrays of images that the pass samples: the macro `HAS_NAME` is defined.
     pub sampled: Vec<Arc<str>>,
     /// Numbers of components, by the shader's names of sampled images: the macro `COMPONENTS_NAME`. Names without one have 4.
     pub components: Vec<(Arc<str>, u32)>,
@@ -276,6 +271,17 @@ pub struct Variant {
     pub depth_only: bool,
     /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
     pub alpha_to_coverage: bool,
+}
+
+impl Variant {
+    /// Puts the name of each array in place of those of its elements, once: a shader is compiled for an array as a whole.
+    pub fn name_arrays(names: &mut Vec<Arc<str>>) {
+        if names.iter().any(|name| element_of(name).is_some()) {
+            names.iter_mut().for_each(|name| *name = declared_name(name).into());
+            let mut seen = HashSet::new();
+            names.retain(|name| seen.insert(name.clone()));
+        }
+    }
 }
 
 /// How the stages of a shader learn which eye they draw for.

@@ -150,6 +150,11 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
     let source = || texture("source", 0, false, Component::Float);
     let here = Stages::COMPUTE_SHADER;
     Some(match name {
+        "store_two" => {
+            let mut targets = storage_image("targets", Dimension::D2, Some(Format::R32_UINT), false);
+            targets.length = Some(2);
+            compute([8, 8, 1], vec![targets])
+        }
         "simulate" => compute(
             [64, 1, 1],
             vec![
@@ -294,6 +299,7 @@ impl ShaderInterfaces for Table {
                 params(&[("focus", "float"), ("spread", "float"), ("largest", "int")]),
                 of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
             ]),
+            "taps" => full_screen(vec![Binding { length: Some(3), ..texture("taps", 0, false, float) }]),
             "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
             "ambient_occlusion_blur" => full_screen(vec![source(), texture("depth", 1, false, float)]),
             "bloom_shrink" => full_screen(vec![source(), params(&[("partial", "uint")])]),
