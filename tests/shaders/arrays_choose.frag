@@ -4,13 +4,9 @@ layout(set = 0, binding = 3) uniform Params { int turn; } params;
 layout(location = 0) out vec4 color;
 
 void main() {
-    // Each pixel takes one of the elements; the loop's number is the same for all pixels.
-    int chosen = (int(gl_FragCoord.x) + params.turn) % 3;
-    color = vec4(0.0);
-    for (int number = 0; number < 3; number++) {
-        vec4 found = textureLod(taps[number], vec2(0.5), 0.0);
-        if (number == chosen) {
-            color = found;
-        }
-    }
+    // Not every device takes a number that changes for the number of an element.
+    vec4[3] found = vec4[](
+        textureLod(taps[0], vec2(0.5), 0.0), textureLod(taps[1], vec2(0.5), 0.0), textureLod(taps[2], vec2(0.5), 0.0)
+    );
+    color = found[(int(gl_FragCoord.x) + params.turn) % 3];
 }

@@ -1,7 +1,7 @@
 //! Devices that the program made itself: adopted, drawn with, and left to the program (EM-2). Shaders are held to the features that it
 //! switched on (EM-5).
 
-use crate::frames::{Shaders, Small, Uses, draw, frame, library, on_each_driver, planned, texels};
+use crate::frames::{Shaders, Small, Uses, draw, frame, indexing, lacks, library, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::vulkan::{Format, Subresources};
@@ -178,28 +178,21 @@ fn a_shader_that_needs_a_feature_which_is_not_switched_on_is_refused_with_its_na
             unsafe { raw.destroy_device(None) };
             said
         };
-        let lacks = |shader: &str, feature: &str| {
-            format!("pass `{shader}`: its shader needs the feature {feature}, which this device doesn't have")
-        };
-        let by_number = |features: &mut ByVersion| refused("number", &mut features.chain());
-        let dynamic = "shaderSampledImageArrayDynamicIndexing";
-        assert_eq!(by_number(&mut ByVersion::all()), lacks("number", dynamic));
-        let mut with = ByVersion::all();
-        with.core.shader_sampled_image_array_dynamic_indexing = vk::TRUE;
-        assert_eq!(by_number(&mut with), "");
-        let different = "shaderSampledImageArrayNonUniformIndexing";
-        assert_eq!(refused("each", &mut with.chain()), lacks("each", different));
-        let (instance, physical) = like.raw_physical();
-        let mut has = vk::PhysicalDeviceDescriptorIndexingFeatures::default();
-        let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut has);
-        // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
-        unsafe { instance.get_physical_device_features2(physical, &mut all) };
-        if has.shader_sampled_image_array_non_uniform_indexing == vk::TRUE {
-            with.v1_2.shader_sampled_image_array_non_uniform_indexing = vk::TRUE;
-            assert_eq!(refused("each", &mut with.chain()), "", "{}", like.summary().name);
-        } else {
-            eprintln!("SKIPPED: {} chooses by no number that differs within a draw", like.summary().name);
+        let [(dynamic, has_dynamic), (different, has_different)] = indexing(like);
+        assert_eq!(refused("number", &mut ByVersion::all().chain()), lacks("number", dynamic));
+        if !(has_dynamic && has_different) {
+            eprintln!("SKIPPED: {} can't choose so", like.summary().name);
+            return;
         }
+        let with = |different: bool| {
+            let mut features = ByVersion::all();
+            features.core.shader_sampled_image_array_dynamic_indexing = vk::TRUE;
+            features.v1_2.shader_sampled_image_array_non_uniform_indexing = different.into();
+            features
+        };
+        assert_eq!(refused("number", &mut with(false).chain()), "");
+        assert_eq!(refused("each", &mut with(false).chain()), lacks("each", different));
+        assert_eq!(refused("each", &mut with(true).chain()), "");
     });
 }
 

@@ -1,6 +1,6 @@
 //! Arrays of textures that a draw source brings along (EM-5).
 
-use crate::frames::{Small, Uses, dispatch, draw, on_each_driver, planned, texels};
+use crate::frames::{Small, Uses, dispatch, draw, indexing, lacks, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups};
 use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
@@ -22,6 +22,28 @@ const SHADERS: &[(&str, &str)] = &[
         layout(location = 0) in vec2 place;
         layout(location = 0) flat out uint instance;
         void main() { gl_Position = vec4(place, 0.0, 1.0); instance = gl_InstanceIndex; }",
+    ),
+    // Every device has numbers that are constants.
+    (
+        "by_constants.frag",
+        "#version 460
+        layout(location = 0) flat in uint instance;
+        layout(set = 2, binding = 3) uniform sampler2D textures[8];
+        layout(location = 0) out uint color;
+        float red[8];
+        void look(int number, float found) { red[number] = found; }
+        void main() {
+            vec2 uv = vec2(0.5);
+            look(0, texture(textures[0], uv).r);
+            look(1, texture(textures[1], uv).r);
+            look(2, texture(textures[2], uv).r);
+            look(3, texture(textures[3], uv).r);
+            look(4, texture(textures[4], uv).r);
+            look(5, texture(textures[5], uv).r);
+            look(6, texture(textures[6], uv).r);
+            look(7, texture(textures[7], uv).r);
+            color = uint(round(red[7 - int(gl_FragCoord.x)] * 255.0));
+        }",
     ),
     // The number is the same for all pixels of a draw.
     (
@@ -73,12 +95,9 @@ const SHADERS: &[(&str, &str)] = &[
         layout(set = 0, binding = 0, r32ui) uniform writeonly uimage2D target;
         layout(set = 2, binding = 3) uniform sampler2D textures[8];
         void main() {
-            for (int number = 0; number < 8; number++) {
-                float red = textureLod(textures[number], vec2(0.5), 0.0).r;
-                if (number == 7 - int(gl_LocalInvocationID.x)) {
-                    imageStore(target, ivec2(gl_LocalInvocationID.x, 0), uvec4(round(red * 255.0)));
-                }
-            }
+            uint at = gl_LocalInvocationID.x;
+            float red = at == 0 ? textureLod(textures[7], vec2(0.5), 0.0).r : textureLod(textures[3], vec2(0.5), 0.0).r;
+            imageStore(target, ivec2(at, 0), uvec4(round(red * 255.0)));
         }",
     ),
 ];
@@ -175,16 +194,12 @@ const BACKWARDS: [u32; 8] = [70, 60, 50, 40, 30, 20, 10, 0];
 #[test]
 fn each_pixel_shows_the_texture_of_its_number() {
     on_each_driver(|device| {
-        for shader in ["by_turns", "computed"] {
-            assert_eq!(row(device, shader).expect("every driver here has it"), BACKWARDS, "{shader}");
-        }
-        match row(device, "by_pixel") {
-            Ok(row) => assert_eq!(row, BACKWARDS),
-            Err(said) => assert_eq!(
-                said,
-                "pass `by_pixel`: its shader needs the feature shaderSampledImageArrayNonUniformIndexing, which this device \
-                 doesn't have"
-            ),
+        assert_eq!(row(device, "by_constants"), Ok(BACKWARDS.to_vec()));
+        assert_eq!(row(device, "computed"), Ok(vec![70, 30, 30, 30, 30, 30, 30, 30]));
+        for (shader, needed) in [("by_turns", 1), ("by_pixel", 2)] {
+            let lacking = indexing(device).iter().take(needed).find(|(_, there)| !there).map(|(name, _)| *name);
+            let expected = lacking.map_or_else(|| Ok(BACKWARDS.to_vec()), |name| Err(lacks(shader, name)));
+            assert_eq!(row(device, shader), expected);
         }
     });
 }
