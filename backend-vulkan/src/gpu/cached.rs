@@ -95,6 +95,8 @@ impl Default for SamplerDescriptor {
 pub(crate) struct LayoutBinding {
     pub(crate) binding: u32,
     pub(crate) ty: vk::DescriptorType,
+    /// How many descriptors it has: the elements of an array, else one.
+    pub(crate) count: u32,
     pub(crate) stages: vk::ShaderStageFlags,
 }
 

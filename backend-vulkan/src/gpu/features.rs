@@ -53,12 +53,28 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 ];
 
 /// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
-const OPTIONAL_FEATURES: [(&str, &str, Flag); 5] = [
+const OPTIONAL_FEATURES: [(&str, &str, Flag); 9] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
+    (
+        "shaderSampledImageArrayDynamicIndexing",
+        "elements of arrays of sampled images, by a number that changes",
+        |it| &mut it.core.shader_sampled_image_array_dynamic_indexing,
+    ),
+    (
+        "shaderStorageImageArrayDynamicIndexing",
+        "elements of arrays of storage images, by a number that changes",
+        |it| &mut it.core.shader_storage_image_array_dynamic_indexing,
+    ),
+    ("shaderSampledImageArrayNonUniformIndexing", "the same by a number that differs within a draw", |it| {
+        &mut it.v1_2.shader_sampled_image_array_non_uniform_indexing
+    }),
+    ("shaderStorageImageArrayNonUniformIndexing", "the same of storage images", |it| {
+        &mut it.v1_2.shader_storage_image_array_non_uniform_indexing
+    }),
 ];
 
 impl Features {
@@ -83,8 +99,8 @@ impl Features {
         Features { core, v1_1, v1_2, v1_3, local_read: local }
     }
 
-    /// The features that are switched on: the minimum, and beyond it cube arrays, what draws for two eyes at once, counts of
-    /// what is drawn, and local reads where the device has them.
+    /// The features that are switched on: the minimum, and beyond it what [`optional_features`] lists, and local
+    /// reads, where the device has them.
     pub(crate) fn used(has: &mut Features, local_read: bool) -> Features {
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
@@ -127,6 +143,17 @@ impl Features {
                     on.v1_2.host_query_reset = it.host_query_reset;
                     on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
                     on.v1_2.shader_output_layer = it.shader_output_layer;
+                    on.v1_2.shader_sampled_image_array_non_uniform_indexing =
+                        it.shader_sampled_image_array_non_uniform_indexing;
+                    on.v1_2.shader_storage_image_array_non_uniform_indexing =
+                        it.shader_storage_image_array_non_uniform_indexing;
+                }
+                Is::PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES => {
+                    let it = read!(PhysicalDeviceDescriptorIndexingFeatures);
+                    on.v1_2.shader_sampled_image_array_non_uniform_indexing =
+                        it.shader_sampled_image_array_non_uniform_indexing;
+                    on.v1_2.shader_storage_image_array_non_uniform_indexing =
+                        it.shader_storage_image_array_non_uniform_indexing;
                 }
                 Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
                     on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
@@ -177,6 +204,12 @@ impl Features {
     /// Features of the minimum that the device lacks, by Vulkan's names.
     pub(crate) fn missing(&mut self) -> Vec<&'static str> {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
+    }
+
+    /// Whether the optional feature of this name, Vulkan's, is switched on.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        let mut all = Features { core: self.core, v1_1: self.v1_1, v1_2: self.v1_2, ..Features::default() };
+        OPTIONAL_FEATURES.iter().any(|(known, _, flag)| *known == name && *flag(&mut all) == vk::TRUE)
     }
 
     /// Whether fragment shaders can read what their rendering scope drew.

@@ -22,13 +22,16 @@ pub(crate) enum DescriptorTarget {
 }
 
 impl DescriptorSet {
-    /// A set of these bindings. What they point to must outlive the set's use.
-    pub(crate) fn new(gpu: &Arc<Gpu>, bindings: &[(LayoutBinding, DescriptorTarget)]) -> Result<DescriptorSet, Error> {
+    /// A set of these bindings, with a target for each of their elements. What they point to must outlive the set's use.
+    pub(crate) fn new(
+        gpu: &Arc<Gpu>,
+        bindings: &[(LayoutBinding, Vec<DescriptorTarget>)],
+    ) -> Result<DescriptorSet, Error> {
         const DOING: &str = "creating a descriptor set";
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
         let sizes: Vec<_> = bindings
             .iter()
-            .map(|(binding, _)| vk::DescriptorPoolSize { ty: binding.ty, descriptor_count: 1 })
+            .map(|(binding, _)| vk::DescriptorPoolSize { ty: binding.ty, descriptor_count: binding.count })
             .collect();
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: the device lives.
@@ -39,28 +42,31 @@ impl DescriptorSet {
         // SAFETY: the pool was made for exactly this set.
         let sets = unsafe { gpu.raw.allocate_descriptor_sets(&info) }.map_err(Error::vulkan(DOING))?;
         set.raw = sets.first().copied().unwrap_or_default();
-        for (binding, target) in bindings {
-            set.write(*binding, *target);
+        for (binding, targets) in bindings {
+            for (element, target) in (0..).zip(targets) {
+                set.write(*binding, element, *target);
+            }
         }
         Ok(set)
     }
 
-    /// Has a binding point to something else. No frame in flight may read the set.
-    pub(crate) fn write(&mut self, binding: LayoutBinding, target: DescriptorTarget) {
+    /// Has an element of a binding point to something else. No frame in flight may read the set.
+    pub(crate) fn write(&mut self, binding: LayoutBinding, element: u32, target: DescriptorTarget) {
         let write = vk::WriteDescriptorSet::default()
             .dst_set(self.raw)
             .dst_binding(binding.binding)
+            .dst_array_element(element)
             .descriptor_type(binding.ty)
             .descriptor_count(1);
         match target {
             DescriptorTarget::Buffer(buffer) => {
                 let info = [vk::DescriptorBufferInfo { buffer, offset: 0, range: vk::WHOLE_SIZE }];
-                // SAFETY: the set is in no use, has this binding, and the buffer lives.
+                // SAFETY: the set is in no use, has this element, and the buffer lives.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
             }
             DescriptorTarget::Image(image_view, image_layout, sampler) => {
                 let info = [vk::DescriptorImageInfo { sampler, image_view, image_layout }];
-                // SAFETY: the set is in no use, has this binding, and view and sampler live.
+                // SAFETY: the set is in no use, has this element, and view and sampler live.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.image_info(&info)], &[]) };
             }
         }

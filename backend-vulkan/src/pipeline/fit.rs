@@ -3,61 +3,15 @@
 use crate::gpu::{Gpu, VertexAttribute};
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::shader::{BindingKind, DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, VertexInput};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, VertexInput};
 use framewright_graph::vulkan::Component;
 
-/// Checks the device's limits for one stage: the number of resources of each kind, and the size of a block. Resources that
-/// the draw source brings along count whether the shader reads them or not.
-pub(crate) fn check_limits(gpu: &Gpu, shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
-    let limits = &gpu.limits;
-    let bindings = &shader.bindings;
-    let count = |own: fn(&BindingKind) -> bool, supplied: Option<SuppliedKind>| {
-        bindings.iter().filter(|it| it.set == PASS_SET && own(&it.kind)).count()
-            + brought.supplied.iter().filter(|it| Some(it.kind) == supplied).count()
-    };
-    let sampled = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
-    let counts = [
-        (
-            "sampled images",
-            count(
-                |it| matches!(it, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_)),
-                Some(SuppliedKind::SampledImage),
-            ),
-            sampled,
-        ),
-        (
-            "storage images",
-            count(|it| matches!(it, BindingKind::StorageImage { .. }), None),
-            limits.max_per_stage_descriptor_storage_images,
-        ),
-        (
-            "uniform blocks",
-            count(|it| matches!(it, BindingKind::UniformBlock(_)), Some(SuppliedKind::UniformBlock)),
-            limits.max_per_stage_descriptor_uniform_buffers,
-        ),
-        (
-            "storage blocks",
-            count(|it| matches!(it, BindingKind::StorageBlock { .. }), Some(SuppliedKind::StorageBlock)),
-            limits.max_per_stage_descriptor_storage_buffers,
-        ),
-        (
-            "input attachments",
-            count(|it| matches!(it, BindingKind::InputAttachment { .. }), None),
-            limits.max_per_stage_descriptor_input_attachments,
-        ),
-    ];
-    if let Some((what, count, most)) = counts.into_iter().find(|(_, count, most)| *count > *most as usize) {
-        return Err(format!("{count} {what} are bound, and this device allows {most}"));
+/// The device must have the features that the shader needs.
+pub(crate) fn check_features(gpu: &Gpu, shader: &ShaderInterface) -> Result<(), String> {
+    match shader.features.iter().find(|name| !gpu.features.has(name)) {
+        None => Ok(()),
+        Some(name) => Err(format!("its shader needs the feature {name}, which this device doesn't have")),
     }
-    let block = bindings.iter().find_map(|it| match &it.kind {
-        BindingKind::UniformBlock(block) if block.bytes > limits.max_uniform_buffer_range => {
-            Some((&it.name, block.bytes))
-        }
-        _ => None,
-    });
-    block.map_or(Ok(()), |(name, bytes)| {
-        Err(format!("the block `{name}` takes {bytes} bytes, more than this device allows"))
-    })
 }
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.
@@ -67,14 +21,27 @@ pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) 
         if found.is_none_or(|it| !it.is(read)) {
             return Err(format!(
                 "the shader reads `{}` at set {}, binding {}, where this kind of draw brings along {}",
-                read.name,
+                array_words(&read.name, read.length),
                 read.set,
                 read.binding,
-                found.map_or("nothing".to_owned(), |it| format!("`{}`, a {:?}", it.name, it.kind)),
+                found.map_or("nothing".to_owned(), |it| format!("`{}`, {}", it.name, in_words(it))),
             ));
         }
     }
     Ok(())
+}
+
+/// A name as it is declared: of an array with its length.
+fn array_words(name: &str, length: Option<u32>) -> String {
+    length.map_or_else(|| name.to_owned(), |length| format!("{name}[{length}]"))
+}
+
+/// What a draw source brings along.
+fn in_words(supplied: &Supplied) -> String {
+    match supplied.count {
+        1 => format!("a {:?}", supplied.kind),
+        count => format!("{count} of the kind {:?}", supplied.kind),
+    }
 }
 
 /// Every colour attachment of the pass, by location, must be written in its own type: what a shader leaves out has undefined

@@ -25,7 +25,7 @@ impl Gpu {
                     vk::DescriptorSetLayoutBinding::default()
                         .binding(it.binding)
                         .descriptor_type(it.ty)
-                        .descriptor_count(1)
+                        .descriptor_count(it.count)
                         .stage_flags(it.stages)
                 })
                 .collect();

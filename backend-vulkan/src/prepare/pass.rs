@@ -10,7 +10,8 @@ use super::variant::{scope_formats, variant};
 use crate::base::Error;
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
 use crate::pipeline::{
-    brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
+    brought_attributes, check_brought, check_features, check_limits, check_outputs, check_supplied, check_workgroup,
+    own_attributes,
 };
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
@@ -188,7 +189,8 @@ pub(super) fn prepare_dispatch(
     let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
-    check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
+    check_features(gpu, &shader.interface).map_err(mismatch)?;
+    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
@@ -246,7 +248,8 @@ pub(super) fn prepare_draw(
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
-    check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
+    check_features(gpu, &shader.interface).map_err(mismatch)?;
+    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();

@@ -17,7 +17,8 @@ use std::sync::Arc;
 /// A pass's own descriptor sets with their bindings. Each frame's set points to the images and buffers of that frame.
 pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
-    bindings: Vec<(LayoutBinding, BoundResource)>,
+    /// With what is bound to each of their elements.
+    bindings: Vec<(LayoutBinding, Vec<BoundResource>)>,
     params: Option<(Block, Arc<RawBuffer>)>,
     /// `None` before the first frame.
     made: Option<RingCache<PassSet>>,
@@ -50,9 +51,9 @@ impl PassSets {
     ) -> Result<PassSets, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
-        let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
+        let bound = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
         let buffers = pass.buffers.iter().filter_map(|it| it.binding.as_ref());
-        if let Some(surplus) = images.chain(buffers).find(|bound| own().all(|it| *it.name != ***bound)) {
+        if let Some(surplus) = bound.chain(buffers).find(|bound| !own().any(|it| it.takes(bound))) {
             return Err(mismatch(format!("the shader has no `{surplus}`")));
         }
         let (mut bindings, mut params) = (Vec::new(), None);
@@ -62,14 +63,16 @@ impl PassSets {
                     if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
                 {
                     params = Some((block.clone(), filled(gpu, block, pass)?));
-                    (vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Params)
+                    (vk::DescriptorType::UNIFORM_BUFFER, vec![BoundResource::Params])
                 }
                 shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
-                    block(plan, pass, wanted).map_err(mismatch)?
+                    let (ty, bound) = block(plan, pass, wanted).map_err(mismatch)?;
+                    (ty, vec![bound])
                 }
-                _ => image(gpu, plan, pass, wanted).map_err(mismatch)?,
+                _ => images(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
-            bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
+            let (binding, count, stages) = (wanted.binding, wanted.count(), stages(wanted.stages));
+            bindings.push((LayoutBinding { binding, ty, count, stages }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
         Ok(PassSets { layout, bindings, params, made: None })
@@ -104,10 +107,10 @@ impl PassSets {
             return Ok(None);
         }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
-        let resources = bindings.iter().filter_map(|(_, bound)| match bound {
+        let resources = bindings.iter().flat_map(|(_, elements)| elements).filter_map(|bound| match *bound {
             BoundResource::Params => None,
-            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
-            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(image)),
         });
         let made = self.made.get_or_insert_with(|| RingCache::new(frame.physical.period(resources)));
         made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
@@ -117,30 +120,33 @@ impl PassSets {
 impl PassSet {
     fn new(
         frame: &Frame<'_>,
-        bindings: &[(LayoutBinding, BoundResource)],
+        bindings: &[(LayoutBinding, Vec<BoundResource>)],
         params: Option<&Arc<RawBuffer>>,
     ) -> Result<PassSet, Error> {
         let (mut images, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
-        for (binding, bound) in bindings {
-            let target = match bound {
-                BoundResource::Params => {
-                    let Some(params) = params else { continue };
-                    buffers.push(params.clone());
-                    DescriptorTarget::Buffer(params.raw)
-                }
-                BoundResource::Buffer(buffer) => {
-                    let buffer = frame.buffer(*buffer);
-                    buffers.push(buffer.clone());
-                    DescriptorTarget::Buffer(buffer.raw)
-                }
-                BoundResource::Image { image, range, shape, layout, sampler } => {
-                    let image = frame.image(*image);
-                    images.push(image.clone());
-                    let sampler = sampler.map(|it| frame.gpu.sampler(it.into(), it.compare)).transpose()?;
-                    DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
-                }
-            };
-            targets.push((*binding, target));
+        for (binding, elements) in bindings {
+            let mut pointed_to = Vec::with_capacity(elements.len());
+            for bound in elements {
+                pointed_to.push(match bound {
+                    BoundResource::Params => {
+                        let Some(params) = params else { continue };
+                        buffers.push(params.clone());
+                        DescriptorTarget::Buffer(params.raw)
+                    }
+                    BoundResource::Buffer(buffer) => {
+                        let buffer = frame.buffer(*buffer);
+                        buffers.push(buffer.clone());
+                        DescriptorTarget::Buffer(buffer.raw)
+                    }
+                    BoundResource::Image { image, range, shape, layout, sampler } => {
+                        let image = frame.image(*image);
+                        images.push(image.clone());
+                        let sampler = sampler.map(|it| frame.gpu.sampler(it.into(), it.compare)).transpose()?;
+                        DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
+                    }
+                });
+            }
+            targets.push((*binding, pointed_to));
         }
         let set = DescriptorSet::new(frame.gpu, &targets)?;
         Ok(PassSet { set, _images: images, _buffers: buffers })
@@ -207,21 +213,40 @@ fn only_read(name: &str, writable: bool, accesses: Accesses) -> Result<(), Strin
     Ok(())
 }
 
-/// The part of an image that is bound, in the shape that the shader declares.
+/// The parts of images that are bound: one, or one for each element of an array.
+fn images(
+    gpu: &Gpu,
+    plan: &Plan,
+    pass: &plan::Pass,
+    wanted: &shader::Binding,
+) -> Result<(vk::DescriptorType, Vec<BoundResource>), String> {
+    let (mut ty, mut bound) = (vk::DescriptorType::default(), Vec::new());
+    for element in 0..wanted.count() {
+        let (of_element, resource) = image(gpu, plan, pass, wanted, &wanted.element(element))?;
+        ty = of_element;
+        bound.push(resource);
+    }
+    Ok((ty, bound))
+}
+
+/// The part of an image that is bound to `name`, in the shape that the shader declares.
 fn image(
     gpu: &Gpu,
     plan: &Plan,
     pass: &plan::Pass,
     wanted: &shader::Binding,
+    name: &str,
 ) -> Result<(vk::DescriptorType, BoundResource), String> {
-    let name = &wanted.name;
     let bound = pass.accesses.iter().find_map(|it| {
-        let binding = it.binding.as_ref().filter(|binding| *binding.name == **name)?;
+        let binding = it.binding.as_ref().filter(|binding| *binding.name == *name)?;
         Some((it, binding.kind))
     });
     let (access, kind) = bound.ok_or_else(|| format!("nothing is bound to `{name}`"))?;
     in_stages(wanted, access.stages)?;
     let image = plan.image(access.image);
+    if wanted.length.is_some() && image.eyes.is_some() {
+        return Err(format!("`{name}` holds both eyes' parts, and no element of an array can"));
+    }
     let mut range = part(image, access.range);
     if let (Some(EyeForm::Layers), Some(eye)) = (image.eyes, access.eye) {
         range = Subresources { base_layer: eye as u32, layers: 1, ..range };

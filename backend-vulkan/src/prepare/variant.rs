@@ -34,10 +34,12 @@ pub(super) fn variant(plan: &Plan, pass: &plan::Pass, form: Option<EyeForm>) -> 
     let components = components.collect();
     let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
     let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
+    let mut sampled: Vec<_> = sampled.map(|binding| binding.name.clone()).collect();
+    Variant::name_arrays(&mut sampled);
     let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
     Ok(Variant {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
-        sampled: sampled.map(|binding| binding.name.clone()).collect(),
+        sampled,
         components,
         parts,
         eye,

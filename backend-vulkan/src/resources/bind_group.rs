@@ -5,9 +5,9 @@ use super::texture::{Buffer, Texture};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, LayoutBinding};
 use crate::memory::RawBuffer;
-use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought};
+use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought, check_limits};
 use ash::vk;
-use framewright_graph::shader::{DrawInterface, PASS_SET, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The stages that see what a draw source brings along.
@@ -26,6 +26,19 @@ pub enum Resource<'r> {
     Dynamic(&'r DynamicBuffer),
     /// For a sampled image.
     Texture(&'r Texture),
+    /// For an array of sampled images: as many as the draw interface says.
+    Textures(&'r [Texture]),
+}
+
+impl<'r> Resource<'r> {
+    /// Its textures, if it is some.
+    const fn textures(&self) -> &'r [Texture] {
+        match self {
+            Resource::Texture(one) => std::slice::from_ref(*one),
+            Resource::Textures(all) => all,
+            Resource::Buffer(_) | Resource::Dynamic(_) => &[],
+        }
+    }
 }
 
 /// A descriptor set from 1 on, filled with what the draw source provides. Clones share it; it keeps what it holds.
@@ -56,7 +69,8 @@ struct SetOfCopies {
 
 /// What a binding of a group points to.
 enum Bound {
-    Target(DescriptorTarget),
+    /// One target for each element.
+    Targets(Vec<DescriptorTarget>),
     Dynamic(DynamicBuffer),
 }
 
@@ -73,7 +87,7 @@ impl RawBindGroup {
             Sets::Each { bindings, .. } => bindings,
         };
         bindings.iter().filter_map(|(_, bound)| match bound {
-            Bound::Target(_) => None,
+            Bound::Targets(_) => None,
             Bound::Dynamic(buffer) => Some(buffer),
         })
     }
@@ -117,8 +131,8 @@ impl SetOfCopies {
         let copies: Vec<_> = copies.iter().map(|copy| copy.raw).collect();
         let mut left = copies.iter();
         let bindings = bindings.iter().map(|(binding, bound)| match bound {
-            Bound::Target(target) => (*binding, *target),
-            Bound::Dynamic(_) => (*binding, DescriptorTarget::Buffer(left.next().copied().unwrap_or_default())),
+            Bound::Targets(targets) => (*binding, targets.clone()),
+            Bound::Dynamic(_) => (*binding, vec![DescriptorTarget::Buffer(left.next().copied().unwrap_or_default())]),
         });
         let set = Arc::new(DescriptorSet::new(gpu, &bindings.collect::<Vec<_>>())?);
         Ok(SetOfCopies { copies, set })
@@ -130,7 +144,7 @@ impl SetOfCopies {
         let dynamic = bindings.iter().filter(|(_, bound)| matches!(bound, Bound::Dynamic(_)));
         for (((binding, _), copy), kept) in dynamic.zip(copies).zip(&mut self.copies) {
             *kept = copy.raw;
-            set.write(*binding, DescriptorTarget::Buffer(copy.raw));
+            set.write(*binding, 0, DescriptorTarget::Buffer(copy.raw));
         }
         true
     }
@@ -153,6 +167,8 @@ impl Device {
         }
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
+        let of_set = supplied.iter().copied();
+        check_limits(&self.gpu.limits, &ShaderInterface::default(), of_set).map_err(bad)?;
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {
@@ -162,6 +178,7 @@ impl Device {
             Resource::Buffer(buffer) => buffer.0.is_of(&self.gpu),
             Resource::Dynamic(buffer) => buffer.0.is_of(&self.gpu),
             Resource::Texture(texture) => texture.0.image.is_of(&self.gpu),
+            Resource::Textures(textures) => textures.iter().all(|it| it.0.image.is_of(&self.gpu)),
         };
         if !resources.iter().all(|(_, resource)| is_own(resource)) {
             return Err(bad("a resource belongs to another device".to_owned()));
@@ -180,24 +197,30 @@ impl Device {
             let bound = match (wanted.kind, &given[..]) {
                 (_, [Resource::Buffer(it)]) if flags.is_some_and(|flags| it.0.usage.contains(flags)) => {
                     buffers.push((*it).clone());
-                    Bound::Target(DescriptorTarget::Buffer(it.0.raw))
+                    Bound::Targets(vec![DescriptorTarget::Buffer(it.0.raw)])
                 }
                 (_, [Resource::Dynamic(it)]) if flags.is_some_and(|flags| it.0.flags.contains(flags)) => {
                     Bound::Dynamic((*it).clone())
                 }
-                (SuppliedKind::SampledImage, [Resource::Texture(it)]) => {
-                    textures.push((*it).clone());
+                (SuppliedKind::SampledImage, [it @ (Resource::Texture(_) | Resource::Textures(_))]) => {
+                    let these = it.textures();
+                    if these.len() as u64 != u64::from(wanted.count) {
+                        let (count, given) = (wanted.count, these.len());
+                        return Err(bad(format!("`{name}` takes {count} textures and was given {given}")));
+                    }
+                    textures.extend_from_slice(these);
                     let layout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-                    Bound::Target(DescriptorTarget::Image(it.0.view, layout, it.0.sampler))
+                    let target = |it: &Texture| DescriptorTarget::Image(it.0.view, layout, it.0.sampler);
+                    Bound::Targets(these.iter().map(target).collect())
                 }
                 (kind, [_]) => return Err(bad(format!("`{name}` is a {kind:?}, and something else was given"))),
                 (_, given) => return Err(bad(format!("`{name}` is needed once and was given {} times", given.len()))),
             };
-            bindings.push((layout_binding(wanted.binding, wanted.kind), bound));
+            bindings.push((layout_binding(wanted), bound));
         }
         let layout = self.gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
         let fixed: Option<Vec<_>> =
-            bindings.iter().map(|(binding, bound)| bound.target().map(|it| (*binding, it))).collect();
+            bindings.iter().map(|(binding, bound)| bound.targets().map(|it| (*binding, it.to_vec()))).collect();
         let sets = match fixed {
             Some(fixed) => Sets::One { set: DescriptorSet::new(&self.gpu, &fixed)?, _buffers: buffers },
             None => Sets::Each { bindings, made: Mutex::default(), _buffers: buffers },
@@ -208,9 +231,9 @@ impl Device {
 
 impl Bound {
     /// What it always points to.
-    const fn target(&self) -> Option<DescriptorTarget> {
+    fn targets(&self) -> Option<&[DescriptorTarget]> {
         match self {
-            Bound::Target(target) => Some(*target),
+            Bound::Targets(targets) => Some(targets),
             Bound::Dynamic(_) => None,
         }
     }
@@ -218,13 +241,13 @@ impl Bound {
 
 /// Every set from 1 on is visible in all stages, so that all shaders of a kind of draw share its layout, and kinds that bring the
 /// same share bind groups.
-fn layout_binding(binding: u32, kind: SuppliedKind) -> LayoutBinding {
-    let ty = match kind {
+fn layout_binding(supplied: &Supplied) -> LayoutBinding {
+    let ty = match supplied.kind {
         SuppliedKind::UniformBlock => vk::DescriptorType::UNIFORM_BUFFER,
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,
         SuppliedKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     };
-    LayoutBinding { binding, ty, stages: SUPPLIED_STAGES }
+    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: SUPPLIED_STAGES }
 }
 
 /// The layouts of the sets from 1 on that `interface` brings along, without gaps.
@@ -233,7 +256,7 @@ pub(crate) fn supplied_layouts(gpu: &Gpu, interface: &DrawInterface) -> Result<V
     (PASS_SET + 1..=last)
         .map(|set| {
             let of_set = interface.supplied.iter().filter(|it| it.set == set);
-            gpu.set_layout(of_set.map(|it| layout_binding(it.binding, it.kind)).collect())
+            gpu.set_layout(of_set.map(layout_binding).collect())
         })
         .collect()
 }

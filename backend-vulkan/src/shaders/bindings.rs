@@ -43,7 +43,15 @@ pub(super) fn bindings(
             continue;
         }
         let Some(ty) = module.pointee(instruction) else { continue };
-        let kind = kind(module, variable, instruction, ty);
+        let (element, length) = element(module, ty);
+        let kind = match (element, length) {
+            (Some(element), length) => match kind(module, variable, instruction, element) {
+                one if length.is_none() => one,
+                one => elements(one),
+            },
+            (None, _) => endless(),
+        };
+        let length = length.filter(|_| !matches!(kind, BindingKind::Other(_)));
         if stage == ShaderStage::Vertex && writes(&kind) {
             let name = module.name(variable);
             let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
@@ -51,7 +59,7 @@ pub(super) fn bindings(
         }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
-        bindings.push(Binding { set, binding, name: name.to_owned(), kind, adapts: false, stages });
+        bindings.push(Binding { set, binding, name: name.to_owned(), kind, length, adapts: false, stages });
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
@@ -76,10 +84,7 @@ fn writes(kind: &BindingKind) -> bool {
 /// Kind and shape of a resource of type `ty`.
 fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
     match (ty.class.opcode, storage_class(instruction)) {
-        (Op::TypeArray | Op::TypeRuntimeArray, _) => other(
-            "an array of resources",
-            "give each a name of its own; layers of one image are sampled by a `sampler2DArray`",
-        ),
+        (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of arrays", "declare one array"),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
             Some(image) => {
                 let compares = image.operands.get(2).and_then(number) == Some(1);
@@ -120,6 +125,34 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
         }
         (opcode, _) => other(&format!("an {opcode:?} of SPIR-V"), "declare an image or a block"),
     }
+}
+
+/// The type of the elements of an array, and how many they are; else the type itself. `None`: nothing tells how many.
+fn element<'m>(module: &IndexedModule<'m>, ty: &'m Instruction) -> (Option<&'m Instruction>, Option<u32>) {
+    let element = || id(ty, 0).and_then(|element| module.global(element));
+    match ty.class.opcode {
+        Op::TypeArray => match module.array_length(ty) {
+            0 => (None, None),
+            length => (element(), Some(length)),
+        },
+        Op::TypeRuntimeArray => (None, None),
+        _ => (Some(ty), None),
+    }
+}
+
+/// The kind of an array whose elements are of a kind.
+fn elements(of: BindingKind) -> BindingKind {
+    match of {
+        BindingKind::UniformBlock(_) | BindingKind::StorageBlock { .. } => {
+            other("an array of blocks", "declare one storage block that holds an array")
+        }
+        BindingKind::InputAttachment { .. } => other("an array of input attachments", "give each a name of its own"),
+        image => image,
+    }
+}
+
+fn endless() -> BindingKind {
+    other("an array of unknown length", "write how many elements it has: `uniform sampler2D textures[64];`")
 }
 
 /// A binding that no pass can give, and the declaration to write instead.

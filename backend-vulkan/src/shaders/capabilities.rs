@@ -7,7 +7,7 @@ use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
 /// Capabilities that every stage may need: those of the minimum device, and the ones with a remark below.
-const EVERYWHERE: [Capability; 15] = [
+const EVERYWHERE: [Capability; 16] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::Sampled1D,
@@ -27,6 +27,17 @@ const EVERYWHERE: [Capability; 15] = [
     // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
     // device's choice.
     Capability::StorageImageExtendedFormats,
+    // It allows what one of `OF_DEVICES` asks for.
+    Capability::ShaderNonUniform,
+];
+
+/// Capabilities that every stage may need on devices that have the feature of this name: elements of arrays that are chosen by a
+/// number that changes, from draw to draw, or from pixel to pixel (`nonuniformEXT`).
+const OF_DEVICES: [(Capability, &str); 4] = [
+    (Capability::SampledImageArrayDynamicIndexing, "shaderSampledImageArrayDynamicIndexing"),
+    (Capability::StorageImageArrayDynamicIndexing, "shaderStorageImageArrayDynamicIndexing"),
+    (Capability::SampledImageArrayNonUniformIndexing, "shaderSampledImageArrayNonUniformIndexing"),
+    (Capability::StorageImageArrayNonUniformIndexing, "shaderStorageImageArrayNonUniformIndexing"),
 ];
 
 /// Capabilities that only compute shaders may need: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
@@ -102,13 +113,29 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         "gathers with offsets that vary or differ: use `textureGatherOffset` with a constant, or `texelFetch`",
     ),
     (
+        &[Capability::RuntimeDescriptorArray],
+        &["nonuniformEXT", "GL_EXT_nonuniform_qualifier"],
+        "an array of images whose length isn't written: write it, as in `uniform sampler2D textures[64];`",
+    ),
+    (
+        &[
+            Capability::UniformBufferArrayDynamicIndexing,
+            Capability::UniformBufferArrayNonUniformIndexing,
+            Capability::StorageBufferArrayDynamicIndexing,
+            Capability::StorageBufferArrayNonUniformIndexing,
+        ],
+        &["uniform", "buffer"],
+        "an array of blocks: write an array into one storage block",
+    ),
+    (
         &[Capability::StorageImageMultisample, Capability::ImageMSArray],
         &["image2DMS", "uimage2DMS", "iimage2DMS"],
         "storage images with several samples: sample them by a `sampler2DMS`",
     ),
 ];
 
-/// Refuses what isn't supported, with the words that need it and what to write instead.
+/// Refuses what isn't supported, with the words that need it and what to write instead. Returns the features that a device must have,
+/// by Vulkan's names.
 ///
 /// # Errors
 /// The first capability that a stage needs and may not.
@@ -116,19 +143,22 @@ pub(super) fn check_capabilities(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     both_eyes: bool,
-) -> Result<(), Refused> {
+) -> Result<Vec<&'static str>, Refused> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
     });
+    let feature = |it: &Capability| OF_DEVICES.iter().find(|(capability, _)| capability == it).map(|(_, name)| *name);
+    let features = needed.clone().filter_map(|it| feature(&it)).collect();
     let allowed = |it: &Capability| {
         EVERYWHERE.contains(it)
+            || feature(it).is_some()
             || stage == ShaderStage::Compute && COMPUTE.contains(it)
             || both_eyes && FOR_BOTH_EYES.contains(it)
     };
     // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.
     let Some(capability) = needed.filter(|it| !allowed(it)).max_by_key(|it| *it != Capability::GroupNonUniform) else {
-        return Ok(());
+        return Ok(features);
     };
     let needs = |what: &str| format!("it needs SPIR-V's capability {capability:?}, which isn't supported{what}");
     Err(match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {

@@ -142,6 +142,7 @@ impl Layers {
                 ids.insert(old, self.builder.id());
             }
         });
+        self.decorate_alike(&ids);
         ids.extend(function.def.as_ref().and_then(|def| def.result_id).map(|old| (old, name)));
         all(&mut function, &mut |it| {
             it.result_id = it.result_id.map(|old| ids[&old]);
@@ -160,6 +161,20 @@ impl Layers {
             }
         }
         function
+    }
+
+    /// Decorates new values as the old ones are, by old value: a number that differs from pixel to pixel says so.
+    fn decorate_alike(&mut self, ids: &HashMap<u32, u32>) {
+        let annotations = &mut self.builder.module_mut().annotations;
+        let of_copies: Vec<Instruction> = annotations
+            .iter()
+            .filter_map(|it| {
+                let mut copy = it.clone();
+                *copy.operands.first_mut()? = Operand::IdRef(*ids.get(&id(it, 0)?)?);
+                Some(copy)
+            })
+            .collect();
+        annotations.extend(of_copies);
     }
 
     /// A function in which what is `known` to be in layers, and what comes of it, is looked up so.

@@ -262,6 +262,8 @@ impl ShaderLibrary {
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_));
+            // An array is declared as it is, and isn't told of parts.
+            let sampled = sampled && binding.length.is_none();
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
             if sampled && mentioned.parts.contains(&binding.name) {
                 reflected.interface.asks_part.push(binding.name.clone());

@@ -8,6 +8,7 @@ mod compile;
 mod compilers;
 mod eyes;
 mod files;
+mod indexing;
 mod layers;
 mod library;
 mod macros;

@@ -4,8 +4,8 @@ use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
-use super::rotation;
 use super::text::Refused;
+use super::{indexing, rotation};
 use crate::process::ShaderStage;
 use framewright_graph::shader::{FragmentOutput, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
@@ -60,7 +60,10 @@ pub(super) fn reflect(
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == ShaderStage::Fragment;
-    check_capabilities(&module, stage, both_eyes)?;
+    let mut features = check_capabilities(&module, stage, both_eyes)?;
+    features.extend(indexing::features(&module));
+    features.sort_unstable();
+    features.dedup();
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
@@ -90,6 +93,7 @@ pub(super) fn reflect(
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
+        features,
     };
     let input_attachments = module
         .variables()

@@ -47,7 +47,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
     for binding in &vertex.reflected.interface.bindings {
         match joined.bindings.iter_mut().find(|it| (it.set, it.binding) == (binding.set, binding.binding)) {
             None => joined.bindings.push(binding.clone()),
-            Some(same) if same.name == binding.name && same.kind == binding.kind => {
+            Some(same) if (&same.name, &same.kind, same.length) == (&binding.name, &binding.kind, binding.length) => {
                 same.stages |= binding.stages;
                 same.adapts &= binding.adapts;
             }
@@ -63,6 +63,9 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
         vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
     );
     joined.unturned.sort_unstable();
+    joined.features.extend(&vertex.reflected.interface.features);
+    joined.features.sort_unstable();
+    joined.features.dedup();
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
     // Each stage that samples an image must ask.
     let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());

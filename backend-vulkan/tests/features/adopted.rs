@@ -1,6 +1,7 @@
-//! Devices that the program made itself: adopted, drawn with, and left to the program (EM-2).
+//! Devices that the program made itself: adopted, drawn with, and left to the program (EM-2). Shaders are held to the features that it
+//! switched on (EM-5).
 
-use crate::frames::{Small, Uses, draw, frame, library, on_each_driver, planned, texels};
+use crate::frames::{Shaders, Small, Uses, draw, frame, indexing, lacks, library, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::vulkan::{Format, Subresources};
@@ -82,6 +83,11 @@ fn adopted(
     unsafe { Device::adopt(&program, None) }
 }
 
+/// One in each texel.
+const WHOLE_ONE: &str = "#version 460
+    layout(location = 0) out uint color;
+    void main() { color = 1; }";
+
 /// Draws a number into each texel.
 fn numbers() -> Frame {
     let mut small = Small::default();
@@ -131,6 +137,66 @@ fn a_device_of_the_program_draws_and_stays_the_programs() {
         let features = features.push_next(&mut timeline).push_next(&mut queries).push_next(&mut layouts);
         let features = features.push_next(&mut rendering).push_next(&mut barriers).push_next(&mut needs);
         draws_with(like, &mut features.push_next(&mut demote).push_next(&mut terminate));
+    });
+}
+
+/// Chooses among the elements of an array: by a number that is the same for all pixels, or by another one in each.
+const CHOOSES: Shaders = &[
+    (
+        "number.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform usampler2D taps[2];
+        layout(location = 0) out uint color;
+        void main() { color = 0; for (int at = 0; at < 2; at++) { color += texelFetch(taps[at], ivec2(0), 0).r; } }",
+    ),
+    (
+        "each.frag",
+        "#version 460
+        #extension GL_EXT_nonuniform_qualifier : require
+        layout(set = 0, binding = 0) uniform usampler2D taps[2];
+        layout(location = 0) out uint color;
+        void main() { color = texelFetch(taps[nonuniformEXT(int(gl_FragCoord.x) % 2)], ivec2(0), 0).r; }",
+    ),
+];
+
+#[test]
+fn a_shader_that_needs_a_feature_which_is_not_switched_on_is_refused_with_its_name() {
+    on_each_driver(|like| {
+        let refused = |shader: &str, features: &mut vk::PhysicalDeviceFeatures2<'_>| {
+            let raw = made(like, features);
+            let device = adopted(like, &raw, features, &[0], None).expect("it has all that is needed");
+            let mut small = Small::default();
+            let [tap, numbers] = ["tap", "numbers"].map(|name| small.image(name, Format::R32_UINT, [2, 2]));
+            small.pass(draw("tap", Draw::FullScreen).draws(tap, Subresources::WHOLE, None));
+            let pass = ["taps[0]", "taps[1]"]
+                .into_iter()
+                .fold(draw(shader, Draw::FullScreen), |pass, name| pass.samples(name, tap, Subresources::WHOLE));
+            small.pass(pass.draws(numbers, Subresources::WHOLE, None));
+            small.image_output(numbers);
+            let plan = planned(&device, &small.frame, &Options::default());
+            let mut shaders = library(&[CHOOSES, &[("tap.frag", WHOLE_ONE)]].concat().leak()[..]);
+            let executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default());
+            let said = executor.err().map(|error| error.to_string()).unwrap_or_default();
+            drop(device);
+            // SAFETY: nothing made from it is left.
+            unsafe { raw.destroy_device(None) };
+            said
+        };
+        let [(dynamic, has_dynamic), (different, has_different)] = indexing(like);
+        assert_eq!(refused("number", &mut ByVersion::all().chain()), lacks("number", dynamic));
+        if !(has_dynamic && has_different) {
+            eprintln!("SKIPPED: {} can't choose so", like.summary().name);
+            return;
+        }
+        let with = |different: bool| {
+            let mut features = ByVersion::all();
+            features.core.shader_sampled_image_array_dynamic_indexing = vk::TRUE;
+            features.v1_2.shader_sampled_image_array_non_uniform_indexing = different.into();
+            features
+        };
+        assert_eq!(refused("number", &mut with(false).chain()), "");
+        assert_eq!(refused("each", &mut with(false).chain()), lacks("each", different));
+        assert_eq!(refused("each", &mut with(true).chain()), "");
     });
 }
 

@@ -12,6 +12,7 @@ use framewright_graph::shader::DrawInterface;
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Aspects, Format, Stages, Subresources};
 use framewright_tests::drivers::Driver;
+use framewright_vulkan::ash::vk;
 use framewright_vulkan::raw_window_handle::RawDisplayHandle;
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,
@@ -327,6 +328,27 @@ impl<F: FnMut(&mut CustomRecorder<'_>)> DrawSource for Custom<F> {
         (self.0)(recorder);
         Ok(())
     }
+}
+
+/// The features that let shaders choose elements of an array of sampled images by numbers that change, and by those that differ within
+/// a draw: Vulkan's names, and whether the device has them.
+pub(crate) fn indexing(device: &Device) -> [(&'static str, bool); 2] {
+    let (instance, physical) = device.raw_physical();
+    let mut more = vk::PhysicalDeviceDescriptorIndexingFeatures::default();
+    let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut more);
+    // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
+    unsafe { instance.get_physical_device_features2(physical, &mut all) };
+    let dynamic = all.features.shader_sampled_image_array_dynamic_indexing;
+    let different = more.shader_sampled_image_array_non_uniform_indexing;
+    [
+        ("shaderSampledImageArrayDynamicIndexing", dynamic == vk::TRUE),
+        ("shaderSampledImageArrayNonUniformIndexing", different == vk::TRUE),
+    ]
+}
+
+/// What is said of a shader that needs a feature.
+pub(crate) fn lacks(shader: &str, feature: &str) -> String {
+    format!("pass `{shader}`: its shader needs the feature {feature}, which this device doesn't have")
 }
 
 /// Draws one frame.

@@ -1,4 +1,4 @@
-//! A pipeline for an engine with draws of its own, checked against the file that the engine writes.
+//! A pipeline for an engine with draws of its own, checked against the file that the engine writes (EM-5).
 
 use crate::testing::{Outcome, Place, Vulkan, repository};
 
@@ -85,6 +85,32 @@ fn what_the_interface_does_not_bring_is_a_mistake_of_the_pipeline_with_a_near_na
         .exits(1)
         .mentions("error: shader `grass` uses `camera` (set 1, binding 0), which the draw source doesn't bring along")
         .mentions("engine.ron:19:48");
+}
+
+#[test]
+fn a_shader_declares_at_most_as_many_textures_as_the_interface_brings() {
+    let place = engine();
+    let textures = r#"(name: "textures", set: 2, binding: 3, kind: SampledImage, count: 16),
+                (name: "materials","#;
+    replace(&place, "interface.ron", r#"(name: "materials","#, textures);
+    let check = |length: &str| {
+        let text = format!(
+            "#version 460\n#extension GL_EXT_nonuniform_qualifier : enable\n\
+            layout(location = 0) in vec3 tint_of_vertex;\n\
+            layout(set = 2, binding = 3) uniform sampler2D textures{length};\n\
+            layout(location = 0) out vec4 color;\n\
+            void main() {{ color = texture(textures[int(tint_of_vertex.x)], vec2(0.5)); }}\n"
+        );
+        place.file("terrain.frag", text);
+        place.run(&["check", "engine.ron", "--interface", "interface.ron"])
+    };
+    check("[16]").exits(0);
+    check("[3]").exits(0);
+    let said =
+        "shader `terrain` uses `textures` (set 2, binding 3) as an array of 17, and the draw source brings along 16";
+    check("[17]").exits(1).mentions(said).mentions("engine.ron:15:58").mentions("declare at most 16");
+    let endless = check("[]").exits(1).err;
+    assert!(endless.contains("an array of images whose length isn't written: write it, as in"), "{endless}");
 }
 
 #[test]

@@ -81,3 +81,25 @@ fn a_file_that_is_no_spirv_and_a_folder_that_is_none_are_told() {
     check_without_compiler(&place).exits(1).mentions("shader `fill` can't be used");
     place.run(&["check", "p.ron", "--precompiled", "p.ron"]).exits(1).mentions("the precompiled shader p.ron/");
 }
+
+#[test]
+fn a_shader_with_an_array_of_images_is_compiled_ahead_as_any_is() {
+    let place = place();
+    place.file(
+        "p.ron",
+        "Pipeline(version: 1, images: [(name: \"a\", format: R8_UNORM, size: Output), \
+            (name: \"b\", format: R8_UNORM, size: Output), (name: \"screen\", format: Output, size: Output)],
+         passes: [(name: \"begin\", fill: (to: \"a\", value: 0)), (name: \"also\", fill: (to: \"b\", value: 1)),
+            (name: \"show\", draw: FullScreen(\"taps\"), sample: {\"taps\": [\"a\", \"b\"]}, color: [\"screen\"])],
+         outputs: [\"screen\"])",
+    );
+    let text = "#version 460\n#ifdef HAS_taps\nlayout(set = 0, binding = 0) uniform sampler2D taps[2];\n#endif\n\
+        layout(location = 0) out vec4 color;\nvoid main() { color = texture(taps[1], vec2(0.5)); }\n";
+    place.file("taps.frag", text);
+    place.run(&CHECK).exits(0);
+    check_without_compiler(&place).exits(0);
+    let inspected = place.run(&["inspect", "p.ron"]).exits(0).out;
+    for line in ["taps[0] = `a`, sampled, LINEAR", "taps[1] = `b`, sampled, LINEAR"] {
+        assert!(inspected.contains(line), "`{line}` is not in\n{inspected}");
+    }
+}

@@ -23,11 +23,11 @@ fn check(place: &Place, (file, text): (&str, &str), pass: &str, arguments: &[&st
 }
 
 #[test]
-fn arrays_of_samplers_are_not_supported_and_the_shaders_line_is_named() {
+fn arrays_that_no_pass_can_give_are_not_supported_and_the_shaders_line_is_named() {
     let pass = r#"(name: "look", draw: FullScreen("looks"), sample: {"map": "kept"}, color: ["screen"]),"#;
     for (declared, what, instead) in [
-        ("sampler2D map[2]", "an array of resources", "give each a name of its own"),
-        ("sampler2DShadow map[2]", "an array of resources", "give each a name of its own"),
+        ("sampler2D map[2][3]", "an array of arrays", "declare one array"),
+        ("Blocks { vec4 value; } map[2]", "an array of blocks", "declare one storage block that holds an array"),
     ] {
         let text = format!(
             "#version 460\nlayout(set = 0, binding = 0) uniform {declared};\n\

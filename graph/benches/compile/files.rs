@@ -77,6 +77,7 @@ impl ShaderInterfaces for FullScreen {
             binding: 0,
             name: "source".to_owned(),
             kind: BindingKind::SampledImage(shape),
+            length: None,
             adapts: false,
             stages: Stages::FRAGMENT_SHADER,
         };

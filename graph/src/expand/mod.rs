@@ -6,6 +6,7 @@
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
 mod accesses;
+mod arrays;
 mod casters;
 mod compared;
 mod decided;

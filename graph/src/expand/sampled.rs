@@ -4,11 +4,11 @@ use super::images::FrameImage;
 use super::parts::{self, Cells};
 use super::resources::Resources;
 use super::shader::{self, component_words, shape_words};
-use super::{compared, storage, variant};
+use super::{arrays, compared, storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
 use crate::language::{self, Face};
-use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface};
+use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
 use crate::vulkan::{AddressMode, Aspects, Component, Dimension, Filter, ImageShape, Sampler, Shape, Subresources};
 
 /// A sampled image as its shader declares it.
@@ -25,8 +25,7 @@ struct Declared {
 
 /// The shader's declaration of the sampled image `name`.
 fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
-    let mut all = interface.bindings.iter();
-    let binding = all.find(|binding| binding.set == PASS_SET && binding.name == name)?;
+    let binding = arrays::binding(interface, name)?;
     let adapts = binding.adapts;
     match binding.kind {
         BindingKind::SampledImage(shape) => Some(Declared { shape, adapts, input: false, compares: false }),
@@ -88,7 +87,7 @@ pub(super) fn lower(
         eye: sample.part.eye.filter(|_| image.eyes.is_some()).map(|eye| eye.value),
         face,
         texture,
-        own_pixel: sample.own_pixel.map_or(input, |own| own.value),
+        own_pixel: sample.own_pixel.map_or(input, |own| own.value && element_of(name).is_none()),
         sampler: sampler(sample, texture, default),
         stages: storage::stages(interface, name, raster),
     })
@@ -122,9 +121,14 @@ pub(super) fn check<'i>(
     for sample in &pass.sample {
         let name = &sample.binding.text;
         let Some(declared) = declared(interface, name) else {
+            if let Some((declared, wrong)) = arrays::misfit(shader, interface, &sample.binding) {
+                misspelt.push(declared);
+                errors.extend(wrong);
+                continue;
+            }
             let unknown = format!("shader `{shader}` samples no image named `{name}`");
             if let Some(otherwise) = shader::declared_otherwise(interface, name) {
-                let binding = interface.bindings.iter().find(|binding| binding.name == **name);
+                let binding = arrays::binding(interface, name);
                 misspelt.extend(binding.map(|binding| &*binding.name));
                 errors.extend(otherwise.map(|help| Diagnostic::new(sample.binding.span, unknown).help(help)));
                 continue;
@@ -314,6 +318,17 @@ impl Check<'_> {
             return self.half(interface, errors);
         }
         let declared = self.resources.declared(self.sample.part.image.index).size.span;
+        if element_of(name).is_some() {
+            let message = format!(
+                "only a part of `{}` is in use, and shader `{}` can't be told which of the elements of `{}` are so",
+                image.name,
+                self.shader,
+                declared_name(name)
+            );
+            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its size may change");
+            errors.push(wrong.help("give it a fixed size, or declare an image of its own in the shader"));
+            return;
+        }
         if !interface.asks_part.iter().any(|asked| **asked == **name) {
             let message = format!(
                 "shader `{}` samples `{name}` and doesn't ask which part of `{}` is in use",
@@ -355,6 +370,11 @@ impl Check<'_> {
             let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
             let span = self.sample.own_pixel.map_or(self.sample.binding.span, |own| own.span);
             errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is true then"));
+        }
+        if let Some(own) = self.sample.own_pixel.filter(|own| own.value && element_of(name).is_some()) {
+            let message =
+                format!("`{name}` is an element of an array, and no device reads those from its own position");
+            errors.push(Diagnostic::new(own.span, message).help("leave `own_pixel` out"));
         }
         if !own_pixel {
             return;

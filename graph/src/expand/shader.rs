@@ -1,6 +1,6 @@
 //! A pass and its shader meet: shaders are found, and their needs are given.
 
-use super::work;
+use super::{arrays, work};
 use crate::base::{Diagnostic, FilePath, Sources, suggestion};
 use crate::frame::Draw;
 use crate::language::{self, Work};
@@ -184,17 +184,24 @@ pub(super) fn missing(
             errors.push(Diagnostic::new(*span, message).help(instead));
             continue;
         }
-        if is_given(name) || misspelt.contains(&&**name) {
-            continue;
-        }
+        let missing = (0..binding.count()).find(|number| !is_given(&binding.element(*number)));
+        let Some(missing) = missing.filter(|_| !misspelt.contains(&&**name)) else { continue };
         let Some((kind, _, field)) = given_in(binding) else { continue };
         let verb = match (&binding.kind, kind.split_once(' ')) {
             (BindingKind::InputAttachment { .. }, Some((_, kind))) => format!("reads the {kind}"),
             (BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_), _) | (_, None) => "samples".to_owned(),
             (_, Some((_, kind))) => format!("uses the {kind}"),
         };
-        let message = format!("shader `{shader}` {verb} `{name}`, which pass `{}` doesn't give", pass.name.text);
-        errors.push(Diagnostic::new(*span, message).help(format!("add `{field}: {{\"{name}\": \"…\"}}`")));
+        let element = binding.element(missing);
+        let message = format!("shader `{shader}` {verb} `{element}`, which pass `{}` doesn't give", pass.name.text);
+        let entry = arrays::form(binding);
+        errors.push(match arrays::last_before(pass, binding, missing) {
+            Some(last) => {
+                let help = format!("`{name}` is an array of {}: `{entry}`", binding.count());
+                Diagnostic::new(last, message).remark("the last before it").label(*span, "the shader").help(help)
+            }
+            None => Diagnostic::new(*span, message).help(format!("add `{field}: {{{entry}}}`")),
+        });
     }
 }
 
@@ -214,8 +221,7 @@ fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static s
 /// Of a name that a pass gives in the wrong field: the help, if the shader declares it as something that another field
 /// gives. `Some(None)`: no field can give it, which is reported with the shader.
 pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Option<Option<String>> {
-    let mut of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name == name);
-    let binding = of_pass.next()?;
+    let binding = arrays::binding(interface, name)?;
     if let BindingKind::Other(_) = binding.kind {
         return Some(None);
     }

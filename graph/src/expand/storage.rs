@@ -2,7 +2,7 @@
 
 use super::resources::Resources;
 use super::shader::{self, PARAMS, component_words, shape_words};
-use super::{parts, sampled, transfers, work};
+use super::{arrays, parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
 use crate::language::{self, Part, StorageAccess};
@@ -20,7 +20,7 @@ pub(super) fn stages(interface: Option<&ShaderInterface>, name: &str, raster: bo
 }
 
 fn of_pass<'a>(interface: &'a ShaderInterface, name: &str) -> Option<&'a Binding> {
-    interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name == name)
+    arrays::binding(interface, name)
 }
 
 /// Whether a shader may read, and may write, a binding of this kind.
@@ -93,6 +93,11 @@ pub(super) fn check<'i>(
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     let mut misspelt = Vec::new();
     let mut unknown = |name: &Name, what: &str, errors: &mut Vec<Diagnostic>| {
+        if let Some((declared, wrong)) = arrays::misfit(shader, interface, name) {
+            misspelt.push(declared);
+            errors.extend(wrong);
+            return;
+        }
         let message = format!("shader `{shader}` has {what} named `{}`", name.text);
         if let Some(otherwise) = shader::declared_otherwise(interface, &name.text) {
             misspelt.extend(of_pass(interface, &name.text).map(|binding| &*binding.name));

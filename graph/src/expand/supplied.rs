@@ -86,6 +86,10 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mu
             here(message)
                 .help(format!("in the shader: write `layout(set = {}, binding = {})`", there.set, there.binding)),
         );
+    } else if there.kind.is(&binding.kind) && binding.count() > there.count {
+        let message =
+            format!("{wanted} as an array of {}, and the draw source brings along {}", binding.count(), there.count);
+        errors.push(here(message).help(format!("in the shader: declare at most {}", there.count)));
     } else if !there.is(binding) {
         errors.push(here(format!("{wanted} as something else than it is: {}", there.kind.words())));
     }

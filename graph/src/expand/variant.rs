@@ -8,6 +8,7 @@ use crate::frame::{Image, Pass};
 use crate::language::{self, Face};
 use crate::shader::Variant;
 use crate::vulkan::{Aspects, Component, ImageShape};
+use std::sync::Arc;
 
 /// The variant of its shader that a pass needs. Unknown images are left out: mistakes are reported elsewhere.
 pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
@@ -16,7 +17,8 @@ pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
         let range = parts::range(resources, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
-    let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
+    let mut sampled: Vec<Arc<str>> = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
+    Variant::name_arrays(&mut sampled);
     let parts = in_part(resources, pass).map(|sample| sample.binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
     let components = pass.sample.iter().filter_map(|sample| {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// An image that a pass samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
-    /// The name by which the shader knows it.
+    /// The name by which the shader knows it; of an element of an array its name and number, `taps[0]`.
     pub binding: Arc<str>,
     /// Which image.
     pub image: ImageIndex,
@@ -73,7 +73,7 @@ pub enum Face {
 /// An image that a pass accesses as storage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Storage {
-    /// The name by which the shader knows it.
+    /// The name by which the shader knows it; of an element of an array its name and number, `taps[0]`.
     pub binding: Arc<str>,
     /// Which image.
     pub image: ImageIndex,

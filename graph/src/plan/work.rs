@@ -150,7 +150,7 @@ pub struct DepthState {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Binding {
-    /// The shader's name.
+    /// The shader's name; of the element of an array its name and number, `taps[0]`.
     pub name: Arc<str>,
     /// How it is bound.
     pub kind: BindingKind,

@@ -43,6 +43,8 @@ pub struct Supplied {
     pub name: Cow<'static, str>,
     /// Kind.
     pub kind: SuppliedKind,
+    /// How many there are, at least 1: images can be an array, of which shaders declare as many elements or fewer.
+    pub count: u32,
 }
 
 /// Kind of a resource that is brought along.
@@ -90,14 +92,22 @@ impl Supplied {
     /// A resource at a set and a binding.
     #[must_use]
     pub const fn new(set: u32, binding: u32, name: &'static str, kind: SuppliedKind) -> Supplied {
-        Supplied { set, binding, name: Cow::Borrowed(name), kind }
+        Supplied { set, binding, name: Cow::Borrowed(name), kind, count: 1 }
     }
 
-    /// Whether a shader that declares `binding` reads this.
+    /// An array of this many.
+    #[must_use]
+    pub const fn with_count(mut self, count: u32) -> Supplied {
+        self.count = count;
+        self
+    }
+
+    /// Whether a shader that declares `binding` reads this. Of an array it may declare the first elements alone.
     #[must_use]
     pub fn is(&self, binding: &Binding) -> bool {
         (self.set, self.binding, &*self.name) == (binding.set, binding.binding, &*binding.name)
             && self.kind.is(&binding.kind)
+            && binding.count() <= self.count
     }
 }
 
@@ -190,7 +200,7 @@ impl Attribute {
 
 impl Supplied {
     fn fault(&self) -> Option<String> {
-        let Supplied { set, binding, name, .. } = self;
+        let Supplied { set, binding, name, kind, count } = self;
         if !is_identifier(name) {
             return Some(no_identifier(name));
         }
@@ -199,7 +209,14 @@ impl Supplied {
             return Some(format!("`{name}` can't be brought along in set {set}: a draw source has sets 1 to {last}"));
         }
         let last = BINDINGS - 1;
-        (*binding > last).then(|| format!("`{name}` at binding {binding}: bindings go up to {last}"))
+        if *binding > last {
+            return Some(format!("`{name}` at binding {binding}: bindings go up to {last}"));
+        }
+        if *count == 0 {
+            return Some(format!("`{name}` is brought along 0 times; once is the least"));
+        }
+        let block = *count > 1 && *kind != SuppliedKind::SampledImage;
+        block.then(|| format!("`{name}` is brought along {count} times, as only a `SampledImage` can be"))
     }
 }
 

@@ -49,6 +49,7 @@ fields! {
         set: Leaf<'t>,
         binding: Leaf<'t>,
         kind: Leaf<'t>,
+        count: Option<Leaf<'t>>,
     }
 }
 
@@ -71,8 +72,9 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
             let _ = writeln!(text, "                {one},");
         }
         text += "            ],\n            supplied: [\n";
-        for Supplied { set, binding, name, kind } in supplied {
-            let one = format!("(name: {name:?}, set: {set}, binding: {binding}, kind: {kind:?})");
+        for Supplied { set, binding, name, kind, count } in supplied {
+            let count = if *count == 1 { String::new() } else { format!(", count: {count}") };
+            let one = format!("(name: {name:?}, set: {set}, binding: {binding}, kind: {kind:?}{count})");
             let _ = writeln!(text, "                {one},");
         }
         text += "            ],\n        ),\n";
@@ -258,7 +260,8 @@ fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Supplied> {
     let set = number(reader, fields.set, "the set");
     let binding = number(reader, fields.binding, "the binding");
     let kind = reader.choice(fields.kind, "a kind of resource", &SuppliedKind::NAMED);
-    Some(Supplied { set: set?, binding: binding?, name: name?.text.to_string().into(), kind: kind? })
+    let count = fields.count.map_or(Some(1), |leaf| number(reader, leaf, "the count"));
+    Some(Supplied { set: set?, binding: binding?, name: name?.text.to_string().into(), kind: kind?, count: count? })
 }
 
 /// A whole number that isn't negative.

@@ -3,18 +3,21 @@
 mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
+mod element;
 mod interface_file;
 mod param_type;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
+use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
 pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied, SuppliedKind};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
+pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 
@@ -43,6 +46,8 @@ pub struct ShaderInterface {
     pub unturned: Vec<Unturned>,
     /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
+    /// The features beyond the minimum that a device must have for it, by Vulkan's names.
+    pub features: Vec<&'static str>,
 }
 
 /// A pass samples at most this many images of which only a part is in use: the places of the parts take all the bytes of
@@ -76,8 +81,10 @@ pub struct Binding {
     pub binding: u32,
     /// Name in the shader: of the variable, or for a block without instance name, of the block.
     pub name: String,
-    /// Kind and shape.
+    /// Kind and shape; of an array those of each element.
     pub kind: BindingKind,
+    /// The elements of an array, at least 1; `None`: it is no array.
+    pub length: Option<u32>,
     /// Whether the pass chooses its type: the shader declares `uniform TEXTURE_NAME NAME`.
     pub adapts: bool,
     /// Stages that use it.
@@ -243,7 +250,7 @@ pub struct Variant {
     /// that are missing here are two-dimensional images of floating point, so that mistakes in a pass can be told from its
     /// shader.
     pub textures: Vec<(Arc<str>, ImageShape)>,
-    /// The shader's names of images that the pass samples: the macro `HAS_NAME` is defined.
+    /// The shader's names of images and arrays of images that the pass samples: the macro `HAS_NAME` is defined.
     pub sampled: Vec<Arc<str>>,
     /// Numbers of components, by the shader's names of sampled images: the macro `COMPONENTS_NAME`. Names without one have 4.
     pub components: Vec<(Arc<str>, u32)>,
@@ -264,6 +271,17 @@ pub struct Variant {
     pub depth_only: bool,
     /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
     pub alpha_to_coverage: bool,
+}
+
+impl Variant {
+    /// Puts the name of each array in place of those of its elements, once: a shader is compiled for an array as a whole.
+    pub fn name_arrays(names: &mut Vec<Arc<str>>) {
+        if names.iter().any(|name| element_of(name).is_some()) {
+            names.iter_mut().for_each(|name| *name = declared_name(name).into());
+            let mut seen = HashSet::new();
+            names.retain(|name| seen.insert(name.clone()));
+        }
+    }
 }
 
 /// How the stages of a shader learn which eye they draw for.

@@ -18,7 +18,7 @@ fn engine(draw: Draw) -> DrawInterface {
         Draw::Objects(_) => DrawInterface {
             vertex_stride: 20,
             attributes: vec![Attribute::new("place", 3, 0), Attribute::new("tangent", 2, 12)],
-            supplied: vec![camera, Supplied::new(3, 7, "detail", SuppliedKind::SampledImage)],
+            supplied: vec![camera, Supplied::new(3, 7, "detail", SuppliedKind::SampledImage).with_count(64)],
         },
         Draw::Sky | Draw::Custom => DrawInterface { supplied: vec![camera], ..DrawInterface::default() },
         _ => DrawInterface::default(),
@@ -46,7 +46,7 @@ const ENGINE: &str = r#"Interface(
             ],
             supplied: [
                 (name: "camera", set: 1, binding: 0, kind: UniformBlock),
-                (name: "detail", set: 3, binding: 7, kind: SampledImage),
+                (name: "detail", set: 3, binding: 7, kind: SampledImage, count: 64),
             ],
         ),
         (
@@ -157,6 +157,9 @@ fn each_mistake_is_told_at_its_place() {
     wrong("\"detail\"", "\"camera\"", "13:17", &["`camera` is the name of two resources", "first here"]);
     wrong("SampledImage", "SampledImages", "13:60", &["is not a kind of resource", "did you mean `SampledImage`?"]);
     wrong("kind: SampledImage", "stage: SampledImage", "13:54", &["a resource has no field `stage`"]);
+    wrong("count: 64", "count: 0", "13:17", &["`detail` is brought along 0 times; once is the least"]);
+    wrong("count: 64", "count: -1", "13:81", &["the count can't be -1"]);
+    wrong("kind: SampledImage", "kind: StorageBlock", "13:17", &["`detail` is brought along 64 times, as only a `Sam"]);
     wrong("\"hair-2\"", "\"grass\"", "35:23", &["`grass` is the name of more than one custom pass"]);
     wrong("\"hair-2\"", "\"2\"", "35:23", &["`2` can't be the name of a custom pass"]);
 }
@@ -181,7 +184,8 @@ fn a_file_that_is_empty_too_large_or_full_of_mistakes_is_refused_quickly() {
 
 fn interface() -> impl Strategy<Value = DrawInterface> {
     let kind = prop::sample::select(SuppliedKind::NAMED.map(|(_, kind)| kind).to_vec());
-    let supplied = prop::collection::btree_map((1_u32..4, 0_u32..256), ("[A-Za-z_][A-Za-z0-9_]{0,9}", kind), 0..6);
+    let named = ("[A-Za-z_][A-Za-z0-9_]{0,9}", kind, 1_u32..100);
+    let supplied = prop::collection::btree_map((1_u32..4, 0_u32..256), named, 0..6);
     let attributes = prop::collection::btree_map("[A-Za-z_][A-Za-z0-9_]{0,9}", 1_u32..5, 0..6);
     (supplied, attributes, 0_u32..9).prop_map(|(supplied, named, more)| {
         let mut interface = DrawInterface::default();
@@ -193,7 +197,10 @@ fn interface() -> impl Strategy<Value = DrawInterface> {
         interface.vertex_stride += 4 * more;
         let by_name: BTreeMap<String, Supplied> = supplied
             .into_iter()
-            .map(|((set, binding), (name, kind))| (name.clone(), Supplied { set, binding, name: name.into(), kind }))
+            .map(|((set, binding), (name, kind, count))| {
+                let count = if kind == SuppliedKind::SampledImage { count } else { 1 };
+                (name.clone(), Supplied { set, binding, name: name.into(), kind, count })
+            })
             .collect();
         interface.supplied.extend(by_name.into_values());
         interface

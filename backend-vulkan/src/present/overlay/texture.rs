@@ -22,7 +22,7 @@ const SAMPLED: State = State {
 /// The binding of the texture.
 pub(super) fn binding() -> LayoutBinding {
     let ty = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
-    LayoutBinding { binding: 0, ty, stages: vk::ShaderStageFlags::FRAGMENT }
+    LayoutBinding { binding: 0, ty, count: 1, stages: vk::ShaderStageFlags::FRAGMENT }
 }
 
 /// The texels of an overlay on the device, and a place for the next ones.
@@ -61,7 +61,7 @@ impl OverlayTexture {
         let view = image.view(Subresources::all(format, 1, 1), ViewShape::Flat)?;
         let layout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         let target = DescriptorTarget::Image(view, layout, gpu.sampler(sampler, None)?);
-        let set = DescriptorSet::new(gpu, &[(binding(), target)])?;
+        let set = DescriptorSet::new(gpu, &[(binding(), vec![target])])?;
         Ok(OverlayTexture { set, image, staging, state: UNUSED })
     }
 

@@ -2,6 +2,7 @@
 
 use super::spirv::*;
 use super::*;
+use rspirv::spirv::Decoration;
 
 const TWO: &str = "layout(set = 0, binding = 0) uniform sampler2D own;
 layout(set = 0, binding = 1) uniform sampler2D shared_one;
@@ -146,4 +147,36 @@ fn look_ups_that_can_not_be_given_a_layer_are_refused_in_words() {
         void main() { color = texture(own, vec3(0.5)); }";
     let said = refused(deep, &both(WAYS[0], &["own"]));
     assert!(said.ends_with("`own` isn't declared flat"), "{said}");
+}
+
+#[test]
+fn a_function_that_is_there_for_both_says_twice_which_numbers_differ_from_pixel_to_pixel() {
+    let text = format!(
+        "#extension GL_EXT_nonuniform_qualifier : require
+        {TWO}
+        layout(set = 0, binding = 2) uniform sampler2D many[4];
+        vec4 chosen(sampler2D image, int number) {{
+            return texture(image, uv) + texture(many[nonuniformEXT(number)], uv);
+        }}
+        void main() {{ color = chosen(own, int(uv.x)) + chosen(shared_one, int(uv.y)); }}"
+    );
+    for way in LAYERS {
+        let spirv = fragment(&text, &both(way, &["own"]));
+        let module = module(&spirv);
+        let different: Vec<_> = (module.annotations.iter())
+            .filter(|it| it.operands.get(1) == Some(&Operand::Decoration(Decoration::NonUniform)))
+            .filter_map(|it| it.operands[0].id_ref_any())
+            .collect();
+        let many = (module.debug_names.iter())
+            .find(|it| it.operands.get(1) == Some(&Operand::LiteralString("many".to_owned())))
+            .and_then(|it| it.operands[0].id_ref_any());
+        let chains = code(&module).filter(|it| it.class.opcode == Op::AccessChain);
+        let chosen: Vec<_> = chains.filter(|it| it.operands[0].id_ref_any() == many).collect();
+        assert_eq!(chosen.len(), 2, "{}", disassembled(&spirv));
+        assert!(
+            chosen.iter().all(|it| it.result_id.is_some_and(|id| different.contains(&id))),
+            "{}",
+            disassembled(&spirv)
+        );
+    }
 }

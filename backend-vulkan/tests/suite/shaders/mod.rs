@@ -142,7 +142,7 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
     let declared = "#version 460
         /* uniform sampler alone;
         */ layout(set = 0, binding = 5) uniform sampler alone;
-        layout(set = 0, binding = 6) uniform sampler2D many[2];
+        layout(set = 0, binding = 6) uniform Many { vec4 value; } many[2];
         layout(set = 0, binding = 7, rgb10_a2ui) uniform writeonly uimage2D packed_one;
         #include \"more.glsl\"\n";
     fs::write(folder.path().join("test.frag"), format!("{declared}{rest}")).expect("a file");
@@ -156,7 +156,7 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
     let told: Vec<String> = interface.expect("it compiles").bindings.into_iter().map(told).collect();
     let expected = [
         "test.frag:3 a sampler without image",
-        "test.frag:4 an array of resources",
+        "test.frag:4 an array of blocks",
         "test.frag:5 a storage image of the format `Rgb10a2ui`, which no image of a pipeline has",
         "more.glsl:2 a texel buffer",
     ];

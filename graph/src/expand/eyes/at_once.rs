@@ -9,6 +9,7 @@ use crate::language::{
     Draw, Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
     StorageAccess, Work,
 };
+use crate::shader::element_of;
 use crate::vulkan::AddressMode;
 use std::sync::Arc;
 
@@ -38,6 +39,10 @@ impl Apart {
             };
             for sample in pass.sample.iter().filter(wraps).filter(|sample| own_part(&&sample.part)) {
                 apart.part(sample.part.image.index, || format!("`{name}` reads beyond its edges"));
+            }
+            let elements = pass.sample.iter().filter(|sample| element_of(&sample.binding.text).is_some());
+            for sample in elements.filter(|sample| own_part(&&sample.part)) {
+                apart.part(sample.part.image.index, || format!("`{name}` samples it as an element of an array"));
             }
             if let Work::Copy { from: Part::Image(from), to: Part::Image(to) } = &pass.work
                 && own[index(to.image.index)]

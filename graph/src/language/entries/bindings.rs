@@ -10,11 +10,12 @@ use crate::fields;
 use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
+use crate::shader::element_name;
 use crate::vulkan::{AddressMode, Filter};
 use std::sync::Arc;
 
 fields! {
-    /// A sampled image: an image that a shader samples, under the shader's own name for it.
+    /// A sampled image: an image that a shader samples, under the shader's own name for it. An array of images is a list of them.
     /// ```ron
     /// (image: Resolved("image"), mip: 1, filter: Nearest)
     /// ```
@@ -51,8 +52,13 @@ fields! {
 }
 
 /// Sampled images, by the shader's names.
-pub(crate) const SAMPLE: Form =
-    Form::Map("shader's name", &Form::Either(&[FACE, Form::Fields(SampleFields::<'static>::table)]));
+pub(crate) const SAMPLE: Form = Form::Map(
+    "shader's name",
+    &Form::Either(&[FACE, Form::Fields(SampleFields::<'static>::table), Form::List(&SAMPLED)]),
+);
+
+/// A sampled image.
+const SAMPLED: Form = Form::Either(&[FACE, Form::Fields(SampleFields::<'static>::table)]);
 
 /// An image or a face of it.
 const FACE: Form = Form::Words(&FACES);
@@ -93,8 +99,14 @@ const ADDRESS: Form =
 const COMPARE: Form = Form::Either(&[targets::TEST, Form::Expression("a comparison")]);
 
 /// Storage images and buffers, by the shader's names.
-pub(crate) const STORAGE: Form =
-    Form::Map("shader's name", &Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(StorageFields::<'static>::table)]));
+pub(crate) const STORAGE: Form = Form::Map(
+    "shader's name",
+    &Form::Either(&[
+        parts::WHOLE_RESOURCE,
+        Form::Fields(StorageFields::<'static>::table),
+        Form::List(&Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(StorageFields::<'static>::table)])),
+    ]),
+);
 
 /// Uniform blocks, by the shader's names.
 pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
@@ -103,7 +115,7 @@ pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
 pub(crate) const PARAMS: Form = Form::Map("shader's name", &values::PARAM);
 
 fields! {
-    /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it.
+    /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it. An array of images is a list of them.
     /// ```ron
     /// (buffer: "buffer", access: ReadWrite)
     /// ```
@@ -138,7 +150,7 @@ const ACCESSES: [(&str, StorageAccess); 3] =
 impl Context<'_> {
     /// Images by the shader's names, and those that conditions leave out.
     pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<(Vec<Sample>, Vec<LeftOut>)>> {
-        let all = self.entries(leaf, "`sample`", "a sampled image", |context, binding, value| {
+        let all = self.elements(leaf, "`sample`", "a sampled image", |context, binding, value| {
             let fields = match value.shape() {
                 Shape::Parentheses => context.reader.read(value, "a sampled image")?,
                 _ => SampleFields::plain(value),
@@ -212,7 +224,7 @@ impl Context<'_> {
 
     /// Images and buffers that the shader reads and writes, by its names.
     pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Storage>>> {
-        self.entries(leaf, "`storage`", "a storage image or buffer", |context, binding, value| {
+        self.elements(leaf, "`storage`", "a storage image or buffer", |context, binding, value| {
             let Shape::Parentheses = value.shape() else {
                 let part = context.part(value);
                 let binding = binding?;
@@ -261,6 +273,42 @@ impl Context<'_> {
                 value: value.spanned(),
             }))
         })
+    }
+
+    /// The entries of a map whose keys are names, each once. The values of a list are the elements of an array.
+    fn elements<'src, T>(
+        &mut self,
+        leaf: Leaf<'src>,
+        map: &str,
+        what: &str,
+        mut read: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let mut more = Vec::new();
+        let mut complete = true;
+        let firsts = self.entries(leaf, map, what, |context, name, value| {
+            if let Some(name) = name.as_ref().filter(|name| name.text.contains('[')) {
+                let message = format!("`{}` can't be {what}: elements of an array have no names", name.text);
+                let wrong = Diagnostic::new(name.span, message);
+                context.reader.report(wrong.help("write a list under the array's name: `\"taps\": [\"…\", \"…\"]`"));
+                return None;
+            }
+            let Shape::List = value.shape() else { return read(context, name, value).map(Some) };
+            let before = more.len();
+            for (number, value) in (0..).zip(value.values()?) {
+                let element = |name: &Name| element_name(&name.text, number).into();
+                let name = name.as_ref().map(|name| Name { text: element(name), span: value.span() });
+                match read(context, name, value) {
+                    Some(value) => more.push(value),
+                    None => complete = false,
+                }
+            }
+            if before == more.len() && complete {
+                context.reader.wrong(value, "an array has one element at least", "");
+                return None;
+            }
+            Some(None)
+        })?;
+        complete.then(|| firsts.into_iter().flatten().chain(more).collect())
     }
 
     /// The entries of a map whose keys are names, each once.

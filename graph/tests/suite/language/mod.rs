@@ -3,6 +3,7 @@
 //! Answers to bad files are pinned whole; `INSTA_UPDATE=always cargo test -p framewright-graph --test suite language` accepts
 //! new ones, and the difference in git shows them.
 
+mod arrays;
 mod bad;
 mod bombs;
 mod both_eyes;

@@ -14,7 +14,15 @@ pub(crate) struct Table;
 fn texture(name: &str, binding: u32, multisampled: bool, component: Component) -> Binding {
     let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
     let kind = BindingKind::SampledImage(shape);
-    Binding { set: 0, binding, name: name.to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
+    Binding {
+        set: 0,
+        binding,
+        name: name.to_owned(),
+        kind,
+        length: None,
+        adapts: false,
+        stages: Stages::FRAGMENT_SHADER,
+    }
 }
 
 /// A sampled image that is declared as the pass has it.
@@ -34,7 +42,15 @@ fn params(members: &[(&str, &str)]) -> Binding {
     });
     let block = Block { bytes: 16, members: members.collect() };
     let kind = BindingKind::UniformBlock(block);
-    Binding { set: 0, binding: 9, name: "params".to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
+    Binding {
+        set: 0,
+        binding: 9,
+        name: "params".to_owned(),
+        kind,
+        length: None,
+        adapts: false,
+        stages: Stages::FRAGMENT_SHADER,
+    }
 }
 
 fn outputs(count: u32, component: Component, components: u32) -> Vec<FragmentOutput> {
@@ -61,6 +77,7 @@ fn lit(discards: bool) -> ShaderInterface {
         binding,
         name: name.to_owned(),
         kind,
+        length: None,
         adapts: false,
         stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
     };
@@ -79,14 +96,22 @@ fn lit(discards: bool) -> ShaderInterface {
 
 fn block(name: &str, binding: u32, readable: bool, writable: bool, stages: Stages) -> Binding {
     let kind = BindingKind::StorageBlock { readable, writable };
-    Binding { set: 0, binding, name: name.to_owned(), kind, adapts: false, stages }
+    Binding { set: 0, binding, name: name.to_owned(), kind, length: None, adapts: false, stages }
 }
 
 fn storage_image(name: &str, dimension: Dimension, format: Option<Format>, readable: bool) -> Binding {
     let component = format.map_or(Component::Float, Component::of);
     let shape = ImageShape { dimension, arrayed: false, multisampled: false, component };
     let kind = BindingKind::StorageImage { shape, format, readable, writable: true };
-    Binding { set: 0, binding: 5, name: name.to_owned(), kind, adapts: false, stages: Stages::COMPUTE_SHADER }
+    Binding {
+        set: 0,
+        binding: 5,
+        name: name.to_owned(),
+        kind,
+        length: None,
+        adapts: false,
+        stages: Stages::COMPUTE_SHADER,
+    }
 }
 
 /// The binding as another stage sees it.
@@ -109,7 +134,15 @@ fn compute(size: [u32; 3], bindings: Vec<Binding>) -> ShaderInterface {
 
 fn uniform_block(name: &str, bytes: u32) -> Binding {
     let kind = BindingKind::UniformBlock(Block { bytes, members: Vec::new() });
-    Binding { set: 0, binding: 7, name: name.to_owned(), kind, adapts: false, stages: Stages::COMPUTE_SHADER }
+    Binding {
+        set: 0,
+        binding: 7,
+        name: name.to_owned(),
+        kind,
+        length: None,
+        adapts: false,
+        stages: Stages::COMPUTE_SHADER,
+    }
 }
 
 /// Compute shaders out of the table.
@@ -117,6 +150,11 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
     let source = || texture("source", 0, false, Component::Float);
     let here = Stages::COMPUTE_SHADER;
     Some(match name {
+        "store_two" => {
+            let mut targets = storage_image("targets", Dimension::D2, Some(Format::R32_UINT), false);
+            targets.length = Some(2);
+            compute([8, 8, 1], vec![targets])
+        }
         "simulate" => compute(
             [64, 1, 1],
             vec![
@@ -175,7 +213,15 @@ fn shadowed(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
 
 /// A binding that the draw source brings along for a whole frame.
 fn of_frame(binding: u32, name: &str, kind: BindingKind) -> Binding {
-    Binding { set: 1, binding, name: name.to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
+    Binding {
+        set: 1,
+        binding,
+        name: name.to_owned(),
+        kind,
+        length: None,
+        adapts: false,
+        stages: Stages::FRAGMENT_SHADER,
+    }
 }
 
 /// Declares images that are read from the pass's own rendering scope as input attachments.
@@ -253,6 +299,7 @@ impl ShaderInterfaces for Table {
                 params(&[("focus", "float"), ("spread", "float"), ("largest", "int")]),
                 of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
             ]),
+            "taps" => full_screen(vec![Binding { length: Some(3), ..texture("taps", 0, false, float) }]),
             "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
             "ambient_occlusion_blur" => full_screen(vec![source(), texture("depth", 1, false, float)]),
             "bloom_shrink" => full_screen(vec![source(), params(&[("partial", "uint")])]),
@@ -375,6 +422,7 @@ impl ShaderInterfaces for Table {
                 binding: 0,
                 name: "tiles".to_owned(),
                 kind: BindingKind::StorageBlock { readable: true, writable: true },
+                length: None,
                 adapts: false,
                 stages: Stages::FRAGMENT_SHADER,
             }]),

@@ -3,6 +3,7 @@
 mod agreement;
 mod alpha_coverage;
 mod ambient_occlusion;
+mod arrays_of_images;
 mod auto_exposure;
 mod bloom;
 mod camera_everywhere;
