@@ -3,11 +3,11 @@
 //!
 //! `cargo run --package framewright --example custom_pass` writes `out/engine.png`.
 
-use framewright::graph::frame::DrawList;
 use framewright::graph::vulkan::FillValue;
-use framewright::vulkan::{BindGroup, Buffer, BufferUsage, Error, Resource};
+use framewright::vulkan::Error;
 use framewright::{
-    CustomRecorder, Device, DeviceOptions, DispatchRecorder, Draw, DrawSource, Recorder, Renderer, RendererOptions,
+    BindGroup, Buffer, BufferUsage, CustomRecorder, Device, DeviceOptions, DispatchRecorder, Draw, DrawList,
+    DrawSource, Recorder, Renderer, RendererOptions, Resource,
 };
 use std::path::Path;
 
@@ -18,7 +18,6 @@ mod interface;
 struct Engine {
     vertices: Buffer,
     camera: BindGroup,
-    camera_of_custom: BindGroup,
     materials: BindGroup,
 }
 
@@ -30,13 +29,11 @@ impl Engine {
         let corners = [corner(-1.0, -1.0), corner(3.0, -1.0), corner(-1.0, 3.0)].concat();
         let camera = device.buffer(BufferUsage::Uniform, &bytes(&[0.0; 4]))?;
         let materials = device.buffer(BufferUsage::Storage, &bytes(&[1.0, 0.0, 1.0, 1.0]))?;
-        let interfaces = interface::interfaces();
-        let of_objects = interfaces.of(Draw::Objects(DrawList::Opaque));
-        let of_custom = interfaces.of(Draw::Custom);
+        let of_objects = interface::interfaces().of(Draw::Objects(DrawList::Opaque));
         Ok(Engine {
             vertices: device.buffer(BufferUsage::Vertex, &bytes(&corners))?,
+            // Custom draws and compute passes bring the same set, so they share the group.
             camera: device.bind_group(&of_objects, 1, &[(0, Resource::Buffer(&camera))])?,
-            camera_of_custom: device.bind_group(&of_custom, 1, &[(0, Resource::Buffer(&camera))])?,
             materials: device.bind_group(&of_objects, 2, &[(0, Resource::Buffer(&materials))])?,
         })
     }
@@ -46,7 +43,7 @@ impl DrawSource for Engine {
     /// Draws within a rendering scope. Pipeline and attachments are bound.
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
         match (draw, recorder.shader()) {
-            (Draw::Custom, "grass") => recorder.bind_group(1, &self.camera_of_custom),
+            (Draw::Custom, "grass") => recorder.bind_group(1, &self.camera),
             (Draw::Objects(DrawList::Opaque), _) => {
                 recorder.bind_group(1, &self.camera);
                 recorder.bind_group(2, &self.materials);

@@ -40,17 +40,18 @@ pub use framewright_vulkan as vulkan;
 pub use error::{Error, Mistakes};
 pub use files::{FileOptions, PipelineFile, Reach, expect_scene, find_scene, folder_of, load_scene};
 pub use framewright_graph::base::{Diagnostic, ReadFiles, Root};
-pub use framewright_graph::frame::{Draw, Stereo};
+pub use framewright_graph::frame::{Draw, DrawList, Stereo};
 pub use framewright_graph::language::Facts;
 pub use framewright_graph::plan::Plan;
-pub use framewright_graph::shader::DrawInterfaces;
+pub use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
 pub use framewright_graph::vulkan::{Format, Rotation};
 pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
-    CustomRecorder, Device, DeviceOptions, DispatchRecorder, DrawSource, Executor, ExecutorOptions, FrameReport,
-    Helper, PrecompiledShaders, PresentMode, Presentation, Recorder, SemaphorePoint, ShaderLibrary, Submission,
-    Surface, Swapchain, SwapchainOptions, Texels,
+    BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
+    DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType,
+    PrecompiledShaders, PresentMode, Presentation, Recorder, Resource, SamplerDescriptor, ScopeFormats, SemaphorePoint,
+    ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, shaders, textures};

@@ -37,7 +37,7 @@ pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
 pub(crate) use prepared::{Debugging, PreparedPlan};
 pub(crate) use step::{PreparedStep, title};
-pub(crate) use supplied::SuppliedSets;
+pub(crate) use supplied::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, stage_textures};
 pub(crate) use uses::{ResourceUses, passes};
 pub(crate) use variant::{scope_formats, view_mask};

@@ -4,14 +4,30 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::resources::supplied_layouts;
 use ash::vk;
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface};
+use framewright_graph::shader::{Binding, BindingKind, Block, DrawInterface, PASS_SET, ShaderInterface};
 
 /// The sets of a pipeline that the draw source provides.
 #[derive(Default)]
 pub(crate) struct SuppliedSets {
     pub(crate) layout: vk::PipelineLayout,
-    /// Layouts of the sets from 1 on, and whether the shader reads them.
-    pub(crate) sets: Vec<(vk::DescriptorSetLayout, bool)>,
+    /// From 1 on.
+    pub(crate) sets: Vec<SuppliedSet>,
+}
+
+/// A set that the draw source provides.
+pub(crate) struct SuppliedSet {
+    pub(crate) layout: vk::DescriptorSetLayout,
+    /// Whether the shader reads any of it.
+    pub(crate) is_read: bool,
+    /// The uniform blocks that the shader declares in it.
+    pub(crate) blocks: Vec<SuppliedBlock>,
+}
+
+/// A uniform block that a shader declares.
+pub(crate) struct SuppliedBlock {
+    pub(crate) binding: u32,
+    pub(crate) name: String,
+    pub(crate) bytes: u32,
 }
 
 impl SuppliedSets {
@@ -24,13 +40,22 @@ impl SuppliedSets {
     ) -> Result<SuppliedSets, Error> {
         let supplied = supplied_layouts(gpu, brought)?;
         let layout = gpu.pipeline_layout([own].into_iter().chain(supplied.iter().copied()).collect())?;
-        let reads = |set| shader.bindings.iter().any(|it| it.set == set);
-        let sets = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
-        Ok(SuppliedSets { layout, sets })
+        let sets = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| {
+            let of_set = shader.bindings.iter().filter(|it| it.set == set);
+            let block = |it: &Binding| match &it.kind {
+                BindingKind::UniformBlock(Block { bytes, .. }) => {
+                    Some(SuppliedBlock { binding: it.binding, name: it.name.clone(), bytes: *bytes })
+                }
+                _ => None,
+            };
+            let is_read = of_set.clone().next().is_some();
+            SuppliedSet { layout, is_read, blocks: of_set.filter_map(block).collect() }
+        });
+        Ok(SuppliedSets { layout, sets: sets.collect() })
     }
 
     /// Whether the shader reads any of them.
     pub(crate) fn are_read(&self) -> bool {
-        self.sets.iter().any(|(_, needed)| *needed)
+        self.sets.iter().any(|set| set.is_read)
     }
 }

@@ -1,12 +1,13 @@
 //! How custom passes are recorded.
 
+use super::custom_image::{CustomImage, extent};
 use crate::base::convert;
 use crate::commands::{TransferSide, copy_between, fill};
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess};
-use framewright_graph::vulkan::{Accesses, FillValue, Rotation, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue};
 
 /// Records a custom pass, outside of rendering scopes. The pass's images and buffers go by the names that the Plan gives
 /// them, and are in the state that the Plan says.
@@ -19,24 +20,6 @@ pub struct CustomRecorder<'f> {
     pass: &'f plan::Pass,
     recorded: u32,
     misuse: Option<String>,
-}
-
-/// An image of a custom pass, for commands of the program's own.
-#[derive(Debug, Clone, Copy)]
-pub struct CustomImage {
-    /// Vulkan's image.
-    pub raw: vk::Image,
-    /// The part that the pass may touch.
-    pub range: Subresources,
-    /// Width, height and depth in use, from the first texel on, of the first mip level of that part; where an image changes its
-    /// size from frame to frame it is made larger.
-    pub extent: [u32; 3],
-    /// By how much the picture is turned that it holds, or is to hold; `extent` is that of the turned picture.
-    pub rotation: Rotation,
-    /// The layout that it is in and must be left in.
-    pub layout: vk::ImageLayout,
-    /// Allowed accesses of the pass.
-    pub accesses: Accesses,
 }
 
 /// The image or buffer that a name stands for, as the pass accesses it.
@@ -135,19 +118,7 @@ impl<'f> CustomRecorder<'f> {
     /// An image of the pass, by the Plan's name or the shader's, for commands of the program's own.
     #[must_use]
     pub fn image(&self, name: &str) -> Option<CustomImage> {
-        let plan = self.frame.plan;
-        let is_named = |it: &&Access| {
-            *plan.image(it.image).name == *name || it.binding.as_ref().is_some_and(|binding| *binding.name == *name)
-        };
-        let access = self.pass.accesses.iter().find(is_named)?;
-        Some(CustomImage {
-            raw: self.frame.image(access.image).raw,
-            range: part(plan.image(access.image), access.range),
-            extent: self.extent(access),
-            rotation: plan.image(access.image).rotation,
-            layout: convert::layout(access.layout),
-            accesses: access.accesses,
-        })
+        CustomImage::of(self.frame, self.pass, name)
     }
 
     /// A buffer of the pass, by the Plan's name or the shader's, for commands of the program's own.
@@ -181,16 +152,10 @@ impl<'f> CustomRecorder<'f> {
         found
     }
 
-    /// Extent of the first mip level of what is accessed.
-    fn extent(&self, access: &Access) -> [u32; 3] {
-        let extent = self.frame.plan.image(access.image).extent;
-        extent.map(|side| side.unbounded_shr(access.range.base_mip).max(1))
-    }
-
     fn side(&self, named: &NamedResource<'_>) -> TransferSide {
         match named {
             NamedResource::Image(access) => {
-                let extent = self.extent(access);
+                let extent = extent(self.frame.plan, access);
                 TransferSide::Image(self.frame.image_side(access.image, access.range, extent, access.layout))
             }
             NamedResource::Buffer(access) => {
@@ -206,7 +171,7 @@ impl<'f> CustomRecorder<'f> {
         let texels = |access: &Access| {
             let image = plan.image(access.image);
             let range = part(image, access.range);
-            (image.format, image.samples, self.extent(access), range.layers, range.aspects)
+            (image.format, image.samples, extent(self.frame.plan, access), range.layers, range.aspects)
         };
         let rotation = |access: &Access| plan.image(access.image).rotation;
         let fits = |access: &Access, buffer: &BufferAccess| {

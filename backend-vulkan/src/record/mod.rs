@@ -4,6 +4,7 @@ mod bindings;
 mod breadcrumbs;
 mod canvas;
 mod custom;
+mod custom_image;
 mod dispatch;
 mod draw_source;
 mod fragments;
@@ -17,7 +18,8 @@ mod step;
 mod supplied;
 mod timing;
 
-pub use custom::{CustomImage, CustomRecorder};
+pub use custom::CustomRecorder;
+pub use custom_image::CustomImage;
 pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use recorder::{IndexType, Recorder};

@@ -1,14 +1,15 @@
 //! How a draw source records its draws.
 
 use super::canvas::Canvas;
+use super::custom_image::CustomImage;
 use super::held::HeldResources;
 use super::state::{CullMode, FrontFace};
 use super::supplied::BoundSets;
 use crate::gpu::ScopeFormats;
-use crate::prepare::{PassState, PreparedDraw};
+use crate::prepare::{Frame, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
 use ash::vk;
-use framewright_graph::frame::{EyeForm, Stereo};
+use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
@@ -32,7 +33,7 @@ pub struct Recorder<'f> {
     pass: &'f PassState,
     has_pipeline: bool,
     plan: &'f plan::Pass,
-    frame: u64,
+    frame: &'f Frame<'f>,
     vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
@@ -47,7 +48,7 @@ impl<'f> Recorder<'f> {
         kept: &'f mut HeldResources,
         drawn: &'f PreparedDraw,
         plan: &'f plan::Pass,
-        frame: u64,
+        frame: &'f Frame<'f>,
         begun: Result<(), String>,
     ) -> Recorder<'f> {
         let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
@@ -97,6 +98,20 @@ impl<'f> Recorder<'f> {
         self.canvas.commands
     }
 
+    /// An image that the pass samples, reads or draws into, by the Plan's name or the shader's, for pipelines of the program's own. It is in
+    /// the state that the Plan says, and the barriers for the pass are recorded. The program makes its own view of it, and makes it anew for
+    /// each image that stands for the name: an image with a history is another one in the next frame.
+    #[must_use]
+    pub fn image(&self, name: &str) -> Option<CustomImage> {
+        CustomImage::of(self.frame, self.plan, name)
+    }
+
+    /// A parameter that the pipeline gives the pass.
+    #[must_use]
+    pub fn param(&self, name: &str) -> Option<ParamValue> {
+        self.plan.params.iter().find(|param| *param.name == *name).map(|param| param.value.clone())
+    }
+
     /// What pipelines of the program's own must fit to be bound here. [`crate::Executor::formats`] tells it before the first frame.
     #[must_use]
     pub fn formats(&self) -> &ScopeFormats {
@@ -125,11 +140,15 @@ impl<'f> Recorder<'f> {
     /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
     #[must_use]
     pub fn frame(&self) -> u64 {
-        self.frame
+        self.frame.number
     }
 
     /// Binds a group to the set number `set`, from 1 on.
     pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
+        if !self.has_pipeline {
+            let shader = &self.plan.shader;
+            return self.misused(|| format!("a bind group without pipeline: there is no shader `{shader}`"));
+        }
         let bound = self.sets.bind(self.canvas.commands, set, group);
         self.note(bound);
     }

@@ -61,7 +61,7 @@ impl Recording<'_> {
             DrawnVertices::Source => {
                 let made = &self.prepared.steps[step].draws()[draw.pass as usize];
                 let kept = &mut self.recorded.kept;
-                let mut recorder = Recorder::new(canvas, kept, made, planned(), self.frame.number, begun);
+                let mut recorder = Recorder::new(canvas, kept, made, planned(), self.frame, begun);
                 draws = self.source.record(made.draw, &mut recorder)?;
                 recorder.finish().map(|objects| culled = objects)
             }

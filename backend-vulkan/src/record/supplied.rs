@@ -3,7 +3,7 @@
 use super::bindings::bind_set;
 use super::held::HeldResources;
 use crate::gpu::Gpu;
-use crate::prepare::SuppliedSets;
+use crate::prepare::{SuppliedBlock, SuppliedSet, SuppliedSets};
 use crate::resources::BindGroup;
 use ash::vk;
 
@@ -24,7 +24,7 @@ impl<'f> BoundSets<'f> {
         held: &'f mut HeldResources,
     ) -> BoundSets<'f> {
         held.bound.clear();
-        held.bound.extend(supplied.sets.iter().map(|(_, needed)| !needed));
+        held.bound.extend(supplied.sets.iter().map(|set| !set.is_read));
         BoundSets { gpu, point, supplied, held }
     }
 
@@ -39,10 +39,11 @@ impl<'f> BoundSets<'f> {
         let index = (set as usize).wrapping_sub(1);
         match self.supplied.sets.get(index) {
             None => Err(format!("the draw interface has no set {set}")),
-            Some((layout, _)) if *layout != group.0.layout => {
+            Some(known) if known.layout != group.0.layout => {
                 Err(format!("the bind group was made for another set than {set}, or another draw interface"))
             }
-            Some(_) => {
+            Some(known) => {
+                check_blocks(known, group)?;
                 self.held.bound[index] = true;
                 self.held.groups.hold(&group.0);
                 let mut copies = 0;
@@ -62,4 +63,14 @@ impl<'f> BoundSets<'f> {
     pub(super) fn missing(&self) -> Option<usize> {
         self.held.bound.iter().position(|bound| !bound).map(|index| index + 1)
     }
+}
+
+/// Each uniform block of the shader lies within the buffer that the group has for it: else it would read zeros behind the end.
+fn check_blocks(set: &SuppliedSet, group: &BindGroup) -> Result<(), String> {
+    set.blocks.iter().try_for_each(|SuppliedBlock { binding, name, bytes }| match group.0.bytes_of(*binding) {
+        Some(held) if u64::from(*bytes) > held.next_multiple_of(16) => {
+            Err(format!("the block `{name}` takes {bytes} bytes, and its buffer holds {held}"))
+        }
+        _ => Ok(()),
+    })
 }

@@ -49,6 +49,8 @@ pub struct BindGroup(pub(crate) Arc<RawBindGroup>);
 pub(crate) struct RawBindGroup {
     gpu: Arc<Gpu>,
     pub(crate) layout: vk::DescriptorSetLayout,
+    /// Bindings of buffers, and how many bytes each buffer holds.
+    bytes: Vec<(u32, u64)>,
     sets: Sets,
     _textures: Vec<Texture>,
 }
@@ -78,6 +80,11 @@ impl RawBindGroup {
     /// Whether this device made it.
     pub(crate) fn is_of(&self, gpu: &Gpu) -> bool {
         std::ptr::eq(Arc::as_ptr(&self.gpu), gpu)
+    }
+
+    /// How many bytes the buffer holds that is bound to `binding`, if a buffer is.
+    pub(crate) fn bytes_of(&self, binding: u32) -> Option<u64> {
+        self.bytes.iter().find(|(number, _)| *number == binding).map(|(_, bytes)| *bytes)
     }
 
     /// Its dynamic buffers, in the order of bindings.
@@ -183,7 +190,7 @@ impl Device {
         if !resources.iter().all(|(_, resource)| is_own(resource)) {
             return Err(bad("a resource belongs to another device".to_owned()));
         }
-        let mut bindings = Vec::new();
+        let (mut bindings, mut bytes) = (Vec::new(), Vec::new());
         let (mut buffers, mut textures) = (Vec::new(), Vec::new());
         for wanted in supplied {
             let name = &wanted.name;
@@ -197,9 +204,11 @@ impl Device {
             let bound = match (wanted.kind, &given[..]) {
                 (_, [Resource::Buffer(it)]) if flags.is_some_and(|flags| it.0.usage.contains(flags)) => {
                     buffers.push((*it).clone());
+                    bytes.push((wanted.binding, it.bytes()));
                     Bound::Targets(vec![DescriptorTarget::Buffer(it.0.raw)])
                 }
                 (_, [Resource::Dynamic(it)]) if flags.is_some_and(|flags| it.0.flags.contains(flags)) => {
+                    bytes.push((wanted.binding, it.bytes()));
                     Bound::Dynamic((*it).clone())
                 }
                 (SuppliedKind::SampledImage, [it @ (Resource::Texture(_) | Resource::Textures(_))]) => {
@@ -225,7 +234,7 @@ impl Device {
             Some(fixed) => Sets::One { set: DescriptorSet::new(&self.gpu, &fixed)?, _buffers: buffers },
             None => Sets::Each { bindings, made: Mutex::default(), _buffers: buffers },
         };
-        Ok(BindGroup(Arc::new(RawBindGroup { gpu: self.gpu.clone(), layout, sets, _textures: textures })))
+        Ok(BindGroup(Arc::new(RawBindGroup { gpu: self.gpu.clone(), layout, bytes, sets, _textures: textures })))
     }
 }
 

@@ -45,6 +45,22 @@ impl Buffer {
     pub fn bytes(&self) -> u64 {
         self.0.bytes
     }
+
+    /// Vulkan's own buffer, for pipelines and sets of the program's own. It lives as long as this or a clone: the program keeps one until
+    /// the frames are done that read the buffer.
+    #[must_use]
+    pub fn raw(&self) -> vk::Buffer {
+        self.0.raw
+    }
+}
+
+impl Texture {
+    /// Vulkan's own view of all of the texture, in the layout `SHADER_READ_ONLY_OPTIMAL`, and its sampler: for pipelines and sets of the
+    /// program's own. Both live as long as this or a clone: the program keeps one until the frames are done that read the texture.
+    #[must_use]
+    pub fn raw(&self) -> (vk::ImageView, vk::Sampler) {
+        (self.0.view, self.0.sampler)
+    }
 }
 
 /// What Vulkan calls the usage of a buffer of `bytes` bytes.

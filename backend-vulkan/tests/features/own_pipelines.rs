@@ -5,9 +5,12 @@ use ash::vk;
 use framewright_graph::base::Span;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{DepthTarget, Draw, Image};
-use framewright_graph::shader::DrawInterface;
+use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
 use framewright_graph::vulkan::{CompareOp, Format, Subresources};
-use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ScopeFormats, ShaderLibrary};
+use framewright_vulkan::{
+    BindGroup, BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, Resource, ScopeFormats,
+    ShaderLibrary,
+};
 use std::collections::HashMap;
 
 /// A triangle over all of the picture; the larger `depth`, the nearer.
@@ -40,6 +43,12 @@ const SHADERS: &[(&str, &str)] = &[
         layout(set = 0, binding = 0) uniform sampler2D seen;
         layout(location = 0) out vec4 color;
         void main() { color = texelFetch(seen, ivec2(gl_FragCoord.xy), 0); }",
+    ),
+    (
+        "white.frag",
+        "#version 460
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(1.0); }",
     ),
 ];
 
@@ -147,6 +156,56 @@ impl Drop for Engine<'_> {
             self.modules.iter().for_each(|module| raw.destroy_shader_module(*module, None));
         }
     }
+}
+
+/// What a pass without a shader of the pipeline's can see, and can't.
+struct Looks;
+
+impl DrawSource for Looks {
+    fn record(&mut self, _: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        let [seen, by_plan] = ["seen", "color"].map(|name| recorder.image(name).expect("the pass samples it"));
+        assert!(seen.raw == by_plan.raw && seen.raw != vk::Image::null());
+        assert_eq!((seen.layout, seen.extent), (vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL, [4, 2, 1]));
+        assert_eq!(recorder.image("shown").expect("it draws it").layout, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
+        assert!(recorder.image("nothing").is_none() && recorder.param("nothing").is_none());
+        Ok(0)
+    }
+}
+
+/// Binds a group where no pipeline is bound.
+struct Binds(BindGroup);
+
+impl DrawSource for Binds {
+    fn record(&mut self, _: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        recorder.bind_group(1, &self.0);
+        Ok(0)
+    }
+}
+
+#[test]
+fn a_pass_without_a_shader_sees_its_images_and_binds_no_groups() {
+    let whole = Subresources::WHOLE;
+    let mut small = Small::default();
+    let [color, shown] = ["color", "shown"].map(|name| small.image(name, Format::R8G8B8A8_UNORM, [4, 2]));
+    small.pass(draw("white", Draw::FullScreen).draws(color, whole, None));
+    small.pass(draw("own", Draw::Custom).samples("seen", color, whole).draws(shown, whole, Some([0.0; 4])));
+    small.image_output(shown);
+    on_each_driver(|device| {
+        let plan = planned(device, &small.frame, &Options::default());
+        let interface = DrawInterface {
+            supplied: vec![Supplied::new(1, 0, "camera", SuppliedKind::UniformBlock)],
+            ..DrawInterface::default()
+        };
+        let brought = interface.clone();
+        let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, move |_| brought.clone());
+        let mut executor =
+            Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
+        executor.frame(&mut Looks).expect("a frame");
+        let camera = device.buffer(BufferUsage::Uniform, &[0; 16]).expect("a buffer");
+        let group = device.bind_group(&interface, 1, &[(0, Resource::Buffer(&camera))]).expect("a group");
+        let error = executor.frame(&mut Binds(group)).expect_err("there is no pipeline").to_string();
+        assert_eq!(error, "pass `own`, while recording: a bind group without pipeline: there is no shader `own`");
+    });
 }
 
 #[test]

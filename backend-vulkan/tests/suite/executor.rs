@@ -29,6 +29,14 @@ const SHADERS: &[(&str, &str)] = &[
         }",
     ),
     ("white.frag", WHITE),
+    ("larger.frag", WHITE),
+    (
+        "larger.vert",
+        "#version 460
+        layout(location = 4) in vec2 place;
+        layout(set = 1, binding = 0) uniform View { vec4 shift; mat4 more; } view;
+        void main() { gl_Position = view.more * vec4(place + view.shift.xy, 0.0, 1.0); }",
+    ),
     (
         "show.frag",
         "#version 460
@@ -313,6 +321,28 @@ fn a_draw_source_draws_where_its_vertices_and_instances_say() {
 }
 
 #[test]
+fn a_block_that_is_larger_than_its_buffer_is_an_error() {
+    let Some(device) = testing::device() else { return };
+    let plan = resolve_then_sample(device, ("larger", Draw::Objects(DrawList::Opaque)), "show");
+    let mut executor = Executor::new(device, &plan, &mut library(), &ExecutorOptions::default()).expect("an executor");
+    let interface = interface(Draw::Objects(DrawList::Opaque));
+    let mut bind = |resource: Resource<'_>| {
+        let group = device.bind_group(&interface, 1, &[(0, resource)]).expect("a bind group");
+        let mut source = With(|recorder: &mut Recorder<'_>| {
+            recorder.bind_group(1, &group);
+            0
+        });
+        executor.frame(&mut source).err().map(|error| error.to_string()).unwrap_or_default()
+    };
+    let small = device.buffer(BufferUsage::Uniform, &[0; 64]).expect("a buffer");
+    let said = "pass `draw`, while recording: the block `view` takes 80 bytes, and its buffer holds 64";
+    assert_eq!(bind(Resource::Buffer(&small)), said);
+    assert_eq!(bind(Resource::Dynamic(&device.dynamic_buffer(BufferUsage::Uniform, 64).expect("a buffer"))), said);
+    let large = device.buffer(BufferUsage::Uniform, &[0; 80]).expect("a buffer");
+    assert_eq!(bind(Resource::Buffer(&large)), "");
+}
+
+#[test]
 fn misuse_of_the_recorder_is_an_error_and_no_crash() {
     let Some(device) = testing::device() else { return };
     let plan = resolve_then_sample(device, ("white", Draw::Objects(DrawList::Opaque)), "show");
@@ -374,5 +404,8 @@ fn a_shader_that_does_not_fit_its_pass_is_refused_by_name() {
     let other_shader = message(&|plan| second(plan, &|pass| pass.shader = "white".into()));
     assert_eq!(other_shader, "pass `show`: the shader has no `source`");
     let no_shader = message(&|plan| second(plan, &|pass| pass.shader = "shwo".into()));
-    assert_eq!(no_shader, "shader `shwo`: not found in the shipped shaders; known shaders: one_sample; show; white");
+    assert_eq!(
+        no_shader,
+        "shader `shwo`: not found in the shipped shaders; known shaders: larger; one_sample; show; white"
+    );
 }

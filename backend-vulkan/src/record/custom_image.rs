@@ -1,0 +1,49 @@
+//! Images of a pass, for commands of the program's own.
+
+use crate::base::convert;
+use crate::prepare::{Frame, part};
+use ash::vk;
+use framewright_graph::plan::{self, Access, Plan};
+use framewright_graph::vulkan::{Accesses, Rotation, Subresources};
+
+/// An image of a pass, for commands of the program's own.
+#[derive(Debug, Clone, Copy)]
+pub struct CustomImage {
+    /// Vulkan's image.
+    pub raw: vk::Image,
+    /// The part that the pass may touch.
+    pub range: Subresources,
+    /// Width, height and depth in use, from the first texel on, of the first mip level of that part; where an image changes its
+    /// size from frame to frame it is made larger.
+    pub extent: [u32; 3],
+    /// By how much the picture is turned that it holds, or is to hold; `extent` is that of the turned picture.
+    pub rotation: Rotation,
+    /// The layout that it is in and must be left in.
+    pub layout: vk::ImageLayout,
+    /// Allowed accesses of the pass.
+    pub accesses: Accesses,
+}
+
+impl CustomImage {
+    /// The image that a pass accesses, by the Plan's name or the shader's.
+    pub(super) fn of(frame: &Frame<'_>, pass: &plan::Pass, name: &str) -> Option<CustomImage> {
+        let plan = frame.plan;
+        let is_named = |it: &&Access| {
+            *plan.image(it.image).name == *name || it.binding.as_ref().is_some_and(|binding| *binding.name == *name)
+        };
+        let access = pass.accesses.iter().find(is_named)?;
+        Some(CustomImage {
+            raw: frame.image(access.image).raw,
+            range: part(plan.image(access.image), access.range),
+            extent: extent(plan, access),
+            rotation: plan.image(access.image).rotation,
+            layout: convert::layout(access.layout),
+            accesses: access.accesses,
+        })
+    }
+}
+
+/// Extent of the first mip level of what is accessed.
+pub(super) fn extent(plan: &Plan, access: &Access) -> [u32; 3] {
+    plan.image(access.image).extent.map(|side| side.unbounded_shr(access.range.base_mip).max(1))
+}
