@@ -125,7 +125,8 @@ impl Frames {
                     self.expect(part.saturating_sub(1).min(self.batches.len()), frame.number, outer);
                     self.gpu.abandon(&self.pending);
                 }
-                return Err(self.at_step(frame.plan, part, Error::vulkan(DRAWING)(result)));
+                let error = self.at_step(frame.plan, part, Error::vulkan(DRAWING)(result));
+                return Err(self.at_breadcrumbs(error));
             }
             if self.step_by_step && (1..=self.batches.len()).contains(&part) {
                 self.expect(part, frame.number, outer);
@@ -145,14 +146,16 @@ impl Frames {
     }
 
     /// The error of a wait, with the steps that the device was at if breadcrumbs tell: those of the oldest frame that isn't done.
-    fn at_breadcrumbs(&self, error: Error) -> Error {
+    /// They are told once.
+    fn at_breadcrumbs(&mut self, error: Error) -> Error {
         if !matches!(error, Error::Timeout { .. } | Error::DeviceLost { .. }) {
             return error;
         }
+        let titles = std::mem::take(&mut self.titles);
         let frames = self.slots.iter().filter(|slot| !slot.finished);
         let frames = frames.filter_map(|slot| Some((slot.frame?.0, slot.observers.breadcrumbs.as_ref()?.running())));
         let oldest = frames.filter(|(_, steps)| !steps.is_empty()).min_by_key(|(frame, _)| *frame);
-        let titles = oldest.iter().flat_map(|(_, steps)| steps).filter_map(|step| self.titles.get(*step));
+        let titles = oldest.iter().flat_map(|(_, steps)| steps).filter_map(|step| titles.get(*step));
         let titles: Vec<&str> = titles.map(String::as_str).collect();
         if titles.is_empty() {
             return error;
@@ -346,7 +349,7 @@ impl Frames {
             _ => return Ok(()),
         };
         if self.gpu.is_abandoned() {
-            return Err(Error::DeviceLost { doing: DRAWING });
+            return Err(self.at_breadcrumbs(Error::DeviceLost { doing: DRAWING }));
         }
         match end {
             FrameEnd::Own { outer } => {

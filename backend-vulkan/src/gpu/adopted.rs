@@ -41,8 +41,9 @@ pub struct AdoptedDevice<'p> {
 }
 
 impl Device {
-    /// Uses a device that the program made itself. It isn't destroyed when the last clone and the last thing made from it are gone,
-    /// but its memory was given back to the program's allocator then, if there is one. The helper process tests it, as with [`DeviceOptions`](crate::DeviceOptions).
+    /// Uses a device that the program made itself, and destroys itself. When the last clone and the last thing made from the device are
+    /// gone, all memory is back in the program's allocator, if there is one; after [`Error::Timeout`] and the like nothing is given back, and
+    /// the allocator is kept for good. The helper process tests the device, as with [`DeviceOptions`](crate::DeviceOptions).
     ///
     /// # Errors
     /// [`Error::Lacking`] if the physical device is less than the minimum, and [`Error::NotEnabled`] with all that the device was created

@@ -4,7 +4,7 @@
 //! were not asked for in a while are destroyed when none is left, so that a program whose shaders change again and again doesn't grow.
 
 use super::handle::Gpu;
-use super::made_once::MadeOnce;
+use super::object_cache::ObjectCache;
 use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, StencilState};
@@ -15,20 +15,20 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// The caches of a device.
 #[derive(Default)]
 pub(crate) struct Caches {
-    pub(crate) samplers: MadeOnce<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
-    pub(crate) set_layouts: MadeOnce<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
-    pub(crate) pipeline_layouts: MadeOnce<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
-    pub(crate) pipelines: MadeOnce<PipelineDescriptor, vk::Pipeline>,
-    /// How many executors there are.
-    executors: Mutex<u32>,
+    pub(crate) samplers: ObjectCache<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
+    pub(crate) set_layouts: ObjectCache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
+    pub(crate) pipeline_layouts: ObjectCache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
+    pub(crate) pipelines: ObjectCache<PipelineDescriptor, vk::Pipeline>,
+    /// How many hold on to pipelines.
+    holders: Mutex<u32>,
 }
 
-/// An executor's hold on pipelines: none is destroyed while it is there.
+/// A hold on pipelines: none is destroyed while it is there. A round of the cache ends when the last hold goes.
 pub(crate) struct PipelineHold(Arc<Gpu>);
 
 impl PipelineHold {
     pub(crate) fn new(gpu: &Arc<Gpu>) -> PipelineHold {
-        *gpu.caches.executors() += 1;
+        *gpu.caches.holders() += 1;
         PipelineHold(Arc::clone(gpu))
     }
 }
@@ -36,14 +36,14 @@ impl PipelineHold {
 impl Drop for PipelineHold {
     fn drop(&mut self) {
         let Gpu { caches, raw, .. } = &*self.0;
-        let mut executors = caches.executors();
-        *executors -= 1;
-        if *executors > 0 || self.0.is_abandoned() {
+        let mut holders = caches.holders();
+        *holders -= 1;
+        if *holders > 0 || self.0.is_abandoned() {
             return;
         }
         for pipeline in caches.pipelines.end_round() {
-            // SAFETY: only executors use pipelines. The last one has waited for its frames, and no other begins while their number
-            // is locked.
+            // SAFETY: pipelines are used by executors and made for them, each with a hold. The last executor has waited for its
+            // frames, and no other hold begins while their number is locked.
             unsafe { raw.destroy_pipeline(pipeline, None) };
         }
     }
@@ -51,7 +51,7 @@ impl Drop for PipelineHold {
 
 impl Caches {
     fn executors(&self) -> MutexGuard<'_, u32> {
-        self.executors.lock().unwrap_or_else(PoisonError::into_inner)
+        self.holders.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Destroys everything.

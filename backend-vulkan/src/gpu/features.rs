@@ -69,12 +69,16 @@ const OPTIONAL_FEATURES: [(&str, &str, Flag); 9] = [
         "elements of arrays of storage images, by a number that changes",
         |it| &mut it.core.shader_storage_image_array_dynamic_indexing,
     ),
-    ("shaderSampledImageArrayNonUniformIndexing", "the same by a number that differs within a draw", |it| {
-        &mut it.v1_2.shader_sampled_image_array_non_uniform_indexing
-    }),
-    ("shaderStorageImageArrayNonUniformIndexing", "the same of storage images", |it| {
-        &mut it.v1_2.shader_storage_image_array_non_uniform_indexing
-    }),
+    (
+        "shaderSampledImageArrayNonUniformIndexing",
+        "elements of arrays of sampled images, by a number that differs within a draw",
+        |it| &mut it.v1_2.shader_sampled_image_array_non_uniform_indexing,
+    ),
+    (
+        "shaderStorageImageArrayNonUniformIndexing",
+        "elements of arrays of storage images, by a number that differs within a draw",
+        |it| &mut it.v1_2.shader_storage_image_array_non_uniform_indexing,
+    ),
 ];
 
 impl Features {

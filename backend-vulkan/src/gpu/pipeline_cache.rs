@@ -20,7 +20,7 @@ const MOST_BYTES: u64 = 256 << 20;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PipelineCounts {
-    /// All that were made, whatever with. A frame makes none.
+    /// All that were made for Plans. A frame makes none. Those of overlays over windows don't count.
     pub made: u64,
     /// Those of them that the driver found in its cache: it says so, where it says anything.
     pub found: u64,
@@ -69,15 +69,18 @@ impl CacheFile {
         whole.then_some(bytes)
     }
 
-    /// Replaces it. Where that isn't possible, nothing is kept.
+    /// Replaces it. Where that isn't possible, nothing is kept. What has grown too large is removed, so that the next process begins with
+    /// nothing.
     fn write(&self, bytes: &[u8]) {
         let header = Header { key: self.key.clone(), digest: digest(bytes) };
         let mut file = Vec::new();
         let written = write(&mut file, &header).and_then(|()| write_frame(&mut file, bytes));
-        if written.is_ok() && file.len() as u64 <= LARGEST_FILE {
-            let _ = replace_file(&self.folder, &self.path, &file);
-            shrink(&self.folder, MOST_BYTES);
+        if written.is_err() || file.len() as u64 > LARGEST_FILE {
+            let _ = std::fs::remove_file(&self.path);
+            return;
         }
+        let _ = replace_file(&self.folder, &self.path, &file);
+        shrink(&self.folder, MOST_BYTES);
     }
 }
 
@@ -118,7 +121,8 @@ impl PipelineCache {
         }
     }
 
-    /// Keeps what was added since it was opened, with what other processes kept meanwhile.
+    /// Keeps what was added since it was opened, with what other processes kept meanwhile. Of two processes that do so at once, the later one
+    /// may replace what the other added: that is made again some day.
     ///
     /// # Safety
     /// It is a cache of `device`, in which no thread makes pipelines.
@@ -185,11 +189,13 @@ mod tests {
     }
 
     #[test]
-    fn what_a_driver_makes_too_large_is_not_kept() {
+    fn what_a_driver_makes_too_large_is_not_kept_and_neither_is_what_it_grew_from() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = CacheFile::of(&Cache::in_folder(folder.path()), "a driver");
         file.write(b"pipelines");
         file.write(&vec![7; usize::try_from(LARGEST_FILE).expect("it fits")]);
+        assert_eq!(file.read(), None);
+        file.write(b"pipelines");
         assert_eq!(file.read().as_deref(), Some(&b"pipelines"[..]));
     }
 }

@@ -1,5 +1,6 @@
 //! Pipelines, one for each description, made on several threads.
 
+use super::created::created;
 use super::graphics;
 use super::shader_module::ShaderModule;
 use crate::base::Error;
@@ -20,17 +21,26 @@ impl Gpu {
     /// The pipeline of this description. It bears the name of who first asked for it: others may be using it
     /// already.
     pub(crate) fn pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        self.caches.pipelines.get(descriptor, |descriptor| self.own_pipeline(name, descriptor))
+        self.caches.pipelines.get(descriptor, |descriptor| {
+            let (pipeline, found) = self.create_pipeline(name, descriptor)?;
+            self.pipeline_cache.count(found);
+            Ok(pipeline)
+        })
     }
 
     /// A pipeline of this description that belongs to the caller, who destroys it.
     pub(crate) fn own_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        let pipeline = match descriptor {
+        Ok(self.create_pipeline(name, descriptor)?.0)
+    }
+
+    /// A new pipeline, and whether the driver found it in its cache.
+    fn create_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<(vk::Pipeline, bool), Error> {
+        let created = match descriptor {
             PipelineDescriptor::Graphics(descriptor) => graphics::create(self, descriptor)?,
             PipelineDescriptor::Compute { shader, layout } => create_compute(self, shader, *layout)?,
         };
-        self.name(pipeline, name);
-        Ok(pipeline)
+        self.name(created.0, name);
+        Ok(created)
     }
 
     /// The pipelines of these descriptions with their names. Those that there aren't yet are made on as many threads as the machine
@@ -73,24 +83,9 @@ impl Gpu {
             None => wanted.iter().map(|(name, descriptor)| self.pipeline(name, descriptor)).collect(),
         }
     }
-
-    /// Notes how a pipeline came about that was created with `feedback`, and hands it on.
-    pub(super) fn created(
-        &self,
-        made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
-        feedback: vk::PipelineCreationFeedback,
-    ) -> Result<vk::Pipeline, Error> {
-        let doing = "creating a pipeline";
-        let made = made.map_err(|(_, result)| Error::vulkan(doing)(result))?;
-        let pipeline = made.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })?;
-        let found = vk::PipelineCreationFeedbackFlags::VALID
-            | vk::PipelineCreationFeedbackFlags::APPLICATION_PIPELINE_CACHE_HIT;
-        self.pipeline_cache.count(feedback.flags.contains(found));
-        Ok(pipeline)
-    }
 }
 
-fn create_compute(gpu: &Gpu, shader: &Spirv, layout: vk::PipelineLayout) -> Result<vk::Pipeline, Error> {
+fn create_compute(gpu: &Gpu, shader: &Spirv, layout: vk::PipelineLayout) -> Result<(vk::Pipeline, bool), Error> {
     let module = ShaderModule::new(gpu, shader)?;
     let mut feedback = vk::PipelineCreationFeedback::default();
     let mut told = vk::PipelineCreationFeedbackCreateInfo::default().pipeline_creation_feedback(&mut feedback);
@@ -100,5 +95,5 @@ fn create_compute(gpu: &Gpu, shader: &Spirv, layout: vk::PipelineLayout) -> Resu
         .push_next(&mut told);
     // SAFETY: everything that `info` points to outlives the call; the interface was matched with the layout.
     let made = unsafe { gpu.raw.create_compute_pipelines(gpu.pipeline_cache.raw, &[info], None) };
-    gpu.created(made, feedback)
+    created(made, feedback)
 }

@@ -1,5 +1,6 @@
 //! Graphics pipelines.
 
+use super::created::created;
 use super::shader_module::ShaderModule;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute};
@@ -24,7 +25,7 @@ impl RotationConstants {
     }
 }
 
-pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<vk::Pipeline, Error> {
+pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::Pipeline, bool), Error> {
     let vertex = ShaderModule::new(gpu, &descriptor.vertex)?;
     let fragment = descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(gpu, fragment)).transpose()?;
     let formats = &descriptor.formats;
@@ -114,7 +115,7 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<vk::P
     }
     // SAFETY: everything that `info` points to outlives the call; interfaces were matched with the layout.
     let made = unsafe { gpu.raw.create_graphics_pipelines(gpu.pipeline_cache.raw, &[info], None) };
-    gpu.created(made, feedback)
+    created(made, feedback)
 }
 
 /// Items of the colour attachments of a scope or its pipelines; where there is none, one that is unused, without image or

@@ -7,15 +7,24 @@ use framewright_graph::shader::{Binding, BindingKind, PASS_SET, ShaderInterface,
 /// with Vulkan's names.
 type Counted = (&'static str, fn(&BindingKind) -> bool, Option<SuppliedKind>, Vec<(&'static str, u32)>);
 
-/// Checks the device's limits for one stage, which are also held by all stages together: the number of resources of each kind, where
-/// each element of an array counts, and the size of a block. Resources that the draw source brings along count whether the shader reads
-/// them or not.
+/// Checks the device's limits for one stage, which are also held by all stages together: the number of resources of each kind and of all
+/// kinds with the pass's `targets`, where each element of an array counts, and the size of a block. Resources that the draw source brings
+/// along count whether the shader reads them or not.
 pub(crate) fn check_limits<'s>(
     limits: &vk::PhysicalDeviceLimits,
     shader: &ShaderInterface,
     brought: impl Iterator<Item = &'s Supplied> + Clone,
+    targets: usize,
 ) -> Result<(), String> {
     let own = || shader.bindings.iter().filter(|it| it.set == PASS_SET);
+    let counts = own().map(|it| u64::from(it.count())).chain(brought.clone().map(|it| u64::from(it.count)));
+    let all = counts.sum::<u64>().saturating_add(targets as u64);
+    if all > u64::from(limits.max_per_stage_resources) {
+        let most = limits.max_per_stage_resources;
+        return Err(format!(
+            "{all} resources and colour targets are bound, and this device allows {most} (maxPerStageResources)"
+        ));
+    }
     for (what, is_own, supplied, most) in counted(limits) {
         let own = own().filter(|it| is_own(&it.kind)).map(|it| (&*it.name, Binding::count(it)));
         let brought = brought.clone().filter(|it| Some(it.kind) == supplied).map(|it| (&*it.name, it.count));
@@ -105,16 +114,21 @@ mod tests {
             max_descriptor_set_sampled_images: 96,
             max_per_stage_descriptor_uniform_buffers: 12,
             max_descriptor_set_uniform_buffers: 72,
+            max_per_stage_resources: 128,
             ..vk::PhysicalDeviceLimits::default()
         }
     }
 
     fn refused(limits: &vk::PhysicalDeviceLimits, textures: u32) -> String {
+        refused_with(limits, textures, 0)
+    }
+
+    fn refused_with(limits: &vk::PhysicalDeviceLimits, textures: u32, targets: usize) -> String {
         let brought = [
             Supplied::new(1, 0, "sky", SuppliedKind::SampledImage),
             Supplied::new(2, 0, "textures", SuppliedKind::SampledImage).with_count(textures),
         ];
-        check_limits(limits, &ShaderInterface::default(), brought.iter()).err().unwrap_or_default()
+        check_limits(limits, &ShaderInterface::default(), brought.iter(), targets).err().unwrap_or_default()
     }
 
     #[test]
@@ -133,7 +147,23 @@ mod tests {
     }
 
     #[test]
+    fn resources_of_all_kinds_count_together_with_colour_targets() {
+        let many = vk::PhysicalDeviceLimits {
+            max_per_stage_descriptor_samplers: 1000,
+            max_per_stage_descriptor_sampled_images: 1000,
+            max_descriptor_set_samplers: 1000,
+            max_descriptor_set_sampled_images: 1000,
+            ..least()
+        };
+        assert_eq!(refused_with(&many, 123, 4), "");
+        let said = "129 resources and colour targets are bound, and this device allows 128 (maxPerStageResources)";
+        assert_eq!(refused_with(&many, 124, 4), said);
+    }
+
+    #[test]
     fn arrays_longer_than_any_number_are_refused_too() {
-        assert!(refused(&least(), u32::MAX).starts_with("4294967296 sampled images are bound"));
+        let any = vk::PhysicalDeviceLimits { max_per_stage_resources: u32::MAX, ..least() };
+        assert!(refused(&any, u32::MAX).starts_with("4294967296 resources and colour targets are bound"));
+        assert!(refused(&any, u32::MAX - 1).starts_with("4294967295 sampled images are bound"));
     }
 }

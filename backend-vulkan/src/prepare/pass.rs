@@ -190,7 +190,7 @@ pub(super) fn prepare_dispatch(
     let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
     check_features(gpu, &shader.interface).map_err(mismatch)?;
-    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter()).map_err(mismatch)?;
+    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter(), 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
@@ -249,7 +249,7 @@ pub(super) fn prepare_draw(
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_features(gpu, &shader.interface).map_err(mismatch)?;
-    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter()).map_err(mismatch)?;
+    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();

@@ -27,7 +27,8 @@ impl Executor {
     /// Draws a frame into the next image of a window, and has it shown. `name` is the output that is shown: the frame must have been
     /// made with the swapchain's format, size and rotation, and leave it as `Present`.
     ///
-    /// Nothing is waited for but a free image, and the oldest frame on its way if as many are as may be.
+    /// Nothing is waited for but a free image, the oldest frame on its way if as many are as may be, and for an
+    /// [overlay](Swapchain::set_overlay) that changed the one before.
     ///
     /// # Errors
     /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output or the window's images are none for it or for

@@ -88,7 +88,8 @@ impl Swapchain {
     /// still be shown, they stay. `extent` counts where the surface leaves the size to the program. Returns whether the surface has
     /// an area now.
     ///
-    /// Executors keep the old images until they present again or are dropped; then all work of the graphics queue is waited for.
+    /// Executors and the overlay keep the old images until they present again or are dropped; then all work of the graphics queue is waited
+    /// for.
     ///
     /// # Errors
     /// Those of [`Swapchain::new`]. Nothing can be shown then until it succeeds.
@@ -130,7 +131,8 @@ impl Swapchain {
 
     /// Lays a picture over what the window shows, from the next frame on, in place of the one before; `None`: none. It is copied.
     /// Frames, what they leave and their times stay as they are. The first frame after a change sends the texels to the device,
-    /// unless they are those that it has.
+    /// unless they are those that it has, and waits for the last frame that did so: an overlay that changes in every frame leaves one frame on
+    /// its way at a time. The first frame under an overlay makes a pipeline.
     ///
     /// # Errors
     /// [`Error::BadResource`] if the picture has no area, is larger than an image of the device, or has another number of bytes

@@ -175,7 +175,7 @@ impl Device {
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         let of_set = supplied.iter().copied();
-        check_limits(&self.gpu.limits, &ShaderInterface::default(), of_set).map_err(bad)?;
+        check_limits(&self.gpu.limits, &ShaderInterface::default(), of_set, 0).map_err(bad)?;
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {

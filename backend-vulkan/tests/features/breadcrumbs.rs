@@ -71,9 +71,13 @@ fn the_step_at_which_a_device_stops_is_told() {
             }
             copy(recorder);
         });
-        let error = executor.frame(&mut stops).expect_err("it stops");
+        executor.submit(&mut stops).expect("it is on its way");
+        // One behind it, which doesn't begin: it is the older one's step that is told.
+        let behind = executor.submit(&mut Custom(copy)).expect("it is on its way");
+        let error = executor.wait(behind).expect_err("it doesn't come");
         // SAFETY: the event lives.
         unsafe { raw.set_event(event) }.expect("set");
+        assert!(matches!(executor.frame(&mut Custom(copy)), Err(Error::DeviceLost { .. })), "told once");
         let Error::AtStep { step, error } = error else { panic!("it is told with its step: {error}") };
         assert!(matches!(*error, Error::Timeout { .. }), "{error}");
         assert_eq!(step, "step 1: by hand");

@@ -8,7 +8,7 @@ use crate::system::text;
 pub(super) struct Problems {
     /// What keeps the files from being shown as they are, until they are read again.
     mistake: Option<String>,
-    /// What keeps the newest choices from being shown, until a frame is.
+    /// What keeps the newest choices from being shown, until others are made.
     refused: Option<String>,
 }
 
@@ -34,8 +34,8 @@ impl Problems {
         self.mistake = None;
     }
 
-    /// The newest choices are shown.
-    pub(super) fn shown(&mut self) {
+    /// There are other choices now.
+    pub(super) fn choices_changed(&mut self) {
         self.refused = None;
     }
 

@@ -197,7 +197,6 @@ impl<'a> Session<'a> {
 
     fn count(&mut self, frame: u64) -> Result<(), Error> {
         (self.last, self.shown) = (Some(frame), self.shown.saturating_add(1));
-        self.problems.shown();
         self.pace.count();
         // The frame before is done, or nearly: nothing waits for the one that was just begun.
         if let Some(before) = frame.checked_sub(1)
@@ -262,6 +261,7 @@ impl<'a> Session<'a> {
 
     /// The window has another size.
     pub(super) fn resized(&mut self, size: [u32; 2]) {
+        self.problems.choices_changed();
         (self.size, self.refit) = (size, true);
     }
 
@@ -281,6 +281,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_setting(&mut self, forwards: bool) -> Result<(), Error> {
+        self.problems.choices_changed();
         let turned = self.chosen.turn(&mut self.renderer, forwards);
         self.list.changed();
         self.problems.refuse(turned)
@@ -291,6 +292,8 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_eyes(&mut self) -> Result<(), Error> {
+        self.problems.choices_changed();
+        self.list.changed();
         self.view.turn_eyes();
         let mut fitted = self.fit().and_then(|()| self.prepare());
         if self.view.wants_two_eyes() && fitted.is_ok() && !self.renderer.plan().is_some_and(view::shows_two_eyes) {
@@ -308,6 +311,8 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Those of [`Session::frame`].
     pub(super) fn turn_screen(&mut self) -> Result<(), Error> {
+        self.problems.choices_changed();
+        self.list.changed();
         self.view.turn_screen();
         let fitted = self.fit();
         self.problems.refuse(fitted)

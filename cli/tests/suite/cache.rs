@@ -200,12 +200,10 @@ fn pipelines_are_kept_as_the_driver_gives_them_and_damage_does_no_harm() {
         assert!(picture() == first);
         assert!(fs::read(file).expect("read") == whole, "it is written again as it was");
     }
-    place
-        .run_with(
-            &variables,
-            &["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "4x4", "-o", "p.png", "--no-cache"],
-        )
-        .exits(0);
+    fs::write(file, "damaged").expect("written");
+    let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "4x4", "-o", "p.png", "--no-cache"];
+    place.run_with(&variables, &run).exits(0);
+    assert_eq!(fs::read(file).expect("read"), b"damaged", "the cache isn't written");
     fs::remove_dir_all(place.path("cache/framewright/pipelines")).expect("removed");
     place.file("cache/framewright/pipelines", "no folder");
     assert!(picture() == first);

@@ -218,9 +218,10 @@ impl Renderer {
         Ok(other)
     }
 
-    /// Makes all pipelines that the next frame needs: shaders are compiled, and the driver's pipelines made on several threads. The device
-    /// keeps them while there is an executor, so that a renderer that comes to the same choices finds them made. What a user may choose next
-    /// is so made ahead, in the background: see [`Renderer::try_clone`].
+    /// Makes all pipelines that the next frame needs, on several threads. The device keeps them while there is an executor, so that another
+    /// renderer that comes to the same choices finds them made. Called for a [clone](Renderer::try_clone) in the background, it prepares what
+    /// the user may choose next. Compiled shaders are each renderer's own: a [`Helper`](crate::Helper) with a cache, or precompiled ones, spare
+    /// the other one that work.
     ///
     /// # Errors
     /// The mistakes of the pipeline, its shaders and choices, or those of making pipelines. The choices stay.

@@ -24,14 +24,12 @@ pub(super) fn misfit<'i>(
         return Some((&binding.name, None));
     }
     let (at, said, help) = match (binding.length, element) {
-        (Some(length), None) => (
-            0,
-            format!("as an array of {length}, and is given one image"),
-            format!("write a list: `{}`", form(binding)),
-        ),
+        (Some(length), None) => {
+            (0, format!("as an array of {length}, and is given no list"), format!("write a list: `{}`", form(binding)))
+        }
         (None, Some(_)) => (0, "as no array, and is given a list".to_owned(), format!("write `{}`", form(binding))),
         (Some(length), Some(at)) if at >= length => {
-            (length, format!("as an array of {length}, and is given more images"), "leave this one out".to_owned())
+            (length, format!("as an array of {length}, and is given more"), "leave this one out".to_owned())
         }
         _ => return None,
     };

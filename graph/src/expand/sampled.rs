@@ -170,7 +170,12 @@ pub(super) fn check<'i>(
 pub(super) fn check_left_out(pass: &language::Pass, whole: Option<&ShaderInterface>, errors: &mut Vec<Diagnostic>) {
     let (Some(whole), Some(shader)) = (whole, pass.shader()) else { return };
     for language::LeftOut { binding, .. } in &pass.left_out {
-        if declared(whole, &binding.text).is_none() {
+        if declared(whole, &binding.text).is_some() {
+            continue;
+        }
+        if let Some((_, wrong)) = arrays::misfit(&shader.text, whole, binding) {
+            errors.extend(wrong);
+        } else {
             let unknown = format!("shader `{}` samples no image named `{}`", shader.text, binding.text);
             let help = suggestion(&binding.text, names(whole));
             errors.push(Diagnostic { help, ..Diagnostic::new(binding.span, unknown) });

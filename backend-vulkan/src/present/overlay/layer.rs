@@ -26,7 +26,7 @@ pub(crate) struct OverlayLayer {
     picture: Option<OverlayPicture>,
     /// Whether the texels aren't those on the device.
     stale: bool,
-    drawn: Option<Drawn>,
+    drawn: Option<TargetImages>,
     pipeline: Option<OverlayPipeline>,
     texture: Option<OverlayTexture>,
     /// What the next commands draw, where.
@@ -44,7 +44,7 @@ pub(crate) struct OverlayLayer {
 }
 
 /// The images that it is laid over.
-struct Drawn {
+struct TargetImages {
     /// Views of them.
     views: Vec<(Image, vk::ImageView)>,
     /// Outlives the views.
@@ -101,7 +101,7 @@ impl OverlayLayer {
         if self.drawn.as_ref().is_none_or(|drawn| !Arc::ptr_eq(&drawn.of, swapchain)) {
             self.wait(self.submitted, timeout)?;
             // They may be turned otherwise than those before.
-            (self.drawn, self.stale) = (Some(Drawn::new(swapchain)?), true);
+            (self.drawn, self.stale) = (Some(TargetImages::new(swapchain)?), true);
             while self.slots.len() <= swapchain.images.len() {
                 let pool = CommandPool::new(&self.gpu, Queue::Graphics)?;
                 let buffer = pool.buffer()?;
@@ -223,8 +223,8 @@ impl OverlayLayer {
     }
 }
 
-impl Drawn {
-    fn new(of: &Arc<SwapchainHandle>) -> Result<Drawn, Error> {
+impl TargetImages {
+    fn new(of: &Arc<SwapchainHandle>) -> Result<TargetImages, Error> {
         let form = &of.form;
         let blends = of.gpu.format_features(form.format).contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND);
         if !blends || !form.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT) {
@@ -250,7 +250,7 @@ impl Drawn {
             Ok((image, view))
         };
         let views = of.images.iter().map(view).collect::<Result<_, Error>>()?;
-        Ok(Drawn { views, of: of.clone() })
+        Ok(TargetImages { views, of: of.clone() })
     }
 
     /// An image, its view, and its extent.

@@ -84,10 +84,11 @@ fn mistaken(sample: &str, place: &str, said: &[&str]) {
 #[test]
 fn what_does_not_fit_an_array_is_told_at_its_place() {
     let array = "shader `taps` declares `taps` as an array of 3, ";
-    let one = [&format!("{array}and is given one image"), "write a list: `\"taps\": [\"…\", \"…\", \"…\"]`"];
+    let one = [&format!("{array}and is given no list"), "write a list: `\"taps\": [\"…\", \"…\", \"…\"]`"];
     mistaken(r#"{"taps": "a"}"#, "\"taps\": \"a\"", &[one[0], one[1]]);
-    let more = format!("{array}and is given more images");
+    let more = format!("{array}and is given more");
     mistaken(r#"{"taps": ["a", "b", "c", "d", "e"]}"#, "\"d\"", &[&more, "leave this one out"]);
+    mistaken(r#"{"taps": ["a", "b", "c", (image: "d", when: "2 < 1")]}"#, "(image: \"d\"", &[&more]);
     let gap = "shader `taps` samples `taps[2]`, which pass `show` doesn't give";
     mistaken(r#"{"taps": ["a", "b"]}"#, "\"b\"", &[gap, "`taps` is an array of 3: `\"taps\": [\"…\", \"…\", \"…\"]`"]);
     let gap = "shader `taps` samples `taps[1]`, which pass `show` doesn't give";

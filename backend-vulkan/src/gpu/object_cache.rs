@@ -1,16 +1,16 @@
-//! Objects by description, of which each is made once. Threads make different objects at once; who asks for one that another thread
-//! makes waits for it.
+//! Objects by description, of which each is made once. Threads make different objects at once. A thread that asks for an object that
+//! another one is making waits for it.
 
 use crate::base::Error;
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Objects that nobody asked for during this many rounds are old.
+/// Objects that nobody asked for during this many rounds are old. The owner of the cache says when a round ends.
 const KEPT_ROUNDS: u64 = 16;
 
 /// One kind of object by its description.
-pub(crate) struct MadeOnce<K, V> {
+pub(crate) struct ObjectCache<K, V> {
     known: Mutex<Known<K, V>>,
     /// Wakes threads that wait for an object that another one makes.
     made: Condvar,
@@ -29,27 +29,27 @@ struct Object<V> {
 }
 
 /// An object that this thread makes. Dropped, it gives the object to all who wait for it; where it was not made, another tries.
-struct Making<'m, K: Hash + Eq, V> {
-    objects: &'m MadeOnce<K, V>,
+struct PendingObject<'m, K: Hash + Eq, V> {
+    objects: &'m ObjectCache<K, V>,
     key: &'m K,
     made: Option<V>,
 }
 
-impl<K, V> Default for MadeOnce<K, V> {
+impl<K, V> Default for ObjectCache<K, V> {
     fn default() -> Self {
-        MadeOnce { known: Mutex::new(Known { objects: HashMap::new(), round: 0 }), made: Condvar::new() }
+        ObjectCache { known: Mutex::new(Known { objects: HashMap::new(), round: 0 }), made: Condvar::new() }
     }
 }
 
-impl<K: Hash + Eq + Clone, V: Copy> MadeOnce<K, V> {
+impl<K: Hash + Eq + Clone, V: Copy> ObjectCache<K, V> {
     /// The object for `key`, made by `make` if there is none yet.
     pub(crate) fn get(&self, key: &K, make: impl FnOnce(&K) -> Result<V, Error>) -> Result<V, Error> {
         if let Some(found) = self.find_or_begin(key) {
             return Ok(found);
         }
-        let mut making = Making { objects: self, key, made: None };
+        let mut pending = PendingObject { objects: self, key, made: None };
         let made = make(key)?;
-        making.made = Some(made);
+        pending.made = Some(made);
         Ok(made)
     }
 
@@ -92,13 +92,13 @@ impl<K: Hash + Eq + Clone, V: Copy> MadeOnce<K, V> {
     }
 }
 
-impl<K: Hash + Eq, V> MadeOnce<K, V> {
+impl<K: Hash + Eq, V> ObjectCache<K, V> {
     fn known(&self) -> MutexGuard<'_, Known<K, V>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl<K: Hash + Eq, V> Drop for Making<'_, K, V> {
+impl<K: Hash + Eq, V> Drop for PendingObject<'_, K, V> {
     fn drop(&mut self) {
         let objects = &mut self.objects.known().objects;
         match self.made.take() {
@@ -121,8 +121,8 @@ mod tests {
     use std::thread;
 
     #[test]
-    fn one_object_is_made_once_however_many_threads_ask_for_it() {
-        let objects = MadeOnce::default();
+    fn one_object_is_object_cache_however_many_threads_ask_for_it() {
+        let objects = ObjectCache::default();
         for key in 0..20 {
             let (made, asking) = (AtomicU32::new(0), AtomicU32::new(0));
             // It takes until all threads ask for it.
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn different_objects_are_made_at_once() {
-        let (objects, both_make) = (MadeOnce::default(), Barrier::new(2));
+        let (objects, both_make) = (ObjectCache::default(), Barrier::new(2));
         thread::scope(|scope| {
             for key in 0..2 {
                 let (objects, both_make) = (&objects, &both_make);
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn an_object_that_could_not_be_made_is_tried_again() {
-        let objects = MadeOnce::default();
+        let objects = ObjectCache::default();
         assert!(objects.get(&1, |_| Err::<u32, _>(Error::NoDevice)).is_err());
         let panicked = thread::scope(|scope| scope.spawn(|| objects.get(&1, |_| panic!("a driver's fault"))).join());
         assert!(panicked.is_err());
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn objects_that_nobody_asks_for_become_old() {
-        let objects = MadeOnce::default();
+        let objects = ObjectCache::default();
         for key in 0..2 {
             objects.get(&key, |key| Ok(*key)).expect("it is made");
         }
