@@ -50,7 +50,7 @@ impl Drop for PipelineHold {
 }
 
 impl Caches {
-    fn executors(&self) -> MutexGuard<'_, u32> {
+    fn holders(&self) -> MutexGuard<'_, u32> {
         self.holders.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -31,7 +31,7 @@ fields! {
         /// It sets an image or buffer to a value.
         pub(crate) fill: Option<Leaf<'src>> => transfer::FILL,
         /// It runs commands that the embedding program records under this name: with `color` or `depth` within a rendering
-        /// scope, else outside.
+        /// scope, where its shader is the one of this name if there is one; else outside.
         pub(crate) custom: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
         /// The shader of the draw.
         pub(crate) shader: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
