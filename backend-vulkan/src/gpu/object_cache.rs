@@ -121,7 +121,7 @@ mod tests {
     use std::thread;
 
     #[test]
-    fn one_object_is_object_cache_however_many_threads_ask_for_it() {
+    fn one_object_is_made_once_however_many_threads_ask_for_it() {
         let objects = ObjectCache::default();
         for key in 0..20 {
             let (made, asking) = (AtomicU32::new(0), AtomicU32::new(0));

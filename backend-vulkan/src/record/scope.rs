@@ -2,9 +2,9 @@
 
 use super::bindings::bind;
 use super::canvas::Canvas;
+use super::recorded::Counts;
 use super::recorder::Recorder;
 use super::step::Recording;
-use super::timing::Counts;
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead};
 use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand, passes};

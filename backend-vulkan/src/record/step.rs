@@ -4,16 +4,14 @@ use super::bindings::bind;
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
-use super::held::HeldResources;
 use super::observers::Observers;
+use super::recorded::{Counts, Recorded};
 use super::state::CommandState;
-use super::timing::Counts;
 use crate::base::Error;
 use crate::commands::barrier_call;
 use crate::prepare::{Command, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
 use ash::vk;
 use framewright_graph::plan::{Pass, Queue};
-use std::time::Duration;
 
 /// The recording of a frame.
 pub(crate) struct Recording<'r> {
@@ -24,30 +22,6 @@ pub(crate) struct Recording<'r> {
     pub(crate) recorded: &'r mut Recorded,
     /// Of the command buffer that is being recorded.
     pub(crate) state: CommandState,
-}
-
-/// A recorded frame.
-#[derive(Default)]
-pub(crate) struct Recorded {
-    /// By pass.
-    pub(crate) counts: Vec<Counts>,
-    pub(super) kept: HeldResources,
-    /// How long that took.
-    pub(crate) took: Duration,
-}
-
-impl Recorded {
-    /// Begins another frame, which finds the memory of this one. The device must be done with the frame.
-    pub(crate) fn begin(&mut self) {
-        self.counts.clear();
-        self.kept.begin();
-    }
-
-    /// Ends the frame, which took so long.
-    pub(crate) fn end(&mut self, took: Duration) {
-        self.kept.end();
-        self.took = took;
-    }
 }
 
 impl Recording<'_> {

@@ -1,7 +1,7 @@
 //! Timestamps, and the report of a frame.
 
 use super::fragments::FragmentCounts;
-use super::step::Recorded;
+use super::recorded::{Counts, Recorded};
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, passes, view_mask};
@@ -46,15 +46,6 @@ pub struct PassReport {
     /// From the end of the pass before it in its scope, or of the step before, to its own end. Resolves and stores at the
     /// end of the scope are the step's. A device that draws in tiles can't tell the passes of one scope apart.
     pub milliseconds: f64,
-}
-
-/// Draws and culled objects that were recorded for a pass.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    /// As in [`PassReport`].
-    pub(crate) draws: u32,
-    /// As in [`PassReport`].
-    pub(crate) culled: u32,
 }
 
 /// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step.
