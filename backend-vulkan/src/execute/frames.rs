@@ -24,7 +24,7 @@ pub(crate) struct Frames {
     batches: Vec<Batch>,
     /// Whether each batch, then a step, is waited for before the next is submitted.
     step_by_step: bool,
-    /// The titles of the Plan's steps, if breadcrumbs tell of them.
+    /// The titles of the Plan's steps, for the error that breadcrumbs add to; empty without breadcrumbs, and after that error.
     titles: Vec<String>,
     /// One for each of the Plan's queues that it uses.
     timelines: Vec<(Queue, Timeline)>,

@@ -12,9 +12,9 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// Threads beyond these gain nothing: drivers share locks.
+/// At most this many threads make pipelines, so that a large machine starts no thread for each pipeline.
 const MOST_THREADS: usize = 16;
-/// The stack of a thread: drivers' compilers were made for that of a program's first thread.
+/// The stack of a thread: as large as that of a program's first thread usually is, since drivers compile on it.
 const STACK_BYTES: usize = 8 << 20;
 
 impl Gpu {

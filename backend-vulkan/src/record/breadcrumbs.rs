@@ -20,7 +20,7 @@ pub(crate) struct Breadcrumbs {
 const ENDED: u32 = u32::MAX;
 
 impl Breadcrumbs {
-    /// Breadcrumbs for frames that are submitted in so many command buffers.
+    /// Breadcrumbs for frames of this number of batches, each a command buffer.
     pub(crate) fn new(gpu: &Arc<Gpu>, batches: usize) -> Result<Breadcrumbs, Error> {
         let bytes = 4 * batches.max(1) as u64;
         let usage = vk::BufferUsageFlags::TRANSFER_DST;

@@ -41,7 +41,7 @@ impl Line {
     }
 }
 
-/// The lines that fit into so many columns and rows.
+/// The lines of the list, cut to `columns` characters and `rows` lines.
 pub(super) fn of(contents: &Contents, columns: usize, rows: usize) -> Vec<Line> {
     let columns = columns.min(WIDEST);
     let mut head = vec![Line::new(&contents.title, Tone::Plain)];
@@ -91,7 +91,7 @@ fn times(times: &[(String, f64)], columns: usize) -> Vec<Line> {
     times.iter().map(line).collect()
 }
 
-/// At most so many of the lines. Where that isn't all, `chosen` is one of them, and the last says how many aren't.
+/// At most `most` of the lines. If some are left out, the line `chosen` stays, and the last line counts those that are left out.
 fn cut(lines: Vec<Line>, most: usize, chosen: usize) -> Vec<Line> {
     let all = lines.len();
     if all <= most {
@@ -104,7 +104,7 @@ fn cut(lines: Vec<Line>, most: usize, chosen: usize) -> Vec<Line> {
     some
 }
 
-/// The beginning of a text that fits into so many columns, with a mark where it is cut.
+/// The text, cut to `columns` characters with a mark at its end if it is longer.
 fn within(text: &str, columns: usize) -> String {
     if text.chars().count() <= columns {
         return text.to_owned();
