@@ -283,32 +283,37 @@ impl Context<'_> {
         what: &str,
         mut read: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
     ) -> Option<Vec<T>> {
-        let mut more = Vec::new();
-        let mut complete = true;
-        let firsts = self.entries(leaf, map, what, |context, name, value| {
+        let mut all = Vec::with_capacity(leaf.entries().map_or(0, Iterator::count));
+        let mut elements = Vec::new();
+        self.entries(leaf, map, what, |context, name, value| {
             if let Some(name) = name.as_ref().filter(|name| name.text.contains('[')) {
                 let message = format!("`{}` can't be {what}: elements of an array have no names", name.text);
                 let wrong = Diagnostic::new(name.span, message);
                 context.reader.report(wrong.help("write a list under the array's name: `\"taps\": [\"…\", \"…\"]`"));
                 return None;
             }
-            let Shape::List = value.shape() else { return read(context, name, value).map(Some) };
-            let before = more.len();
+            let Shape::List = value.shape() else {
+                all.push(read(context, name, value)?);
+                return Some(());
+            };
+            let mut complete = true;
+            let mut is_empty = true;
             for (number, value) in (0..).zip(value.values()?) {
+                is_empty = false;
                 let element = |name: &Name| element_name(&name.text, number).into();
                 let name = name.as_ref().map(|name| Name { text: element(name), span: value.span() });
                 match read(context, name, value) {
-                    Some(value) => more.push(value),
+                    Some(value) => elements.push(value),
                     None => complete = false,
                 }
             }
-            if before == more.len() && complete {
+            if is_empty {
                 context.reader.wrong(value, "an array has one element at least", "");
-                return None;
             }
-            Some(None)
+            (complete && !is_empty).then_some(())
         })?;
-        complete.then(|| firsts.into_iter().flatten().chain(more).collect())
+        all.append(&mut elements);
+        Some(all)
     }
 
     /// The entries of a map whose keys are names, each once.
