@@ -79,10 +79,11 @@ impl Executor {
         let Some(Resource::Image(image)) = self.plan.outputs.get(output).map(|it| it.resource) else {
             return Err(bad());
         };
-        self.frames.wait(frame)?;
-        let descriptor = self.prepared.physical.image(image, frame).descriptor;
+        let own = self.own(frame)?;
+        self.frames.wait(own)?;
+        let descriptor = self.prepared.physical.image(image, own).descriptor;
         let rotation = self.plan.image(image).rotation;
-        self.frames.readback(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
+        self.frames.readback(own, output).ok_or_else(bad)?.texels(&descriptor, rotation)
     }
 
     /// The bytes that frame `frame` left in the output number `output`, a buffer; else as [`Executor::read_back_image`].
@@ -93,8 +94,9 @@ impl Executor {
         let bad =
             || Error::BadResource { what: format!("output {output} of frame {frame} is no buffer that was kept") };
         let Some(Resource::Buffer(_)) = self.plan.outputs.get(output).map(|it| it.resource) else { return Err(bad()) };
-        self.frames.wait(frame)?;
-        self.frames.readback(frame, output).ok_or_else(bad)?.bytes()
+        let own = self.own(frame)?;
+        self.frames.wait(own)?;
+        self.frames.readback(own, output).ok_or_else(bad)?.bytes()
     }
 
     /// Sets one plane of a mip level of the image `name`, which outlives the frame, for the next frame to find: layer after

@@ -26,6 +26,8 @@ pub struct Executor {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) plan: Plan,
     options: ExecutorOptions,
+    /// The number of its first frame.
+    pub(super) first_frame: u64,
     pub(super) imports: Vec<Import>,
     readbacks: Vec<OutputReadback>,
     pub(crate) uses: ResourceUses,
@@ -111,6 +113,7 @@ impl Executor {
             _pipelines: pipelines,
             plan: plan.clone(),
             options: options.clone(),
+            first_frame: 0,
             imports,
             uses,
             staged: stage_textures(gpu, plan, textures)?,
@@ -118,7 +121,7 @@ impl Executor {
         })
     }
 
-    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0.
+    /// Draws a frame, waits until the device is done, and returns the frame's number.
     ///
     /// # Errors
     /// Those of [`Executor::submit`] and [`Executor::wait`].
@@ -128,7 +131,8 @@ impl Executor {
         Ok(frame)
     }
 
-    /// Records and submits a frame, and returns its number, from 0. If as many frames as may be are on their way, it waits
+    /// Records and submits a frame, and returns its number: from 0, or from where those stopped that it
+    /// [goes on from](Executor::migrate_from). If as many frames as may be are on their way, it waits
     /// for the oldest first.
     ///
     /// # Errors
@@ -138,7 +142,7 @@ impl Executor {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut Guarded(source), &extras, &Submission::default())?;
-        Ok(number)
+        Ok(self.first_frame + number)
     }
 
     /// Like [`Executor::submit`], among the program's own work: the frame waits for semaphores of the program's, signals others,
@@ -157,7 +161,7 @@ impl Executor {
         let number = self.next_frame(among.images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut Guarded(source), &extras, among)?;
-        Ok(number)
+        Ok(self.first_frame + number)
     }
 
     /// Records a frame into a command buffer of the program's, which the program submits itself, and returns the frame's number.
@@ -187,13 +191,14 @@ impl Executor {
         let number = self.next_frame(images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.record_into((commands, done), &frame, prepared, &mut Guarded(source), &extras)?;
-        Ok(number)
+        Ok(self.first_frame + number)
     }
 
-    /// How many frames were submitted, or recorded for the program to submit.
+    /// How many frames were submitted, or recorded for the program to submit: by this executor, and by those that it
+    /// [goes on from](Executor::migrate_from). It is the number of the next one.
     #[must_use]
     pub fn frames(&self) -> u64 {
-        self.frames.next()
+        self.first_frame + self.frames.next()
     }
 
     /// Takes back a frame that [`Executor::record_into`] recorded and that the program never submitted: nothing waits for it. What it
@@ -202,7 +207,9 @@ impl Executor {
     /// # Safety
     /// Its command buffer must never have been submitted, and must not be.
     pub unsafe fn discard(&mut self, frame: u64) {
-        self.frames.discard(frame);
+        if let Some(own) = frame.checked_sub(self.first_frame) {
+            self.frames.discard(own);
+        }
     }
 
     /// Waits for the oldest frame on its way, if as many are as may be.
@@ -228,7 +235,7 @@ impl Executor {
         with_pass.next().map(|scope| scope_formats(&self.plan, scope))
     }
 
-    /// Makes ready for the next frame, which uses these images of the program's, and returns its number.
+    /// Makes ready for the next frame, which uses these images of the program's, and returns its number among its own.
     fn next_frame(&mut self, images: &[(&str, usize)]) -> Result<u64, Error> {
         let of_window = self.owners.iter().find(|(name, _)| images.iter().all(|(chosen, _)| chosen != name));
         if let Some((name, _)) = of_window {
@@ -245,19 +252,21 @@ impl Executor {
 
     /// What recording a frame takes.
     fn parts(&mut self, number: u64) -> (&mut Frames, Frame<'_>, &PreparedPlan, FrameExtras<'_>) {
-        let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number };
+        let told = self.first_frame + number;
+        let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number, told };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
         (&mut self.frames, frame, &self.prepared, extras)
     }
 
-    /// Waits until the device is done with a frame.
+    /// Waits until the device is done with a frame. Those of executors that it goes on from are done.
     ///
     /// # Errors
     /// [`Error::BadResource`] if it was never submitted, or a later one has taken its place; [`Error::DeviceLost`],
     /// [`Error::Timeout`].
     pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
-        self.frames.wait(frame)?;
-        if self.frames.holds(frame) {
+        let Some(own) = frame.checked_sub(self.first_frame) else { return Ok(()) };
+        self.frames.wait(own)?;
+        if self.frames.holds(own) {
             return Ok(());
         }
         Err(Error::BadResource { what: format!("frame {frame} was not submitted, or a later one has taken its place") })
@@ -269,8 +278,15 @@ impl Executor {
     /// # Errors
     /// Those of [`Executor::wait`].
     pub fn report(&mut self, frame: u64) -> Result<FrameReport, Error> {
+        let own = self.own(frame)?;
         self.wait(frame)?;
-        self.frames.report(&self.plan, frame)
+        self.frames.report(&self.plan, own)
+    }
+
+    /// The number of a frame among its own.
+    pub(super) fn own(&self, frame: u64) -> Result<u64, Error> {
+        let earlier = || Error::BadResource { what: format!("frame {frame} was drawn by an earlier executor") };
+        frame.checked_sub(self.first_frame).ok_or_else(earlier)
     }
 
     /// Whether transient images and buffers are filled with conspicuous values.

@@ -22,7 +22,8 @@ struct Migration {
 impl Executor {
     /// Lets what persists go on from `before`, which executed another Plan on the same device and ends here: the same
     /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
-    /// its contents, history as a whole; everything else begins with its initial value. Returns the names of what went on.
+    /// its contents, history as a whole; everything else begins with its initial value. Frames are counted on. Returns the names of
+    /// what went on.
     ///
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
@@ -36,6 +37,7 @@ impl Executor {
             return bad("the executors are of different devices");
         }
         before.frames.wait_for_all()?;
+        self.first_frame = before.frames();
         if !before.initialised {
             return Ok(Vec::new());
         }

@@ -44,6 +44,9 @@ pub struct Message {
     pub id: String,
     /// The layer's words.
     pub text: String,
+    /// The step that was recorded, and its pass if it has several; `None` if the layer doesn't tell, as of what it finds when commands
+    /// are submitted. A program that labels its own commands finds those labels too.
+    pub at: Option<String>,
 }
 
 impl Message {
@@ -158,13 +161,30 @@ unsafe extern "system" fn receive(
     } else {
         MessageKind::General
     };
-    let message = Message { severity, kind, id: id.into_owned(), text: text.into_owned() };
+    // SAFETY: as above.
+    let at = unsafe { labels(&*data) };
+    let message = Message { severity, kind, id: id.into_owned(), text: text.into_owned(), at };
     let mut collected = collected.lock().unwrap_or_else(PoisonError::into_inner);
     match collected.diverted.get_mut(&thread::current().id()) {
         Some(diverted) => diverted.push(message),
         None => collected.messages.push(message),
     }
     vk::FALSE
+}
+
+/// The labels of the command buffer that a message is about, the outermost first.
+///
+/// # Safety
+/// The data must be a message's.
+unsafe fn labels(data: &vk::DebugUtilsMessengerCallbackDataEXT<'_>) -> Option<String> {
+    if data.p_cmd_buf_labels.is_null() || data.cmd_buf_label_count == 0 {
+        return None;
+    }
+    // SAFETY: Vulkan hands over as many labels as it says, the innermost first, whose names end in zero or are null.
+    let labels = unsafe { std::slice::from_raw_parts(data.p_cmd_buf_labels, data.cmd_buf_label_count as usize) };
+    // SAFETY: as above.
+    let names: Vec<_> = labels.iter().rev().map(|label| unsafe { lossy(label.p_label_name) }).collect();
+    Some(names.join(", "))
 }
 
 /// # Safety
@@ -255,7 +275,7 @@ mod tests {
              SYNC_COMPUTE_SHADER_SHADER_STORAGE_READ, prior_usage: {stage}, write_barriers: 0, command: vkCmdFillBuffer)."
         );
         let id = "SYNC-HAZARD-READ-AFTER-WRITE".to_owned();
-        Message { severity: Severity::Error, kind: MessageKind::Validation, id, text }
+        Message { severity: Severity::Error, kind: MessageKind::Validation, id, text, at: None }
     }
 
     #[test]
@@ -269,7 +289,7 @@ mod tests {
 
     fn unknown_setting(text: &str) -> Message {
         let (id, text) = ("VALIDATION-SETTINGS".to_owned(), text.to_owned());
-        Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text }
+        Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text, at: None }
     }
 
     #[test]
@@ -297,7 +317,7 @@ mod tests {
         let text = "vkGetDeviceProcAddr(): pName is trying to grab vkGetPhysicalDeviceVideoEncodeQualityLevelPropertiesKHR which \
                     is an instance level function";
         let (id, text) = ("WARNING-vkGetDeviceProcAddr-device".to_owned(), text.to_owned());
-        let looked_up = Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text };
+        let looked_up = Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text, at: None };
         assert!(!looked_up.is_finding());
         assert!(Message { id: "VUID-vkGetDeviceProcAddr-device-parameter".to_owned(), ..looked_up }.is_finding());
     }

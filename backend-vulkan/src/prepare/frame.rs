@@ -18,8 +18,10 @@ pub(crate) struct Frame<'f> {
     pub(crate) gpu: &'f Arc<Gpu>,
     pub(crate) plan: &'f Plan,
     pub(crate) physical: &'f PhysicalResources,
-    /// The number of the frame, from 0.
+    /// The number of the frame among those of its executor, from 0.
     pub(crate) number: u64,
+    /// The number by which the program knows it.
+    pub(crate) told: u64,
 }
 
 impl Frame<'_> {

@@ -41,7 +41,7 @@ impl PreparedPlan {
         debugging: Debugging,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
-        let frame = Frame { gpu, plan, physical: &physical, number: 0 };
+        let frame = Frame { gpu, plan, physical: &physical, number: 0, told: 0 };
         let steps = prepare_steps(gpu, plan, shaders)?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
         let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
@@ -53,7 +53,7 @@ impl PreparedPlan {
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
         let repeats = number - first >= self.list.period;
-        let (frame, debugging) = (Frame { gpu, plan, physical: &self.physical, number }, self.debugging);
+        let (frame, debugging) = (Frame { gpu, plan, physical: &self.physical, number, told: number }, self.debugging);
         let (list, steps) = (&mut self.list, &mut self.steps);
         let mut prepare = |list: &mut CommandList, index: usize| {
             let (step, made) = (&plan.steps[index], &mut steps[index]);

@@ -2,7 +2,8 @@
 
 use super::custom_image::{CustomImage, extent};
 use crate::base::convert;
-use crate::commands::{TransferSide, copy_between, fill};
+use crate::commands::{TransferSide, barriers, copy_between, fill};
+use crate::gpu::Gpu;
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
@@ -19,6 +20,8 @@ pub struct CustomRecorder<'f> {
     commands: vk::CommandBuffer,
     pass: &'f plan::Pass,
     recorded: u32,
+    /// Whether the program has the command buffer.
+    has_raw: bool,
     misuse: Option<String>,
 }
 
@@ -30,7 +33,7 @@ enum NamedResource<'f> {
 
 impl<'f> CustomRecorder<'f> {
     pub(crate) fn new(frame: &'f Frame<'f>, commands: vk::CommandBuffer, pass: &'f plan::Pass) -> CustomRecorder<'f> {
-        CustomRecorder { frame, commands, pass, recorded: 0, misuse: None }
+        CustomRecorder { frame, commands, pass, recorded: 0, has_raw: false, misuse: None }
     }
 
     /// The pass's name.
@@ -46,17 +49,17 @@ impl<'f> CustomRecorder<'f> {
         self.frame.plan.views.get(view.0 as usize)
     }
 
-    /// The number of the frame, from 0.
+    /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it.
     #[must_use]
     pub fn frame(&self) -> u64 {
-        self.frame.number
+        self.frame.told
     }
 
     /// By how many texels to the right and down what the pass's view shows is shifted in this frame.
     #[must_use]
     pub fn jitter(&self) -> [f64; 2] {
         let jitter = self.view().and_then(|view| view.jitter.as_ref());
-        jitter.map_or([0.0; 2], |jitter| jitter.offset(self.frame.number))
+        jitter.map_or([0.0; 2], |jitter| jitter.offset(self.frame.told))
     }
 
     /// A parameter that the pipeline gives the pass.
@@ -132,10 +135,12 @@ impl<'f> CustomRecorder<'f> {
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
-    /// they may touch the pass's images and buffers, as the Plan says, and the program's own resources, and nothing else.
+    /// they may touch the pass's images and buffers, as the Plan says, and the program's own resources, and nothing else. A rendering scope that is left open is a finding of the validation
+    /// layer, which [names the pass](crate::Message::at).
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
         self.recorded += 1;
+        self.has_raw = true;
         self.commands
     }
 
@@ -197,8 +202,21 @@ impl<'f> CustomRecorder<'f> {
     /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read
     /// that would read what the memory held before.
     pub(crate) fn finish(self) -> Result<u32, String> {
+        if self.has_raw {
+            no_scope(self.frame.gpu, self.commands);
+        }
         let unwritten = self.resources().find(|(_, it, _)| self.recorded == 0 && !it.writes().is_empty());
         let unwritten = unwritten.map(|(name, ..)| format!("nothing was recorded, and the pass writes `{name}`"));
         self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
     }
+}
+
+/// Under the validation layer, has it look whether a rendering scope is open. The barrier makes nothing wait, and is wrong in a scope.
+fn no_scope(gpu: &Gpu, commands: vk::CommandBuffer) {
+    if gpu.instance.validation.is_none() {
+        return;
+    }
+    let none = vk::MemoryBarrier2::default();
+    let barrier = none.src_stage_mask(vk::PipelineStageFlags2::COPY).dst_stage_mask(vk::PipelineStageFlags2::COPY);
+    barriers(gpu, commands, &[barrier], &[]);
 }

@@ -51,7 +51,7 @@ impl<'f> DispatchRecorder<'f> {
         &self.plan.shader
     }
 
-    /// The number of the frame, from 0.
+    /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it.
     #[must_use]
     pub fn frame(&self) -> u64 {
         self.frame

@@ -115,7 +115,7 @@ impl Recording<'_> {
         let planned = passes(&self.frame.plan.steps[step].work).first();
         let (Some(made), Some(pass)) = (self.prepared.steps[step].dispatch(), planned) else { return Ok(()) };
         let (gpu, held) = (self.frame.gpu, &mut self.recorded.kept);
-        let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.number));
+        let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.told));
         self.source.dispatch(&mut recorder)?;
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }

@@ -186,6 +186,46 @@ fn a_custom_pass_records_vulkan_commands_of_its_own() {
     });
 }
 
+/// EM-10.
+#[test]
+fn a_custom_pass_that_leaves_a_scope_open_is_named() {
+    let mut small = Small::default();
+    let [begun, ended] = [small.buffer("begun", 4), small.buffer("ended", 4)];
+    for (name, buffer) in [("begins", begun), ("ends", ended)] {
+        let side = [(Resource::Buffer(buffer), WHOLE, true)];
+        small.pass(transfer(name, Work::Custom { callback: "by_hand".into() }, &side));
+        small.buffer_output(buffer);
+    }
+    on_each_driver_with(|device| {
+        let plan = planned(&device, &small.frame, &Options::default());
+        let mut executor =
+            Executor::new(&device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor");
+        let found_in = |executor: &mut Executor, leaves_open: bool| {
+            let mut source = Custom(|recorder: &mut CustomRecorder<'_>| {
+                let (begins, commands) = (recorder.pass() == "begins", recorder.raw());
+                let area = vk::Rect2D::default().extent(vk::Extent2D { width: 1, height: 1 });
+                let scope = vk::RenderingInfo::default().render_area(area).layer_count(1);
+                // SAFETY: software drivers take what is wrong here: commands between the beginning and the end of an empty scope.
+                unsafe {
+                    if begins {
+                        device.raw().cmd_begin_rendering(commands, &scope);
+                    }
+                    if begins != leaves_open {
+                        device.raw().cmd_end_rendering(commands);
+                    }
+                }
+            });
+            let before = findings(&device.messages()).len();
+            executor.frame(&mut source).expect("a frame");
+            let found = findings(&device.messages()).split_off(before);
+            found.into_iter().map(|finding| finding.at.unwrap_or_default()).collect::<Vec<_>>()
+        };
+        assert_eq!(found_in(&mut executor, false), [""; 0]);
+        let found = found_in(&mut executor, true);
+        assert!(found.first().is_some_and(|at| at.contains("begins")), "{}: {found:?}", device.summary().name);
+    });
+}
+
 #[test]
 fn a_custom_pass_touches_nothing_but_what_it_says() {
     everywhere(&custom().frame, SHADERS, |executor| {

@@ -78,7 +78,8 @@ fn report(messages: &Messages) -> bool {
     let messages = messages.list();
     let findings: Vec<_> = messages.iter().filter(|message| message.is_finding()).collect();
     for finding in &findings {
-        text::say(&format!("finding: {}: {}", text::escape(&finding.id), text::escape(&finding.text)));
+        let at = finding.at.iter().map(|at| format!("{}: ", text::escape(at))).collect::<String>();
+        text::say(&format!("finding: {at}{}: {}", text::escape(&finding.id), text::escape(&finding.text)));
     }
     text::say(&format!("validation: {}", text::count(findings.len(), "finding", "findings")));
     !findings.is_empty()

@@ -97,7 +97,8 @@ pub unsafe extern "C" fn framewright_device_findings(
         let device = unsafe { reference(device, "device")? };
         let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
         for message in device.device.messages().list().iter().filter(|message| message.is_finding()) {
-            let message = text(&message.text);
+            let at = message.at.iter().map(|at| format!("{at}: ")).collect::<String>();
+            let message = text(&format!("{at}{}", message.text));
             // SAFETY: the caller's word: it takes a text and what is given with it.
             unsafe { tell(context, message.as_ptr()) };
         }

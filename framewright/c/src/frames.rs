@@ -177,8 +177,7 @@ impl State {
         self.has_imports()?;
         let State { renderer, objects, callback, .. } = self;
         let mut source = Source { scene: objects.as_mut(), callback: *callback };
-        let frame = draw(renderer.executor_mut()?, &mut source)?;
-        Ok(renderer.first_frame() + frame)
+        Ok(draw(renderer.executor_mut()?, &mut source)?)
     }
 }
 
@@ -317,9 +316,8 @@ pub unsafe extern "C" fn framewright_renderer_discard(
     unsafe {
         with(renderer, |state| {
             // A frame of an earlier executor went with it.
-            let own = frame.checked_sub(state.renderer.first_frame());
-            if let (Some(own), Some(executor)) = (own, state.renderer.current_executor_mut()) {
-                executor.discard(own);
+            if let Some(executor) = state.renderer.current_executor_mut() {
+                executor.discard(frame);
             }
             Ok(())
         })

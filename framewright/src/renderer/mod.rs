@@ -46,8 +46,6 @@ struct Drawn {
     plan: Plan,
     executor: Executor,
     choices: Choices,
-    /// The number of the executor's first frame.
-    first: u64,
 }
 
 /// The Plan of the next frame.
@@ -192,8 +190,8 @@ impl Renderer {
     }
 
     /// Plans the next frame if anything changed since the last call; every frame begins with it. A Plan that differs in values alone
-    /// goes to the executor that there is. Any other gets a new one, which takes over the contents of what persists in both. A new one
-    /// counts frames from 0 for draw sources.
+    /// goes to the executor that there is. Any other gets a new one, which takes over the contents of what persists in both, and
+    /// counts frames on.
     ///
     /// # Errors
     /// The mistakes of the pipeline, its shaders and choices, or those of making an executor. The last good Plan stays, with the
@@ -252,10 +250,9 @@ impl Renderer {
             Change::Values
         } else {
             let mut executor = reading.executor(device, plan, &options.executor)?;
-            let first = drawn.as_ref().map_or(0, |before| before.first + before.executor.frames());
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
-            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone(), first });
+            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone() });
             Change::Executor { carried_over }
         };
         self.changed = false;
@@ -287,7 +284,7 @@ impl Renderer {
         self.renew(true).inspect_err(|_| self.reading = before)
     }
 
-    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0.
+    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0: whatever the Plan, each frame has one more.
     ///
     /// # Errors
     /// Those of [`Renderer::prepare`] and [`Executor::frame`].
@@ -303,8 +300,7 @@ impl Renderer {
     /// Those of [`Renderer::prepare`] and [`Executor::submit`].
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         self.prepare()?;
-        let drawn = self.drawn()?;
-        Ok(drawn.first + drawn.executor.submit(source)?)
+        Ok(self.drawn()?.executor.submit(source)?)
     }
 
     /// Draws a frame into the next image of a window that it [fits](Renderer::fit), and has it shown: the first output. See
@@ -314,13 +310,9 @@ impl Renderer {
     /// Those of [`Renderer::prepare`] and [`Executor::present`].
     pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
         self.prepare()?;
-        let Drawn { plan, executor, first, .. } = self.drawn()?;
+        let Drawn { plan, executor, .. } = self.drawn()?;
         let name = plan.outputs.first().map_or("", |output| &output.name);
-        let (first, mut shown) = (*first, executor.present(source, window, name)?);
-        if let Presentation::Shown(frame) | Presentation::Suboptimal(frame) = &mut shown {
-            *frame += first;
-        }
-        Ok(shown)
+        Ok(executor.present(source, window, name)?)
     }
 
     /// Waits until the device is done with a frame. A frame of an earlier executor counts as done.
@@ -328,11 +320,7 @@ impl Renderer {
     /// # Errors
     /// Those of [`Executor::wait`].
     pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
-        let drawn = self.drawn()?;
-        match frame.checked_sub(drawn.first) {
-            Some(frame) => Ok(drawn.executor.wait(frame)?),
-            None => Ok(()),
-        }
+        Ok(self.drawn()?.executor.wait(frame)?)
     }
 
     /// The report of a frame of the executor that there is, which is waited for.
@@ -340,9 +328,7 @@ impl Renderer {
     /// # Errors
     /// Those of [`Executor::report`].
     pub fn report(&mut self, frame: u64) -> Result<FrameReport, Error> {
-        let drawn = self.drawn()?;
-        let own = drawn.own(frame)?;
-        Ok(drawn.executor.report(own)?)
+        Ok(self.drawn()?.executor.report(frame)?)
     }
 
     /// The texels of the output `name`, an image, as the last frame left it: see [`Executor::read`].
@@ -363,8 +349,7 @@ impl Renderer {
     pub fn read_back(&mut self, frame: u64, name: &str) -> Result<Texels, Error> {
         let drawn = self.drawn()?;
         let output = drawn.output(name)?;
-        let own = drawn.own(frame)?;
-        Ok(drawn.executor.read_back_image(own, output)?)
+        Ok(drawn.executor.read_back_image(frame, output)?)
     }
 
     /// The device.
@@ -397,12 +382,6 @@ impl Renderer {
         self.drawn.as_mut().map(|drawn| &mut drawn.executor)
     }
 
-    /// The number of the executor's first frame: it counts its own from 0, and this type those of all executors.
-    #[must_use]
-    pub fn first_frame(&self) -> u64 {
-        self.drawn.as_ref().map_or(0, |drawn| drawn.first)
-    }
-
     /// The executor of the next frame, for all that this type has no method for: imports, contents that are written, frames among the
     /// program's own work. It must stay with its Plan: [`Executor::change`] is for [`Renderer::prepare`].
     ///
@@ -415,13 +394,6 @@ impl Renderer {
 }
 
 impl Drawn {
-    /// The number that the executor has for a frame.
-    fn own(&self, frame: u64) -> Result<u64, Error> {
-        let earlier =
-            || framewright_vulkan::Error::BadResource { what: format!("frame {frame} was drawn by an earlier Plan") };
-        Ok(frame.checked_sub(self.first).ok_or_else(earlier)?)
-    }
-
     /// The number of an output.
     fn output(&self, name: &str) -> Result<usize, Error> {
         let outputs = &self.plan.outputs;

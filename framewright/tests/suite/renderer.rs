@@ -4,6 +4,7 @@ use crate::testing::{EXTENT, Place, difference, draw, renderer, scene};
 use framewright::graph::language::Facts;
 use framewright::{Change, Draw, DrawSource, Recorder, Renderer, Rotation, SceneDrawSource, Stereo};
 use framewright_tests::render::{self, Setup};
+use std::collections::BTreeSet;
 
 fn is_new(change: &Change) -> bool {
     matches!(change, Change::Executor { .. })
@@ -171,12 +172,26 @@ fn both_eyes_are_drawn_in_a_way_that_the_device_has() {
     );
 }
 
+/// Draws a scene, and notes the numbers of frames.
+struct Numbered {
+    objects: SceneDrawSource,
+    frames: BTreeSet<u64>,
+}
+
+impl DrawSource for Numbered {
+    fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, framewright::vulkan::Error> {
+        self.frames.insert(recorder.frame());
+        self.objects.record(draw, recorder)
+    }
+}
+
 #[test]
 fn frames_are_numbered_on_and_waited_for_over_executors() {
     let Some(device) = render::device() else { return };
     let mut renderer = renderer(device, "forward");
     let plan = renderer.prepare().expect("planned").plan;
-    let mut objects = SceneDrawSource::for_plan(device, &scene(), EXTENT, plan).expect("uploaded");
+    let objects = SceneDrawSource::for_plan(device, &scene(), EXTENT, plan).expect("uploaded");
+    let mut objects = Numbered { objects, frames: BTreeSet::new() };
     assert_eq!([0; 2].map(|_| renderer.submit(&mut objects).expect("submitted")), [0, 1]);
     renderer.set("msaa", 1).expect("allowed");
     assert_eq!(renderer.submit(&mut objects).expect("submitted"), 2);
@@ -185,9 +200,13 @@ fn frames_are_numbered_on_and_waited_for_over_executors() {
     renderer.wait(3).expect_err("it was not submitted");
     assert!(renderer.report(2).expect("reported").steps.len() > 1);
     renderer.report(1).expect_err("its executor is gone");
-    // The layer below is reachable, and draws the same.
-    assert_eq!(renderer.executor_mut().expect("prepared").frame(&mut objects).expect("drawn"), 1);
+    // The layer below is reachable, and counts the same.
+    let executor = renderer.executor_mut().expect("prepared");
+    assert_eq!(executor.frame(&mut objects).expect("drawn"), 3);
+    assert_eq!(executor.frames(), 4);
     assert_eq!(renderer.submit(&mut objects).expect("submitted"), 4);
+    // What moves goes on too.
+    assert_eq!(objects.frames, BTreeSet::from([0, 1, 2, 3, 4]));
 }
 
 #[test]

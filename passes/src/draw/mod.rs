@@ -11,6 +11,7 @@ mod interface;
 mod lists;
 mod source;
 mod textures;
+mod view_buffers;
 mod view_draws;
 
 pub use eyes::{EyeSight, Eyes};

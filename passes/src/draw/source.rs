@@ -5,6 +5,7 @@ use super::eyes::Eyes;
 use super::geometry::Geometry;
 use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::textures::Textures;
+use super::view_buffers::ViewBuffers;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
@@ -21,7 +22,6 @@ pub const MOST_POINT_LIGHTS: usize = limits::POINT_LIGHTS;
 /// It binds everything that [`interface`] lists. Each object is one draw call, whose first instance is the object's index in
 /// the scene. Objects and cameras move with the frames, and a view is jittered as the Plan says.
 pub struct SceneDrawSource {
-    device: Device,
     /// The scene at frame 0, without vertices and texels.
     outline: Scene,
     /// The frame that `views` are for.
@@ -116,11 +116,10 @@ impl SceneDrawSource {
         let objects = interface(Draw::Objects(DrawList::Opaque));
         let outline = scene.outline();
         let views = views.into_iter().map(|view| {
-            let seen = ViewDraws::new(device, &outline, &view, 0)?;
+            let seen = ViewDraws::new(ViewBuffers::new(device), &outline, &view, 0)?;
             Ok::<_, Error>((view, seen))
         });
         Ok(SceneDrawSource {
-            device: device.clone(),
             frame: 0,
             drawn: false,
             views: views.collect::<Result<_, _>>()?,
@@ -153,7 +152,7 @@ impl SceneDrawSource {
         for ((view, seen), jitter) in self.views.iter_mut().zip(jitters) {
             if view.jitter != jitter {
                 view.jitter = jitter;
-                seen.shift(&self.device, &self.outline, view, self.frame)?;
+                seen.shift(&self.outline, view, self.frame)?;
             }
         }
         Ok(())
@@ -166,7 +165,7 @@ impl SceneDrawSource {
     pub fn set_jitter(&mut self, jitter: &Jitter) -> Result<(), Error> {
         for (view, seen) in &mut self.views {
             view.jitter = Some(jitter.clone());
-            seen.shift(&self.device, &self.outline, view, self.frame)?;
+            seen.shift(&self.outline, view, self.frame)?;
         }
         Ok(())
     }
@@ -183,7 +182,7 @@ impl SceneDrawSource {
             if self.drawn {
                 view.moved_from.get_or_insert(before);
             } else {
-                *seen = ViewDraws::new(&self.device, &self.outline, view, self.frame)?;
+                seen.renew(&self.outline, view, self.frame)?;
             }
         }
         Ok(())
@@ -193,7 +192,7 @@ impl SceneDrawSource {
     fn advance_to(&mut self, frame: u64) -> Result<(), Error> {
         if self.frame != frame {
             for (view, seen) in &mut self.views {
-                seen.advance_to(&self.device, &self.outline, view, frame)?;
+                seen.advance_to(&self.outline, view, frame)?;
                 view.moved = view.moved_from.take().is_some();
             }
             self.frame = frame;

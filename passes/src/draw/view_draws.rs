@@ -3,16 +3,13 @@
 use super::cascades::{self, CascadeMap, cascades_block, sun_view};
 use super::clusters::Clusters;
 use super::eyes::Eyes;
-use super::frame_data::{ViewTransform, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
+use super::frame_data::{ViewTransform, lights_block, motion_block, objects_block, shifted, world_to_clip};
 use super::frustum;
-use super::interface::{
-    CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING,
-    interface,
-};
 use super::lists::draw_order_from;
+use super::view_buffers::{Blocks, Sight, ViewBuffers};
 use crate::scene::{Camera, Scene};
-use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
-use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
+use framewright_graph::frame::{DrawList, Eye, Jitter};
+use framewright_vulkan::{BindGroup, CullMode, Error, FrontFace};
 use glam::{DMat4, DVec3};
 
 /// The camera of a view, its eyes, and how its picture is drawn.
@@ -99,8 +96,7 @@ pub(super) struct ViewDraws {
     pub(super) transparent: Vec<ObjectDraw>,
     /// By cascade, the nearest first.
     pub(super) cascades: Vec<CascadeDraws>,
-    /// The buffers that jitter doesn't change.
-    buffers: Buffers,
+    pub(super) buffers: ViewBuffers,
 }
 
 /// The bind groups of two eyes.
@@ -126,18 +122,14 @@ pub(super) struct ObjectDraw {
     pub(super) raster: (CullMode, FrontFace),
 }
 
-/// The buffers that shaders read beside the view's.
-struct Buffers {
-    lights: Buffer,
-    objects: Buffer,
-    cascades: Buffer,
-    clusters: Buffer,
-    motion: Buffer,
-}
-
 impl ViewDraws {
-    /// Prepares `view` at a frame. `scene` is as it is at frame 0.
-    pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<ViewDraws, Error> {
+    /// Prepares `view` at a frame, with the buffers of a frame before. `scene` is as it is at frame 0.
+    pub(super) fn new(
+        mut buffers: ViewBuffers,
+        scene: &Scene,
+        view: &Viewpoint,
+        frame: u64,
+    ) -> Result<ViewDraws, Error> {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
         let (camera, before) = (view.camera.at(frame), view.moved_from.unwrap_or(view.camera).at(frame_before));
@@ -153,45 +145,47 @@ impl ViewDraws {
         };
         let by_sun: Vec<_> = view.maps.iter().map(by_sun).collect();
         let clusters = Clusters::new(scene, &camera, view.aspect());
-        let buffers = Buffers {
-            lights: device.buffer(BufferUsage::Storage, &lights_block(scene, &camera, &clusters))?,
-            objects: device.buffer(BufferUsage::Storage, &objects_block(scene, &camera))?,
-            cascades: device.buffer(BufferUsage::Uniform, &cascades_block(&by_sun))?,
-            clusters: device.buffer(BufferUsage::Storage, &clusters.block())?,
-            motion: device.buffer(BufferUsage::Storage, &motion)?,
-        };
-        let cascade = |sun: &cascades::SunView| {
+        buffers.write(&Blocks {
+            lights: lights_block(scene, &camera, &clusters),
+            objects: objects_block(scene, &camera),
+            cascades: cascades_block(&by_sun),
+            clusters: clusters.block(),
+            motion,
+        })?;
+        let mut cascades = Vec::with_capacity(by_sun.len());
+        for (number, sun) in by_sun.iter().enumerate() {
             let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, sun, object)).collect();
             let transform = ViewTransform { world_to_clip: sun.world_to_clip, eye: DVec3::ZERO };
-            Ok::<_, Error>(CascadeDraws { frame: group(device, &camera, [transform; 2], &buffers)?, casts })
-        };
+            let frame = buffers.group(Sight::OfSun(number), &camera, [transform; 2])?;
+            cascades.push(CascadeDraws { frame, casts });
+        }
         Ok(ViewDraws {
-            jittered: JitteredDraws::new(device, scene, view, frame, &buffers)?,
+            jittered: JitteredDraws::new(&mut buffers, scene, view, frame)?,
             transparent: draws(scene, &camera, DrawList::Transparent),
-            cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
+            cascades,
             buffers,
         })
     }
 
-    /// Prepares another frame. Nothing is overwritten, since frames in flight may still read it.
-    pub(super) fn advance_to(
-        &mut self,
-        device: &Device,
-        scene: &Scene,
-        view: &Viewpoint,
-        frame: u64,
-    ) -> Result<(), Error> {
+    /// Prepares another frame.
+    pub(super) fn advance_to(&mut self, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
         if scene.moves() || view.moved || view.moved_from.is_some() {
-            *self = ViewDraws::new(device, scene, view, frame)?;
+            self.renew(scene, view, frame)?;
         } else if view.jitter.is_some() {
-            self.shift(device, scene, view, frame)?;
+            self.shift(scene, view, frame)?;
         }
         Ok(())
     }
 
+    /// Prepares `view` anew.
+    pub(super) fn renew(&mut self, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
+        *self = ViewDraws::new(self.buffers.take(), scene, view, frame)?;
+        Ok(())
+    }
+
     /// Prepares the jitter of `view` at the frame that it is for already.
-    pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
-        self.jittered = JitteredDraws::new(device, &scene.at(frame), view, frame, &self.buffers)?;
+    pub(super) fn shift(&mut self, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
+        self.jittered = JitteredDraws::new(&mut self.buffers, &scene.at(frame), view, frame)?;
         Ok(())
     }
 }
@@ -206,19 +200,13 @@ pub(super) struct JitteredDraws {
 
 impl JitteredDraws {
     /// Prepares them. `scene` is as it is at the frame.
-    fn new(
-        device: &Device,
-        scene: &Scene,
-        view: &Viewpoint,
-        frame: u64,
-        buffers: &Buffers,
-    ) -> Result<JitteredDraws, Error> {
+    fn new(buffers: &mut ViewBuffers, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<JitteredDraws, Error> {
         let camera = view.camera.at(frame);
         let own = view.shifted(view.straight(&camera), frame);
-        let group = |sights| group(device, &camera, sights, buffers);
+        let between = buffers.group(Sight::Between, &camera, [own; 2])?;
         if view.eyes.is_none() {
             let visible = frustum::within(scene, &camera, own.world_to_clip);
-            return Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: None });
+            return Ok(JitteredDraws { frame: between, visible, by_eye: None });
         }
         // Jitter moves the picture by at most this share: the frustum around both eyes is widened by it on each side.
         let around = view.around(frame);
@@ -226,32 +214,17 @@ impl JitteredDraws {
         let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
         let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
         let eyes = view.straight_by_eye(&camera).map(|sight| view.shifted(sight, frame));
-        let each = |sight: ViewTransform| {
+        let both = view.at_once.then(|| buffers.group(Sight::OfBoth, &camera, eyes)).transpose()?;
+        let mut each = |eye: Eye| {
+            let sight = eyes[eye as usize];
             let own = || frustum::within(scene, &camera, sight.world_to_clip);
-            Ok::<_, Error>((group([sight; 2])?, view.culls_by_eye.then(own)))
+            Ok::<_, Error>((buffers.group(Sight::Of(eye), &camera, [sight; 2])?, view.culls_by_eye.then(own)))
         };
-        let by_eye = EyeDraws {
-            both: view.at_once.then(|| group(eyes)).transpose()?,
-            each: if view.one_by_one { Some([each(eyes[0])?, each(eyes[1])?]) } else { None },
-        };
+        let each = if view.one_by_one { Some([each(Eye::Left)?, each(Eye::Right)?]) } else { None };
+        let by_eye = EyeDraws { both, each };
         let visible = frustum::within(scene, &around, all);
-        Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: Some(by_eye) })
+        Ok(JitteredDraws { frame: between, visible, by_eye: Some(by_eye) })
     }
-}
-
-/// The bind group of a frame.
-fn group(device: &Device, camera: &Camera, sights: [ViewTransform; 2], buffers: &Buffers) -> Result<BindGroup, Error> {
-    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, sights))?;
-    let Buffers { lights, objects, cascades, clusters, motion } = buffers;
-    let resources = [
-        (VIEW_BINDING, Resource::Buffer(&view)),
-        (LIGHTS_BINDING, Resource::Buffer(lights)),
-        (OBJECTS_BINDING, Resource::Buffer(objects)),
-        (CASCADES_BINDING, Resource::Buffer(cascades)),
-        (CLUSTERS_BINDING, Resource::Buffer(clusters)),
-        (MOTION_BINDING, Resource::Buffer(motion)),
-    ];
-    device.bind_group(&interface(Draw::Objects(DrawList::Opaque)), FRAME_SET, &resources)
 }
 
 /// The draws of a list, in order.

@@ -110,6 +110,9 @@ pub(crate) struct ValidationMessage {
     pub(crate) id: String,
     /// The layer's words.
     pub(crate) text: String,
+    /// The step and pass that were recorded, if the layer tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) at: Option<String>,
 }
 
 impl From<&DeviceSummary> for DeviceUsed {
@@ -175,6 +178,7 @@ impl From<&Message> for ValidationMessage {
             finding: message.is_finding(),
             id: message.id.clone(),
             text: message.text.clone(),
+            at: message.at.clone(),
         }
     }
 }
@@ -248,8 +252,9 @@ impl Validation {
         }
         for message in &self.messages {
             let word = if message.finding { message.severity } else { "note" };
-            shown +=
-                &format!("{word} ({}): {}: {}\n", message.kind, text::escape(&message.id), text::escape(&message.text));
+            let at = message.at.iter().map(|at| format!("{}: ", text::escape(at))).collect::<String>();
+            let (id, said) = (text::escape(&message.id), text::escape(&message.text));
+            shown += &format!("{word} ({}): {at}{id}: {said}\n", message.kind);
         }
         shown
     }
