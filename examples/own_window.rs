@@ -10,7 +10,7 @@ use std::error::Error;
 use std::sync::Arc;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
@@ -42,16 +42,32 @@ impl Shown {
         Ok(Shown { window, swapchain, renderer, scene, objects: None, refit: true, frames: 0 })
     }
 
-    /// Draws a frame and has it shown. Returns whether the window has an area.
+    /// Draws frames until one is shown. Returns whether the window has an area.
     fn draw(&mut self) -> Result<bool, Box<dyn Error>> {
-        if self.refit {
-            let size = self.window.inner_size();
-            if !self.swapchain.resize(size.into())? {
-                return Ok(false);
+        loop {
+            if self.refit {
+                let size = self.window.inner_size();
+                if !self.swapchain.resize(size.into())? {
+                    return Ok(false);
+                }
+                self.renderer.fit(&self.swapchain)?;
             }
-            self.renderer.fit(&self.swapchain)?;
-            self.refit = false;
+            match self.present()? {
+                Presentation::Shown(_) => self.refit = false,
+                Presentation::Suboptimal(_) => self.refit = true,
+                // The window has another size by now, or none.
+                _ => {
+                    self.refit = true;
+                    continue;
+                }
+            }
+            self.frames += 1;
+            return Ok(true);
         }
+    }
+
+    /// Draws a frame and has it shown, if the images still fit the window.
+    fn present(&mut self) -> Result<Presentation, Box<dyn Error>> {
         let device = self.renderer.device().clone();
         let prepared = self.renderer.prepare()?;
         let objects = match (self.objects.take(), prepared.change) {
@@ -59,13 +75,9 @@ impl Shown {
             _ => SceneDrawSource::for_plan(&device, &self.scene, prepared.plan.extent, prepared.plan)?,
         };
         let objects = self.objects.insert(objects);
-        match self.renderer.present(objects, &mut self.swapchain)? {
-            Presentation::Shown(_) => {}
-            // The window has another size by now, or none.
-            _ => self.refit = true,
-        }
-        self.frames += 1;
-        Ok(true)
+        // The system then says when it wants another frame: on Wayland not while nobody sees the window.
+        self.window.pre_present_notify();
+        Ok(self.renderer.present(objects, &mut self.swapchain)?)
     }
 }
 
@@ -79,7 +91,10 @@ struct Program {
 impl ApplicationHandler for Program {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         match Shown::open(events) {
-            Ok(shown) => self.shown = Some(shown),
+            Ok(shown) => {
+                shown.window.request_redraw();
+                self.shown = Some(shown);
+            }
             Err(problem) => {
                 self.problem = Some(problem);
                 events.exit();
@@ -90,21 +105,22 @@ impl ApplicationHandler for Program {
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match (event, &mut self.shown) {
             (WindowEvent::CloseRequested, _) => events.exit(),
-            (WindowEvent::Resized(_), Some(shown)) => shown.refit = true,
+            (WindowEvent::Resized(_), Some(shown)) => {
+                shown.refit = true;
+                shown.window.request_redraw();
+            }
+            (WindowEvent::RedrawRequested, Some(shown)) => {
+                match shown.draw() {
+                    Ok(true) => shown.window.request_redraw(),
+                    // A minimised window: nothing is drawn until it has another size.
+                    Ok(false) => {}
+                    Err(problem) => self.problem = Some(problem),
+                }
+                if self.problem.is_some() || shown.frames >= self.most {
+                    events.exit();
+                }
+            }
             _ => {}
-        }
-    }
-
-    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
-        let Some(shown) = &mut self.shown else { return };
-        match shown.draw() {
-            Ok(true) => events.set_control_flow(ControlFlow::Poll),
-            // A minimised window: wait until something happens to it.
-            Ok(false) => events.set_control_flow(ControlFlow::Wait),
-            Err(problem) => self.problem = Some(problem),
-        }
-        if self.problem.is_some() || shown.frames >= self.most {
-            events.exit();
         }
     }
 }

@@ -1,6 +1,6 @@
-//! `cargo bench --profile dev --package framewright-vulkan --bench instructions`: the instructions that recording and
-//! submitting a frame takes, beside the committed ones. It fails if a frame takes 3 % more, and names the command that accepts
-//! the new figures. It needs valgrind and a device. The profile `dev` counts what tests build anyway.
+//! `cargo bench --workspace --profile dev --bench dev_instructions`: the instructions that recording and submitting a frame
+//! takes, beside the committed ones. It fails if a frame takes 3 % more, and names the command that accepts the new figures. It
+//! needs valgrind and a device. The profile `dev`, and that of the whole workspace, counts what tests build anyway.
 //!
 //! The third frame and all later ones are alike: the fourth is counted. Only this program counts, and not the Vulkan driver, the
 //! loader or the C library, so that the figures in `instructions.txt` are the same with each version of these.
@@ -23,7 +23,7 @@ use workload::Workload;
 /// The figures, and how new ones are accepted.
 const GUARD: Guard = Guard {
     figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
-    accept: "FRAMEWRIGHT_ACCEPT=1 cargo bench --profile dev --package framewright-vulkan --bench instructions",
+    accept: "FRAMEWRIGHT_ACCEPT=1 cargo bench --workspace --profile dev --bench dev_instructions",
 };
 
 /// A row of the table, and the frame that is recorded for it.

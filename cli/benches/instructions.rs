@@ -1,6 +1,6 @@
-//! `cargo bench --profile dev -p framewright-cli --bench instructions`: the instructions that checking all variants of `forward`
+//! `cargo bench --workspace --profile dev --bench dev_instructions`: the instructions that checking all variants of `forward`
 //! takes, beside the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It
-//! needs valgrind. The profile `dev` counts what tests build anyway.
+//! needs valgrind. The profile `dev`, and that of the whole workspace, counts what tests build anyway.
 //!
 //! The count is that of checking all variants on one thread, less that of checking one: so neither the beginning of the
 //! command nor its shaders are part of it. The helper process that compiles shaders isn't counted; a first run fills the
@@ -14,7 +14,7 @@ use counts::{Code, Guard};
 use std::error::Error;
 use std::process::{Command, ExitCode};
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --profile dev -p framewright-cli --bench instructions";
+const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --workspace --profile dev --bench dev_instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

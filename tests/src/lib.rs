@@ -13,7 +13,7 @@
 //! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: compares it with the GPU's picture.
 //! - [`drivers`]: the software drivers and validation layers of this machine.
-//! - [`x_server`]: an X server that nobody sees.
+//! - [`wayland_server`], [`x_server`]: servers for windows that nobody sees.
 
 pub mod agreement;
 pub mod drivers;
@@ -30,4 +30,5 @@ pub mod render;
 pub mod shapes;
 pub mod shipped;
 pub mod sweep;
+pub mod wayland_server;
 pub mod x_server;

@@ -4,12 +4,15 @@ use std::error::Error;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
+use x11rb::COPY_DEPTH_FROM_PARENT;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{AtomEnum, ConnectionExt};
+use x11rb::protocol::xproto::{AtomEnum, ConnectionExt, CreateWindowAux, MapState, WindowClass};
 use x11rb::rust_connection::RustConnection;
 
 /// How long a window manager may take to start.
 const STARTS: Duration = Duration::from_secs(60);
+/// The time between two looks.
+const PAUSE: Duration = Duration::from_millis(20);
 
 /// A running X server, and perhaps a window manager. They end with it.
 pub struct XServer {
@@ -60,7 +63,8 @@ impl XServer {
         Ok(started)
     }
 
-    /// Waits until the window manager has taken over, as its property of the root window says.
+    /// Waits until the window manager has taken over: its property of the root window says so, and it shows a window. Windows that ask
+    /// between both are never shown.
     fn wait_for_manager(&self) -> Result<(), Box<dyn Error>> {
         let (x, screen) = RustConnection::connect(Some(&self.display))?;
         let (root, begun) = (x.setup().roots[screen].root, Instant::now());
@@ -69,9 +73,25 @@ impl XServer {
             if begun.elapsed() > STARTS {
                 return Err("openbox doesn't start".into());
             }
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(PAUSE);
         }
-        Ok(())
+        loop {
+            let window = x.generate_id()?;
+            let class = WindowClass::INPUT_OUTPUT;
+            x.create_window(COPY_DEPTH_FROM_PARENT, window, root, 0, 0, 8, 8, 0, class, 0, &CreateWindowAux::new())?;
+            x.map_window(window)?.check()?;
+            for _ in 0..20 {
+                if x.get_window_attributes(window)?.reply()?.map_state == MapState::VIEWABLE {
+                    x.destroy_window(window)?.check()?;
+                    return Ok(());
+                }
+                std::thread::sleep(PAUSE);
+            }
+            x.destroy_window(window)?.check()?;
+            if begun.elapsed() > STARTS {
+                return Err("openbox shows no window".into());
+            }
+        }
     }
 
     /// The value of `DISPLAY` for programs that show windows on it.

@@ -20,7 +20,7 @@ use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_vulkan::raw_window_handle::HasDisplayHandle;
 use framewright_vulkan::{Canary, Device, DeviceOptions, Messages};
-use session::Session;
+use session::{Drawn, Session};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -30,8 +30,8 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
-/// A window without an area is looked at this often.
-const MINIMISED: Duration = Duration::from_millis(50);
+/// While nothing is drawn, as in a window that nobody sees, it is looked this often whether the command shall end.
+const ASLEEP: Duration = Duration::from_millis(50);
 /// A step of a wheel, in the pixels that touch pads tell.
 const WHEEL_STEP: f64 = 40.0;
 
@@ -99,6 +99,9 @@ struct Open<'a> {
     device: Device,
     messages: Messages,
     canary: Option<Canary>,
+    /// Whether the system was asked to say when the next frame is to be drawn. On Wayland it doesn't while nobody sees the window: there a
+    /// frame that is shown all the same would wait for that.
+    asked: bool,
     /// The button that is held, of those that move the camera.
     held: Option<MouseButton>,
     cursor: [f64; 2],
@@ -128,7 +131,7 @@ impl<'a> App<'a> {
         session.rescaled(window.scale_factor());
         text::say(KEYS);
         let messages = device.messages();
-        Ok(Open { session, device, messages, canary, held: None, cursor: [0.0; 2], window })
+        Ok(Open { session, device, messages, canary, asked: false, held: None, cursor: [0.0; 2], window })
     }
 
     fn end(&mut self, events: &ActiveEventLoop, how: Result<(), Error>) {
@@ -142,11 +145,15 @@ impl<'a> App<'a> {
     /// Draws a frame, or waits where there is nothing to draw into.
     fn draw(&mut self, events: &ActiveEventLoop) -> Result<(), Error> {
         let Some(open) = &mut self.open else { return Ok(()) };
-        let flow = match open.session.frame()? {
-            true => ControlFlow::Poll,
-            false => ControlFlow::WaitUntil(Instant::now() + MINIMISED),
-        };
-        events.set_control_flow(flow);
+        let drawn = open.session.frame(|| open.window.pre_present_notify())?;
+        open.asked = drawn == Drawn::Shown;
+        if open.asked {
+            open.window.request_redraw();
+        }
+        events.set_control_flow(match drawn {
+            Drawn::Shown | Drawn::Nothing => ControlFlow::WaitUntil(Instant::now() + ASLEEP),
+            Drawn::OutOfDate => ControlFlow::Poll,
+        });
         if let Some(title) = open.session.title() {
             open.window.set_title(&title);
         }
@@ -169,6 +176,7 @@ impl<'a> App<'a> {
         let Some(Open { session, held, cursor, window, .. }) = &mut self.open else { return Ok(()) };
         match event {
             WindowEvent::CloseRequested => self.close(events),
+            WindowEvent::RedrawRequested => return self.draw(events),
             WindowEvent::Resized(PhysicalSize { width, height }) => session.resized([width, height]),
             WindowEvent::ScaleFactorChanged { scale_factor, .. } => session.rescaled(scale_factor),
             WindowEvent::CursorMoved { position, .. } => {
@@ -195,8 +203,10 @@ impl<'a> App<'a> {
                 MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
                 MouseScrollDelta::PixelDelta(pixels) => pixels.y / WHEEL_STEP,
             }),
+            // A key that is held while the window comes into focus is told twice, once as synthetic.
             WindowEvent::KeyboardInput {
                 event: KeyEvent { logical_key, state: ElementState::Pressed, repeat, .. },
+                is_synthetic: false,
                 ..
             } if !repeat || matches!(logical_key, Key::Named(_)) => return self.pressed(events, &logical_key),
             _ => {}
@@ -245,6 +255,9 @@ impl ApplicationHandler for App<'_> {
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
         if interrupt::asked() {
             return self.close(events);
+        }
+        if self.open.as_ref().is_some_and(|open| open.asked) {
+            return events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + ASLEEP));
         }
         if self.ended.is_none()
             && let Err(error) = self.draw(events)

@@ -47,6 +47,17 @@ pub(super) struct Session<'a> {
     scale: f64,
 }
 
+/// What became of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Drawn {
+    /// It was shown.
+    Shown,
+    /// The window's images were no longer right.
+    OutOfDate,
+    /// There is nothing to draw, or nothing to draw into.
+    Nothing,
+}
+
 impl<'a> Session<'a> {
     /// Reads pipeline and scene, and makes images for the window.
     ///
@@ -93,14 +104,14 @@ impl<'a> Session<'a> {
         Ok(session)
     }
 
-    /// Draws and shows a frame. Returns whether the window has an area.
+    /// Draws and shows a frame. `before_shown` is called when it is drawn and not yet shown.
     ///
     /// # Errors
     /// Those of the device and of the window, which no change to a file mends.
-    pub(super) fn frame(&mut self) -> Result<bool, Error> {
+    pub(super) fn frame(&mut self, before_shown: impl FnOnce()) -> Result<Drawn, Error> {
         if self.refit {
             if !self.swapchain.resize(self.size)? {
-                return Ok(false);
+                return Ok(Drawn::Nothing);
             }
             self.refit = false;
             let fitted = self.fit();
@@ -113,29 +124,33 @@ impl<'a> Session<'a> {
         if self.list.is_due() {
             self.show_list()?;
         }
-        let Some(source) = &mut self.source else { return Ok(false) };
+        let Some(source) = &mut self.source else { return Ok(Drawn::Nothing) };
         source.set_camera(self.orbit.camera())?;
+        before_shown();
         match self.renderer.present(source, &mut self.swapchain) {
             Ok(Presentation::Shown(frame)) => self.count(frame)?,
             Ok(Presentation::Suboptimal(frame)) => {
                 self.count(frame)?;
                 self.refit = true;
             }
-            Ok(Presentation::OutOfDate) => self.refit = true,
+            Ok(Presentation::OutOfDate) => {
+                self.refit = true;
+                return Ok(Drawn::OutOfDate);
+            }
             Ok(_) => {
                 self.refit = true;
-                return Ok(false);
+                return Ok(Drawn::Nothing);
             }
             // The last good frame has another size or form than the window has now.
             Err(framewright::Error::Vulkan(error @ framewright_vulkan::Error::BadResource { .. }))
                 if self.shown > 0 =>
             {
                 self.problems.refuse(Err(error.into()))?;
-                return Ok(false);
+                return Ok(Drawn::Nothing);
             }
             Err(error) => return Err(error.into()),
         }
-        Ok(true)
+        Ok(Drawn::Shown)
     }
 
     /// Fits the frame to the window's images.

@@ -61,4 +61,5 @@ mod views;
 mod what_shaders_need;
 mod window;
 mod window_list;
+mod window_on_wayland;
 mod without_a_program;

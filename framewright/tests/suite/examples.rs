@@ -3,6 +3,7 @@
 use crate::testing::difference;
 use framewright::{Device, DeviceOptions};
 use framewright_tests::render::{self, Setup, in_repository};
+use framewright_tests::wayland_server::{Shell, WaylandServer};
 use framewright_tests::x_server::XServer;
 use image::RgbaImage;
 use std::path::Path;
@@ -118,4 +119,19 @@ fn a_window_of_the_programs_own_shows_frames_and_ends() {
     };
     let variables = [("DISPLAY", server.display()), ("WAYLAND_DISPLAY", ""), ("WAYLAND_SOCKET", "")];
     run_with(&variables, "own_window", &["40"], |said, _| assert_eq!(said, "40 frames were shown\n"));
+}
+
+/// EM-4.
+#[test]
+fn a_window_of_the_programs_own_is_shown_on_wayland_too() {
+    let server = match WaylandServer::start(Shell::Desktop) {
+        Ok(server) => server,
+        Err(missing) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {missing}");
+            return eprintln!("SKIPPED: {missing}");
+        }
+    };
+    let own = server.variables();
+    let variables = [[("DISPLAY", ""), ("WAYLAND_SOCKET", "")], own.each_ref().map(|(name, value)| (*name, &**value))];
+    run_with(&variables.concat(), "own_window", &["40"], |said, _| assert_eq!(said, "40 frames were shown\n"));
 }

@@ -108,7 +108,7 @@ pub(crate) enum Code {
     CountedOwn,
 }
 
-/// Callgrind counts what happens within this function, which it knows by name.
+/// Callgrind counts what happens within this function, which it knows by name, whatever the benchmark is called.
 #[inline(never)]
 pub(crate) fn counted<T>(run: impl FnOnce() -> T) -> T {
     black_box(run())
@@ -120,7 +120,7 @@ pub(crate) fn instructions(program: &Command, code: Code) -> Result<u64, Box<dyn
     let mut valgrind = Command::new("valgrind");
     valgrind.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
     if let Code::Counted | Code::CountedOwn = code {
-        valgrind.args(["--collect-atstart=no", "--toggle-collect=instructions::counts::counted*"]);
+        valgrind.args(["--collect-atstart=no", "--toggle-collect=*instructions::counts::counted*"]);
     }
     let run = valgrind.arg(program.get_program()).args(program.get_args()).output();
     let run = run.map_err(|error| format!("valgrind: {error}"))?;

@@ -1,0 +1,64 @@
+//! `framewright window`, on a Wayland compositor that nobody sees (EM-4).
+#![cfg(unix)]
+
+use crate::testing::{Place, Vulkan, outcome};
+use crate::window::{SCENE, SIZE};
+use framewright_tests::wayland_server::{Shell, WaylandServer};
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+/// A server; `None` where there is none, which fails in CI.
+fn server(shell: Shell) -> Option<WaylandServer> {
+    match WaylandServer::start(shell) {
+        Ok(server) => Some(server),
+        Err(missing) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {missing}");
+            eprintln!("SKIPPED: {missing}");
+            None
+        }
+    }
+}
+
+/// The command on this server.
+fn on(server: &WaylandServer, place: &Place, words: &[&str]) -> Option<Command> {
+    let mut command = place.command(words);
+    command.env_remove("DISPLAY").env_remove("WAYLAND_SOCKET").envs(server.variables());
+    command.envs(Vulkan::LAVAPIPE_CURRENT.variables()?);
+    Some(command)
+}
+
+#[test]
+fn the_picture_in_the_window_is_the_one_that_run_writes() {
+    let Some(server) = server(Shell::Desktop) else { return };
+    for pipeline in ["forward", "deferred"] {
+        let place = Place::new();
+        let both = |command, file| [&[command, pipeline, "-o", file, "--frames", "3"][..], &SCENE, &SIZE].concat();
+        let Some(mut shown) = on(&server, &place, &[&both("window", "shown.png")[..], &["--validate"]].concat()) else {
+            return;
+        };
+        outcome(&mut shown).exits(0).mentions("validation: 0 findings");
+        let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+        place.run_with(&variables, &both("run", "drawn.png")).exits(0);
+        let [shown, drawn] = ["shown.png", "drawn.png"]
+            .map(|file| image::open(place.path(file)).unwrap_or_else(|error| panic!("{pipeline}: {error}")).to_rgb8());
+        assert!(shown == drawn, "{pipeline}");
+    }
+}
+
+/// Drivers wait without end where a second frame is shown in a window that nobody sees.
+#[test]
+fn a_window_that_nobody_sees_ends_when_it_is_told_to() {
+    let Some(server) = server(Shell::Kiosk) else { return };
+    let place = Place::new();
+    let Some(mut command) = on(&server, &place, &[&["window", "forward"][..], &SCENE].concat()) else { return };
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the command starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines();
+    assert!(lines.any(|line| line.is_ok_and(|line| line.starts_with("keys: "))), "it opens a window");
+    // Long enough for several frames. If it draws none by then, the test shows less and still passes.
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let process = Pid::from_raw(i32::try_from(child.id()).expect("a process number"));
+    kill(process, Signal::SIGINT).expect("sent");
+    assert!(child.wait().expect("it ends").success());
+}
