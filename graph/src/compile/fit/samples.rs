@@ -24,7 +24,9 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
             pass.attachments().for_each(|(other, _)| _ = together.union(first.0, other.0));
         }
         errors.extend(disagreement(frame, pass));
-        check_operations(frame, pass, supports, &mut errors);
+        if !formats.are_met {
+            check_operations(frame, pass, supports, &mut errors);
+        }
         let (targets, most) = (pass.color.len(), device.max_color_attachments);
         if targets > most as usize {
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
