@@ -128,7 +128,7 @@ impl<'a> Adapter<'a> {
 
     /// Whether a range is all of an image that is one part, so of one plane.
     fn is_all(&self, image: ImageIndex, range: Subresources) -> bool {
-        let is_all = range == Subresources::WHOLE && self.input.grids.of(image).is_none();
+        let is_all = range.is_whole() && self.input.grids.of(image).is_none();
         debug_assert!(
             !is_all || self.input.frame.images[image.0 as usize].format.aspects().bits().count_ones() == 1,
             "images of several planes are cut"
