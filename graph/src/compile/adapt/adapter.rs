@@ -37,9 +37,8 @@ pub(super) struct Adapter<'a> {
     pub(super) demotions: Demotions,
     /// Whether any physical image has another name than its image.
     pub(super) renamed: bool,
-    /// Number of physical images and of buffers so far.
+    /// Number of physical images so far.
     pub(super) images: u32,
-    pub(super) buffers: u32,
     pub(super) adapted: Adapted,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
@@ -80,7 +79,6 @@ impl<'a> Adapter<'a> {
             demotions: Demotions::default(),
             renamed: false,
             images: 0,
-            buffers: 0,
             adapted: Adapted::default(),
             notes: Vec::new(),
             errors: Vec::new(),

@@ -7,7 +7,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::fit::drawn_together;
-use crate::compile::model::{OpKind, PhysicalIndex, ResolveShader, Use};
+use crate::compile::model::{InsertedDraw, OpKind, PhysicalIndex, ResolveShader, Use};
 use crate::compile::parts::join;
 use crate::device::Profile;
 use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
@@ -144,7 +144,8 @@ impl Adapter<'_> {
             ResolveShader::Weighted => ResolveWay::Weighted,
             ResolveShader::Uint | ResolveShader::Sint => ResolveWay::By(ResolveMode::SampleZero),
         };
-        self.push(OpKind::ResolveDraw { by, name, view, why }, &uses);
+        let draw = Box::new(InsertedDraw { name, why: *why });
+        self.push(OpKind::ResolveDraw { by, view, draw }, &uses);
         self.versions[source as usize].resolved = Some((way, target));
         target
     }
