@@ -29,7 +29,7 @@ fn cull(frame: &Frame, linked: &Linked) -> Live {
     for (number, pass) in frame.passes.iter().enumerate().rev() {
         let uses = linked.uses(number);
         let number = number as u32;
-        if !pass.side_effect && !uses.iter().any(|used| used.writes() && needed[used.part()]) {
+        if !uses.iter().any(|used| used.writes() && needed[used.part()]) && !pass.side_effect {
             culled.push(number);
             continue;
         }

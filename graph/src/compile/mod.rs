@@ -58,8 +58,10 @@ pub fn compile(
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
     let mut settled = structure.settle_for_good(device, memory, options)?;
     let frame = substitute.as_ref().unwrap_or(frame);
+    let steps = emit::steps(StageResults::new(frame, device, &structure, &settled));
+    // Only `steps` needs these.
+    (structure.adapted.ops, structure.adapted.uses) = (Vec::new(), Vec::new());
+    (settled.barriers.barriers, settled.barriers.batched) = (Vec::new(), Vec::new());
     let resources = emit::resources(frame, &structure, &settled);
-    // Only `resources` needs these.
-    (structure.timeline.states, settled.placed.placements) = (Vec::new(), Vec::new());
-    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), resources))
+    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), steps, resources))
 }

@@ -145,6 +145,8 @@ pub(super) struct Adapted {
     pub(super) ranges: Vec<Subresources>,
     /// Number of subresources of all resources.
     pub(super) subresources: u32,
+    /// Number of buffers among the resources.
+    pub(super) buffers: u32,
     /// The frame's outputs, in its order.
     pub(super) outputs: Vec<PhysicalIndex>,
     /// The allocated width and height of images whose size may change.
@@ -162,6 +164,12 @@ impl Adapted {
                 *allocated = frame.images[of.0 as usize].allocated.unwrap_or(*allocated);
             }
         }
+    }
+
+    /// Whether each resource is one subresource, which has the number of the resource. Mostly so: then a walk through the
+    /// subresources needs nothing of the resources.
+    pub(super) fn is_uncut(&self) -> bool {
+        self.subresources as usize == self.resources.len()
     }
 
     /// The allocated width and height of a physical image, if its size may change.
@@ -255,21 +263,17 @@ pub(super) enum OpKind {
     DepthOnly {
         /// The pass of the frame.
         pass: u32,
-        /// Its own name.
-        name: Arc<str>,
-        /// Why.
-        why: Box<Inserted>,
+        /// Its own name, and why.
+        draw: Box<InsertedDraw>,
     },
     /// An inserted full-screen draw that resolves depth or colour; its uses are source and target.
     ResolveDraw {
         /// How samples become one value.
         by: ResolveShader,
-        /// Its name.
-        name: Arc<str>,
         /// The view that it draws for.
         view: ViewIndex,
-        /// Why.
-        why: Box<Inserted>,
+        /// Its name, and why.
+        draw: Box<InsertedDraw>,
     },
     /// An inserted resolve; its uses are source and target.
     Resolve {
@@ -280,6 +284,13 @@ pub(super) enum OpKind {
     },
     /// An inserted copy; its uses are source and target.
     Copy(Box<Inserted>),
+}
+
+/// An inserted draw that has a name of its own.
+#[derive(Debug)]
+pub(super) struct InsertedDraw {
+    pub(super) name: Arc<str>,
+    pub(super) why: Inserted,
 }
 
 /// The values that a full-screen draw resolves.
@@ -321,11 +332,8 @@ impl OpKind {
     pub(super) fn inserted(&self) -> Option<&Inserted> {
         match self {
             OpKind::Draw(_) | OpKind::Pass(_) => None,
-            OpKind::ForwardDraw { why, .. }
-            | OpKind::DepthOnly { why, .. }
-            | OpKind::ResolveDraw { why, .. }
-            | OpKind::Resolve { why, .. }
-            | OpKind::Copy(why) => Some(why),
+            OpKind::DepthOnly { draw, .. } | OpKind::ResolveDraw { draw, .. } => Some(&draw.why),
+            OpKind::ForwardDraw { why, .. } | OpKind::Resolve { why, .. } | OpKind::Copy(why) => Some(why),
         }
     }
 }
@@ -419,6 +427,8 @@ pub(super) enum InitialContents {
 pub(super) struct Negotiated {
     /// Samples in force.
     pub(super) samples: Vec<u32>,
+    /// Whether any image is an attachment.
+    pub(super) attached: bool,
     pub(super) notes: Vec<Note>,
 }
 

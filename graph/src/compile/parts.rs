@@ -43,7 +43,7 @@ impl Grids {
         for pass in &frame.passes {
             pass.accesses().for_each(|access| {
                 if let (Some(image), range) = (access.image_index(), access.range())
-                    && range != Subresources::WHOLE
+                    && !range.is_whole()
                 {
                     grids.cut(frame, image, range);
                 }

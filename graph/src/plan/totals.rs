@@ -45,36 +45,34 @@ impl Totals {
     #[must_use]
     pub fn count(steps: &[Step]) -> Totals {
         let mut totals = Totals::default();
-        for step in steps {
-            totals.barriers(step);
-            match &step.work {
-                Work::Render(scope) => {
-                    totals.scopes += 1;
-                    scope.passes.iter().for_each(|pass| totals.pass(pass));
-                    let folded = scope
-                        .color
-                        .iter()
-                        .chain(&scope.depth)
-                        .chain(&scope.stencil)
-                        .filter(|target| target.resolve.is_some())
-                        .count();
-                    totals.folded_resolves += length(folded);
-                    totals.resolves += length(folded);
-                }
-                Work::Dispatch(pass) | Work::Custom(pass) => totals.pass(pass),
-                Work::Resolve(_) => totals.resolves += 1,
-                Work::Copy(transfer) | Work::Blit(transfer) => {
-                    totals.copies += 1;
-                    totals.transfer_pass(transfer.name.is_some());
-                }
-                Work::Fill(fill) => {
-                    totals.fills += 1;
-                    totals.transfer_pass(fill.name.is_some());
-                }
-                Work::Export => {}
-            }
-        }
+        steps.iter().for_each(|step| totals.add(step));
         totals
+    }
+
+    /// Counts one more step.
+    pub(crate) fn add(&mut self, step: &Step) {
+        self.barriers(step);
+        match &step.work {
+            Work::Render(scope) => {
+                self.scopes += 1;
+                scope.passes.iter().for_each(|pass| self.pass(pass));
+                let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
+                let folded = attachments.filter(|target| target.resolve.is_some()).count();
+                self.folded_resolves += length(folded);
+                self.resolves += length(folded);
+            }
+            Work::Dispatch(pass) | Work::Custom(pass) => self.pass(pass),
+            Work::Resolve(_) => self.resolves += 1,
+            Work::Copy(transfer) | Work::Blit(transfer) => {
+                self.copies += 1;
+                self.transfer_pass(transfer.name.is_some());
+            }
+            Work::Fill(fill) => {
+                self.fills += 1;
+                self.transfer_pass(fill.name.is_some());
+            }
+            Work::Export => {}
+        }
     }
 
     fn barriers(&mut self, step: &Step) {

@@ -260,6 +260,12 @@ impl Subresources {
         layers: Subresources::REMAINING,
     };
 
+    /// Whether it is [`Subresources::WHOLE`], without a branch for each number.
+    pub(crate) const fn is_whole(self) -> bool {
+        let Subresources { aspects, base_mip, mips, base_layer, layers } = self;
+        (aspects.bits() | base_mip | base_layer) == 0 && (mips & layers) == Subresources::REMAINING
+    }
+
     /// All of an image.
     #[must_use]
     pub const fn all(format: Format, mips: u32, layers: u32) -> Subresources {

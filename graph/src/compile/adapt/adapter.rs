@@ -37,9 +37,8 @@ pub(super) struct Adapter<'a> {
     pub(super) demotions: Demotions,
     /// Whether any physical image has another name than its image.
     pub(super) renamed: bool,
-    /// Number of physical images and of buffers so far.
+    /// Number of physical images so far.
     pub(super) images: u32,
-    pub(super) buffers: u32,
     pub(super) adapted: Adapted,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
@@ -80,7 +79,6 @@ impl<'a> Adapter<'a> {
             demotions: Demotions::default(),
             renamed: false,
             images: 0,
-            buffers: 0,
             adapted: Adapted::default(),
             notes: Vec::new(),
             errors: Vec::new(),
@@ -128,7 +126,7 @@ impl<'a> Adapter<'a> {
 
     /// Whether a range is all of an image that is one part, so of one plane.
     fn is_all(&self, image: ImageIndex, range: Subresources) -> bool {
-        let is_all = range == Subresources::WHOLE && self.input.grids.of(image).is_none();
+        let is_all = range.is_whole() && self.input.grids.of(image).is_none();
         debug_assert!(
             !is_all || self.input.frame.images[image.0 as usize].format.aspects().bits().count_ones() == 1,
             "images of several planes are cut"

@@ -44,7 +44,9 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
     let Input { frame, live, negotiated, options, .. } = input;
     let mut demotions = Demotions::default();
     let passes = || live.passes.iter().map(|number| (*number, &frame.passes[*number as usize]));
-    if passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. })) {
+    if negotiated.attached
+        && passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. }))
+    {
         demotions.of_geometry = vec![false; frame.images.len()];
         for (_, pass) in passes()
             .filter(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. }))

@@ -4,8 +4,9 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{InitialContents, OpKind, PhysicalIndex, Role, Use};
+use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
 use crate::frame::{Draw, ImageIndex, ViewIndex, Work};
+use crate::plan::Inserted;
 use crate::vulkan::{Aspects, Subresources};
 use std::sync::Arc;
 
@@ -75,8 +76,8 @@ impl Adapter<'_> {
         let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
         for (pass, contents) in passes {
             let uses = [access::depth(Aspects::DEPTH, target, range, contents, true, declared.format)];
-            let name = self.depth_only_name(pass);
-            self.push(OpKind::DepthOnly { pass, name, why: why.clone() }, &uses);
+            let draw = InsertedDraw { name: self.depth_only_name(pass), why: Inserted::clone(&why) };
+            self.push(OpKind::DepthOnly { pass, draw: Box::new(draw) }, &uses);
         }
         self.versions[source as usize].redrawn = Some(target);
         Some(target)

@@ -6,8 +6,19 @@ use crate::base::Diagnostic;
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
 use crate::frame::{Face, ImageIndex, Pass, Sampled, Work};
 use crate::vulkan::{Aspects, Subresources};
+use std::hint::black_box;
 
 impl Adapter<'_> {
+    /// Reads which images a pass samples.
+    pub(super) fn read(&self, number: u32) {
+        for sampled in &self.input.frame.passes[number as usize].sampled {
+            let resource = self.resource_of[sampled.image.0 as usize];
+            black_box(
+                resource.and_then(|resource| self.versions.get(resource as usize)).map(|version| version.samples),
+            );
+        }
+    }
+
     pub(super) fn pass(&mut self, number: u32) {
         let frame = self.input.frame;
         let pass = &frame.passes[number as usize];

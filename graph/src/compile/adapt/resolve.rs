@@ -7,7 +7,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::fit::drawn_together;
-use crate::compile::model::{OpKind, PhysicalIndex, ResolveShader, Use};
+use crate::compile::model::{InsertedDraw, OpKind, PhysicalIndex, ResolveShader, Use};
 use crate::compile::parts::join;
 use crate::device::Profile;
 use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
@@ -117,7 +117,7 @@ impl Adapter<'_> {
         }
         let why = self.reason(because, span);
         let target = self.second(image, "resolved", why.clone(), 1);
-        Some(self.resolve_by_draw(by, why, access::forward_draw(source, target)))
+        Some(self.resolve_by_draw(by, *why, access::forward_draw(source, target)))
     }
 
     /// Whether an image has several layers, which no draw resolves. Reports that.
@@ -133,7 +133,7 @@ impl Adapter<'_> {
     }
 
     /// Inserts a full-screen draw from one image into another.
-    fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> PhysicalIndex {
+    fn resolve_by_draw(&mut self, by: ResolveShader, why: Inserted, uses: [Use; 2]) -> PhysicalIndex {
         let [source, target] = [uses[0].resource, uses[1].resource];
         let resource = &self.adapted.resources[target as usize];
         // Inserted images have names of their own.
@@ -144,7 +144,8 @@ impl Adapter<'_> {
             ResolveShader::Weighted => ResolveWay::Weighted,
             ResolveShader::Uint | ResolveShader::Sint => ResolveWay::By(ResolveMode::SampleZero),
         };
-        self.push(OpKind::ResolveDraw { by, name, view, why }, &uses);
+        let draw = Box::new(InsertedDraw { name, why });
+        self.push(OpKind::ResolveDraw { by, view, draw }, &uses);
         self.versions[source as usize].resolved = Some((way, target));
         target
     }
@@ -178,7 +179,7 @@ impl Adapter<'_> {
         let target = self.second(image, "resolved", why.clone(), 1);
         let depth = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
         let uses = access::resolve_draw(source, target, depth, declared.format);
-        Some(self.resolve_by_draw(ResolveShader::Depth(mode), why, uses))
+        Some(self.resolve_by_draw(ResolveShader::Depth(mode), *why, uses))
     }
 
     /// Inserts a resolve that may be folded into a scope.

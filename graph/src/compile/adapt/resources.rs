@@ -198,8 +198,8 @@ impl Adapter<'_> {
     fn add_buffer(&mut self, buffer: BufferIndex) -> PhysicalIndex {
         let bytes = self.input.frame.buffers[buffer.0 as usize].bytes;
         let descriptor = BufferDescriptor { bytes, usage: BufferUsage::empty(), sharing: Sharing::Exclusive };
-        self.buffers += 1;
-        self.add(Resource::Buffer(buffer), self.buffers - 1, Kind::Buffer(descriptor), None)
+        self.adapted.buffers += 1;
+        self.add(Resource::Buffer(buffer), self.adapted.buffers - 1, Kind::Buffer(descriptor), None)
     }
 
     fn add(&mut self, of: Resource, id: u32, kind: Kind, grid: Option<Arc<Grid>>) -> PhysicalIndex {

@@ -55,12 +55,12 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
                 // It is emitted with its other half: see `ownership`.
                 continue;
             }
-            let range = if subject.is_cut {
-                self.results.subresources(barrier.resource, barrier.subresource)
+            if subject.is_cut {
+                let range = self.results.subresources(barrier.resource, barrier.subresource);
+                add(&mut images, image_barrier(barrier, subject.id, range));
             } else {
-                subject.all
-            };
-            add(&mut images, image_barrier(barrier, subject.id, range));
+                images.push(image_barrier(barrier, subject.id, subject.all()));
+            }
         }
         memory.extend(buffers);
         (memory, images)

@@ -9,6 +9,7 @@ use crate::plan::{
     Transfer, ViewId, Work,
 };
 use crate::vulkan::{CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
+use std::hint::black_box;
 use std::sync::Arc;
 
 /// The shader that draws one image into another. Inserted passes are drawn by shipped shaders, even if there are files of
@@ -16,6 +17,17 @@ use std::sync::Arc;
 const COPY_SHADER: &str = "shipped:copy";
 /// The name by which it knows its source.
 const COPY_SOURCE: &str = "source";
+
+/// Reads what the work of an operation is made of.
+pub(super) fn read(results: &StageResults<'_>, number: u32) {
+    if let Some(pass) = results.adapted.ops[number as usize].kind.pass() {
+        let FramePass { name, span, work, sampled, storage, .. } = &results.frame.passes[pass as usize];
+        black_box((Arc::strong_count(name), *span, std::mem::discriminant(work)));
+        sampled.iter().for_each(|sampled| _ = black_box(sampled.sampler));
+        storage.iter().for_each(|storage| _ = black_box(storage.image));
+    }
+    results.adapted.uses(number).iter().for_each(|used| _ = black_box(results.subjects[used.resource as usize].id));
+}
 
 /// The work of an operation that is not drawn.
 pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
@@ -97,14 +109,14 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     let op = &results.adapted.ops[number as usize];
     let uses = results.adapted.uses(number);
     let nothing = || Arc::clone(&results.nothing);
-    if let OpKind::ResolveDraw { by, name, view, .. } = &op.kind {
-        return resolve_draw(results, number, *by, name, *view);
+    if let OpKind::ResolveDraw { by, view, draw } = &op.kind {
+        return resolve_draw(results, number, *by, &draw.name, *view);
     }
     let Some(declared) = op.kind.pass().map(|pass| &results.frame.passes[pass as usize]) else {
         return bare(nothing(), cause(results, op), None, None, nothing());
     };
-    if let OpKind::DepthOnly { name, .. } = &op.kind {
-        return depth_only(results, number, declared, name);
+    if let OpKind::DepthOnly { draw, .. } = &op.kind {
+        return depth_only(results, number, declared, &draw.name);
     }
     let (name, cause) = (declared.name.clone(), cause(results, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
@@ -255,26 +267,20 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
 /// The access to an image by the pass that declares it.
 fn declared_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> Access {
     let entry = used.entry as usize;
+    let mut eye = None;
     let bound = |name: &Arc<str>, kind, texture| Some(Binding { name: name.clone(), kind, texture });
-    match used.role {
+    let binding = match used.role {
         Role::Sampled => {
             let sampled = &declared.sampled[entry];
             let texture = sampled.texture.map(|texture| adapted(results, used, texture));
-            let binding = bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture);
-            Access { eye: sampled.eye, ..access(results, used, binding) }
+            eye = sampled.eye;
+            bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture)
         }
-        Role::Input => {
-            let binding = bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None);
-            access(results, used, binding)
-        }
-        Role::Storage => {
-            let binding = bound(&declared.storage[entry].binding, BindingKind::Storage, None);
-            access(results, used, binding)
-        }
-        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => {
-            access(results, used, None)
-        }
-    }
+        Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None),
+        Role::Storage => bound(&declared.storage[entry].binding, BindingKind::Storage, None),
+        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
+    };
+    Access { eye, ..access(results, used, binding) }
 }
 
 /// The texture that an adapting shader declares: multisampled only if the image has several samples.
@@ -287,7 +293,7 @@ fn adapted(results: &StageResults<'_>, used: &Use, texture: ImageShape) -> Image
 #[inline]
 fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
     let subject = &results.subjects[used.resource as usize];
-    let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
+    let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all());
     let image = ImageId(subject.id);
     Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }

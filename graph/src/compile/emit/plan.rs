@@ -7,13 +7,17 @@ use super::stage_results::StageResults;
 use super::values::{changes, settings, views, with_bytes};
 use super::{attachments, notes, outputs, ownership, passes};
 use crate::compile::scope::Step as Grouped;
+use crate::compile::steps::in_order;
 use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
 
-/// The Plan, with the images and buffers that `resources` made.
-pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Resources) -> Plan {
-    let steps = steps(results);
+/// The Plan, with the steps that `steps` made, and the images and buffers that `resources` made.
+pub(in crate::compile) fn emit(
+    results: &StageResults<'_>,
+    (steps, totals): (Vec<Step>, Totals),
+    (images, buffers): Resources,
+) -> Plan {
     Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: results.device.name.clone(), exact_memory: results.exact_memory },
@@ -27,16 +31,24 @@ pub(in crate::compile) fn emit(results: &StageResults<'_>, (images, buffers): Re
         buffers,
         outputs: outputs::outputs(results),
         heaps: results.placed.heaps.clone(),
-        totals: with_bytes(results, Totals::count(&steps)),
+        totals: with_bytes(results, totals),
         steps,
         notes: notes::notes(results),
     }
 }
 
-fn steps(results: &StageResults<'_>) -> Vec<Step> {
+/// Steps of the Plan, and what they alone tell of its totals.
+pub(in crate::compile) fn steps(results: StageResults<'_>) -> (Vec<Step>, Totals) {
+    let results = &results.with_subjects();
     let Barriers { queues, steps: count, .. } = results.sync;
     let mut barriers = StepBarriers::new(results);
-    let step = |number| {
+    let mut made = (Vec::with_capacity(*count as usize), Totals::default());
+    let read = |_: &(Vec<Step>, Totals), number: u32| {
+        let ops = results.scoped.steps.get(number as usize).map_or(&[][..], Grouped::ops);
+        ops.iter().for_each(|op| passes::read(results, *op));
+    };
+    let apart = !results.scoped.is_in_frame_order();
+    in_order(&mut made, *count, apart, read, |(steps, totals), number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
         let work = match results.scoped.steps.get(number as usize) {
             Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(results, scope, number))),
@@ -44,12 +56,19 @@ fn steps(results: &StageResults<'_>) -> Vec<Step> {
             Some(Grouped::BarriersOnly) | None => Work::Export,
         };
         let (queue, waits, releases) = (queues.queue(number), queues.waits(number), Vec::new());
-        Step { queue, waits, memory_barriers, image_barriers, work, releases }
-    };
-    let mut steps: Vec<Step> = (0..*count).map(step).collect();
-    for Transfer { from, release, to, acquire } in ownership::transfers(results) {
+        let step = Step { queue, waits, memory_barriers, image_barriers, work, releases };
+        totals.add(&step);
+        steps.push(step);
+    });
+    let transfers = ownership::transfers(results);
+    if transfers.is_empty() {
+        return made;
+    }
+    let (mut steps, _) = made;
+    for Transfer { from, release, to, acquire } in transfers {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);
     }
-    steps
+    let totals = Totals::count(&steps);
+    (steps, totals)
 }

@@ -103,8 +103,9 @@ pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
 }
 
 /// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
-pub(in crate::compile) fn barriers(results: &StageResults<'_>, plan: &mut Plan) {
-    let mut barriers = StepBarriers::new(results);
+pub(in crate::compile) fn barriers(results: StageResults<'_>, plan: &mut Plan) {
+    let results = results.with_subjects();
+    let mut barriers = StepBarriers::new(&results);
     for (step, number) in plan.steps.iter_mut().zip(0..) {
         (step.memory_barriers, step.image_barriers) = barriers.of(number);
     }

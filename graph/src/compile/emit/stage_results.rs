@@ -10,7 +10,7 @@ use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::{BufferId, Cause, ImageId, Resource};
-use crate::vulkan::Subresources;
+use crate::vulkan::{Aspects, Subresources};
 use std::sync::Arc;
 
 /// The results of all stages.
@@ -24,7 +24,7 @@ pub(in crate::compile) struct StageResults<'a> {
     pub(super) placed: &'a Placed,
     pub(super) sync: &'a Barriers,
     pub(super) exact_memory: bool,
-    /// The subject of each physical resource.
+    /// The subject of each physical resource; empty where no passes and no barriers are made.
     pub(super) subjects: Vec<Subject>,
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
@@ -47,9 +47,14 @@ impl<'a> StageResults<'a> {
             placed: &settled.placed,
             sync: &settled.barriers,
             exact_memory: settled.exact_memory,
-            subjects: Subject::of(&structure.adapted),
+            subjects: Vec::new(),
             nothing: Arc::default(),
         }
+    }
+
+    /// The same, to make passes and barriers.
+    pub(in crate::compile) fn with_subjects(self) -> StageResults<'a> {
+        StageResults { subjects: Subject::of(self.adapted), ..self }
     }
 }
 
@@ -59,19 +64,27 @@ pub(super) struct Subject {
     pub(super) is_image: bool,
     /// Whether it has several subresources.
     pub(super) is_cut: bool,
-    pub(super) all: Subresources,
+    /// All of it.
+    aspects: Aspects,
+    mips: u32,
+    layers: u32,
 }
 
 impl Subject {
     /// A subject for each physical resource.
     fn of(adapted: &Adapted) -> Vec<Subject> {
-        let subject = |resource: &PhysicalResource| Subject {
-            id: resource.id,
-            is_image: resource.image().is_some(),
-            is_cut: resource.grid.is_some(),
-            all: resource.all(),
+        let subject = |resource: &PhysicalResource| {
+            let Subresources { aspects, mips, layers, .. } = resource.all();
+            let (is_image, is_cut) = (resource.image().is_some(), resource.grid.is_some());
+            Subject { id: resource.id, is_image, is_cut, aspects, mips, layers }
         };
         adapted.resources.iter().map(subject).collect()
+    }
+
+    /// All of it.
+    pub(super) fn all(&self) -> Subresources {
+        let Subject { aspects, mips, layers, .. } = *self;
+        Subresources { aspects, base_mip: 0, mips, base_layer: 0, layers }
     }
 }
 

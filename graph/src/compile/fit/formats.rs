@@ -60,6 +60,8 @@ pub(crate) struct Formats<'d> {
     pub(super) supports: Supports<'d>,
     /// Of each image, in the formats that are taken.
     pub(super) needs: Vec<Needs>,
+    /// Whether the device has all that the images need of their formats.
+    pub(super) are_met: bool,
     /// The frame with other formats, if it takes any.
     pub(crate) substitute: Option<Frame>,
     /// One for each other format.
@@ -79,20 +81,25 @@ pub(crate) fn formats<'d>(frame: &Frame, live: &[u32], device: &'d Profile) -> F
     let supports = Supports::new(device);
     let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
     let needs = Needs::of(frame, passes());
+    if are_met(frame, &needs, &supports) {
+        return Formats { supports, needs, are_met: true, substitute: None, notes: Vec::new() };
+    }
     match fall_back(frame, live, &needs, &supports) {
-        None => Formats { supports, needs, substitute: None, notes: Vec::new() },
+        None => Formats { supports, needs, are_met: false, substitute: None, notes: Vec::new() },
         Some((substitute, notes)) => {
             let needs = Needs::of(&substitute, live.iter().map(|pass| &substitute.passes[*pass as usize]));
-            Formats { supports, needs, substitute: Some(substitute), notes }
+            let are_met = are_met(&substitute, &needs, &supports);
+            Formats { supports, needs, are_met, substitute: Some(substitute), notes }
         }
     }
 }
 
-/// The frame with other formats, and a note for each; `None` if the device has all formats that it needs, or no substitute.
+fn are_met(frame: &Frame, needs: &[Needs], supports: &Supports<'_>) -> bool {
+    frame.images.iter().zip(needs).all(|(image, needs)| needs.are_met(supports.of(image.format)))
+}
+
+/// The frame with other formats, and a note for each; `None` if there is no substitute.
 fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'_>) -> Option<(Frame, Vec<Note>)> {
-    if frame.images.iter().zip(needs).all(|(image, needs)| needs.are_met(supports.of(image.format))) {
-        return None;
-    }
     let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
     let fixed = fixed(frame, passes());
     let mut alike = UnionFind::<u32>::new(frame.images.len());

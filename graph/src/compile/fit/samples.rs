@@ -16,15 +16,21 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
     let (needs, supports) = (&formats.needs, &formats.supports);
     let device = supports.device;
     let multisampled = frame.images.iter().any(|image| image.samples > 1);
+    let attachments = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+    let attached = needs.iter().any(|needs| needs.usage.intersects(attachments));
+    // Nothing is asked of the other passes here.
+    let passes = if attached || multisampled || !formats.are_met { live } else { &[] };
     let mut together = UnionFind::<u32>::new(if multisampled { frame.images.len() } else { 0 });
     let mut forwarded = vec![false; frame.images.len()];
     let mut errors = Vec::new();
-    for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+    for pass in passes.iter().map(|pass| &frame.passes[*pass as usize]) {
         if multisampled && let Some((first, _)) = pass.attachments().next() {
             pass.attachments().for_each(|(other, _)| _ = together.union(first.0, other.0));
         }
         errors.extend(disagreement(frame, pass));
-        check_operations(frame, pass, supports, &mut errors);
+        if !formats.are_met {
+            check_operations(frame, pass, supports, &mut errors);
+        }
         let (targets, most) = (pass.color.len(), device.max_color_attachments);
         if targets > most as usize {
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
@@ -50,7 +56,7 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
         }
     }
     let samples = frame.images.iter().map(|image| image.samples).collect();
-    let mut negotiated = Negotiated { samples, notes: Vec::new() };
+    let mut negotiated = Negotiated { samples, attached, notes: Vec::new() };
     for group in groups.values() {
         lower(frame, group, supports, &mut negotiated);
     }

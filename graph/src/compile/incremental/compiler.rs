@@ -123,8 +123,9 @@ impl Last {
         let barriers = structure.timeline.barriers.clone();
         let settled = structure.settle(barriers, device, memory, options)?;
         let planned = substitute.as_ref().unwrap_or(frame);
-        let resources = emit::resources(planned, &structure, &settled);
-        let plan = emit::emit(&StageResults::new(planned, device, &structure, &settled), resources);
+        let results = || StageResults::new(planned, device, &structure, &settled);
+        let steps = emit::steps(results());
+        let plan = emit::emit(&results(), steps, emit::resources(planned, &structure, &settled));
         Ok(Last {
             given: frame.clone(),
             frame: frame.clone(),
@@ -196,15 +197,15 @@ impl Last {
         }
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
         let settling = structure.settle_again(settled, device, memory, options)?;
-        let parts = StageResults::new(frame, device, structure, settled);
+        let results = || StageResults::new(frame, device, structure, settled);
         match settling {
             Settling::Same => {
                 self.reuse = Reuse::Barriers;
-                emit::sizes(&parts, plan);
+                emit::sizes(&results(), plan);
             }
             Settling::OtherBarriers if settled.barriers.steps as usize == plan.steps.len() => {
-                emit::barriers(&parts, plan);
-                emit::sizes(&parts, plan);
+                emit::barriers(results(), plan);
+                emit::sizes(&results(), plan);
             }
             Settling::OtherBarriers | Settling::Nothing => return Ok(false),
         }

@@ -60,43 +60,62 @@ impl Aliasing {
 
     /// Numbers the offsets of a heap at which placements begin or end.
     fn number(&mut self, placed: &Placed, heap: u32) {
-        let count = 2 * placed.placements.len();
-        let mut ends: Vec<(u64, u32)> = Vec::with_capacity(count);
-        let mut bits = 0;
-        for (placement, at) in placed.placements.iter().zip(0_u32..) {
-            if let Some(it) = placement
-                && it.heap == heap
-            {
-                ends.push((it.offset, 2 * at));
-                ends.push((it.offset + it.bytes, 2 * at + 1));
-                bits |= it.offset | it.bytes;
-            }
-        }
         let first = self.heaps.last().map_or(0, |[_, end]| *end);
-        // Sorting single words is fast. An offset and which end of which placement it is mostly fit into one, since all
-        // offsets are multiples of an alignment.
-        let unit = bits.trailing_zeros() % u64::BITS;
-        let end_bits = u64::BITS - (count as u64).leading_zeros();
-        let highest = placed.heaps[heap as usize].bytes;
-        let behind = if (highest >> unit).leading_zeros() >= end_bits {
-            let word = |(offset, end): &(u64, u32)| (offset >> unit) << end_bits | u64::from(*end);
-            let mut words: Vec<u64> = ends.iter().map(word).collect();
-            words.sort_unstable();
-            let mask = (1 << end_bits) - 1;
-            self.number_sorted(first, words.iter().map(|word| (word >> end_bits, (word & mask) as u32)))
+        // All offsets are multiples of an alignment.
+        let here = || placed.placements.iter().flatten().filter(|it| it.heap == heap);
+        let unit = here().fold(0, |bits, it| bits | it.offset | it.bytes).trailing_zeros() % u64::BITS;
+        let words = placed.heaps[heap as usize].bytes >> unit >> u64::BITS.ilog2();
+        let behind = if words <= placed.placements.len() as u64 {
+            self.number_marked(placed, heap, first, (unit, words as usize + 1))
         } else {
-            ends.sort_unstable();
-            self.number_sorted(first, ends.iter().copied())
+            self.number_sorted(placed, heap, first)
         };
         self.heaps.push([first, behind]);
     }
 
-    /// Numbers offsets, which rise, from `first` on. Returns the number behind the last one.
-    #[inline(always)]
-    fn number_sorted(&mut self, first: u32, ends: impl Iterator<Item = (u64, u32)>) -> u32 {
+    /// Numbers offsets from `first` on, by a bit for each multiple of a power of two, `unit`, in so many words. Returns the
+    /// number behind the last one.
+    fn number_marked(&mut self, placed: &Placed, heap: u32, first: u32, (unit, words): (u32, usize)) -> u32 {
+        // Each word with the number of its first offset.
+        let mut marked = vec![(0_u64, 0_u32); words];
+        let place = |offset: u64| (((offset >> unit) / 64) as usize, 1_u64 << ((offset >> unit) % 64));
+        for it in placed.placements.iter().flatten().filter(|it| it.heap == heap) {
+            for (word, bit) in [place(it.offset), place(it.offset + it.bytes)] {
+                marked[word].0 |= bit;
+            }
+        }
+        let mut behind = first;
+        for (bits, number) in &mut marked {
+            *number = behind;
+            behind += bits.count_ones();
+        }
+        for (ends, placement) in self.ends.iter_mut().zip(&placed.placements) {
+            if let Some(it) = placement
+                && it.heap == heap
+            {
+                *ends = [place(it.offset), place(it.offset + it.bytes)].map(|(word, bit)| {
+                    let (bits, number) = marked[word];
+                    number + (bits & (bit - 1)).count_ones()
+                });
+            }
+        }
+        behind
+    }
+
+    /// The same, by sorting: for offsets that lie too far apart to mark them.
+    fn number_sorted(&mut self, placed: &Placed, heap: u32, first: u32) -> u32 {
+        let mut sorted: Vec<(u64, u32)> = Vec::with_capacity(2 * placed.placements.len());
+        for (placement, at) in placed.placements.iter().zip(0_u32..) {
+            if let Some(it) = placement
+                && it.heap == heap
+            {
+                sorted.extend([(it.offset, 2 * at), (it.offset + it.bytes, 2 * at + 1)]);
+            }
+        }
+        sorted.sort_unstable_by_key(|(offset, _)| *offset);
         let mut behind = first;
         let mut before = None;
-        for (offset, end) in ends {
+        for (offset, end) in sorted {
             behind += u32::from(before.replace(offset) != Some(offset));
             self.ends[(end / 2) as usize][(end % 2) as usize] = behind - 1;
         }
@@ -167,10 +186,10 @@ mod tests {
     fn offsets_of_all_sizes_give_the_same_edges() {
         let edge = |resource, from, this_frame| AliasEdge { resource, from, this_frame };
         let expected = [edge(2, 0, true), edge(2, 1, true), edge(0, 2, false), edge(1, 2, false)];
-        // Even ones, odd ones, and such that no word holds an offset and an end.
-        for factor in [1 << 16, 3, (1 << 60) + 1] {
-            let scaled = PLACES.map(|(offset, bytes)| (offset * factor, bytes * factor));
-            assert_eq!(Aliasing::of(&placed(scaled), &[0, 1, 2]).edges, expected, "{factor}");
+        let times = |factor| PLACES.map(|(offset, bytes)| (offset * factor, bytes * factor));
+        // Two that are marked in one word, one in several words, and one whose offsets lie too far apart to mark them.
+        for places in [times(1 << 16), times(3), [(0, 63), (63, 130), (0, 193)], times((1 << 60) + 1)] {
+            assert_eq!(Aliasing::of(&placed(places), &[0, 1, 2]).edges, expected, "{places:?}");
         }
     }
 

@@ -110,9 +110,8 @@ pub(in crate::compile) fn place(
                 let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
                 let needs = match last_needs {
                     Some((of, needs)) if of == made => needs,
-                    _ => memory.image(&made),
+                    _ => last_needs.insert((made, memory.image(&made))).1,
                 };
-                last_needs = Some((made, needs));
                 if let Some(usual) = resource.usual {
                     let usual = usual_needs(&made, usual, device, memory);
                     placed.chosen.push((at, needs.bytes.cast_signed().saturating_sub(usual.bytes.cast_signed())));

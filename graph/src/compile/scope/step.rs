@@ -81,7 +81,7 @@ pub(super) fn plane_of(adapted: &Adapted, uses: &[Use], role: Role) -> Option<Ta
 /// The name of the pass that an operation is in the Plan.
 pub(crate) fn op_name<'f>(frame: &'f Frame, adapted: &'f Adapted, op: u32) -> Option<&'f Arc<str>> {
     match &adapted.ops[op as usize].kind {
-        OpKind::DepthOnly { name, .. } | OpKind::ResolveDraw { name, .. } => Some(name),
+        OpKind::DepthOnly { draw, .. } | OpKind::ResolveDraw { draw, .. } => Some(&draw.name),
         kind => kind.pass().map(|pass| &frame.passes[pass as usize].name),
     }
 }

@@ -33,7 +33,7 @@ pub(in crate::compile) fn barriers(
 ) -> Barriers {
     let mut initial = initial_barriers::complete(adapted, timeline, barriers, edges);
     let mut batched = batches::batch(&initial.queues, &initial.barriers);
-    if adapted.resources.iter().any(|resource| resource.image().is_none()) {
+    if adapted.buffers > 0 {
         batches::gather_buffers(&initial.queues, &adapted.resources, &initial.barriers, &mut batched);
         redundant::take_out(adapted, timeline, &mut initial, &mut batched);
     }

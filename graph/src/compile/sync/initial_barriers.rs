@@ -10,7 +10,7 @@ use super::subresource::SubresourceBarrier;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::{Adapted, Kind, PhysicalIndex, PhysicalResource, SubresourceIndex};
+use crate::compile::model::{Adapted, Kind, PhysicalIndex, SubresourceIndex};
 use crate::compile::queues::{QUEUES, QueueUse, Queues};
 use crate::compile::steps::NEVER;
 use std::ops::Range;
@@ -31,8 +31,7 @@ pub(super) fn complete(
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let is_plain = |resource: &PhysicalResource| resource.image().is_some() && resource.grid.is_none();
-    let plain = adapted.resources.iter().all(is_plain);
+    let plain = adapted.buffers == 0 && adapted.is_uncut();
     let mut completing = Completing { adapted, timeline, plain, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {

@@ -4,7 +4,7 @@
 
 use super::crossed::{self, Crossed};
 use super::subresource::{SubresourceAccess, SubresourceBarrier, SubresourceState};
-use crate::compile::model::{PhysicalIndex, PhysicalResource, SubresourceIndex, Use};
+use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex, Use};
 use crate::compile::queues::Queues;
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
@@ -50,13 +50,15 @@ impl AccessTimeline {
     }
 
     /// Finds lifetimes, before the step behind all others is added.
-    pub(super) fn find_lifetimes(&mut self, resources: &[PhysicalResource]) {
-        let lifetime = |resource: &PhysicalResource| {
-            let Range { start, end } = resource.subresources();
+    pub(super) fn find_lifetimes(&mut self, adapted: &Adapted) {
+        let lifetime = |Range { start, end }: Range<SubresourceIndex>| {
             let used = self.subresources[start as usize..end as usize].iter().filter(|state| state.is_used());
             used.fold([NEVER, 0], |[first, last], state| [first.min(state.first), last.max(state.last)])
         };
-        self.lifetimes = resources.iter().map(lifetime).collect();
+        self.lifetimes = match adapted.is_uncut() {
+            true => (0..adapted.subresources).map(|at| lifetime(at..at + 1)).collect(),
+            false => adapted.resources.iter().map(|resource| lifetime(resource.subresources())).collect(),
+        };
     }
 
     /// Drops the parts that serve only to make other timelines and barriers.

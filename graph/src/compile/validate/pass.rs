@@ -63,7 +63,7 @@ impl Check<'_> {
         if access.frames_ago() > 0 {
             self.history(&image.lifetime, access.frames_ago(), &image.name, span);
         }
-        if range != Subresources::WHOLE {
+        if !range.is_whole() {
             self.inside(image, range, span);
         }
         if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
