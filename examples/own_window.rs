@@ -10,7 +10,7 @@ use std::error::Error;
 use std::sync::Arc;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, EventLoop};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
@@ -23,6 +23,8 @@ struct Shown {
     objects: Option<SceneDrawSource>,
     /// Whether the images of the swapchain no longer fit the window.
     refit: bool,
+    /// Whether the next frame waits for the system to want it, or for a window with an area.
+    waits: bool,
     frames: u64,
 }
 
@@ -39,35 +41,18 @@ impl Shown {
         options.executor.frames_in_flight = 2;
         let mut renderer = Renderer::open(&device, "forward", options)?;
         renderer.set_scene(&scene);
-        Ok(Shown { window, swapchain, renderer, scene, objects: None, refit: true, frames: 0 })
+        Ok(Shown { window, swapchain, renderer, scene, objects: None, refit: true, waits: false, frames: 0 })
     }
 
-    /// Draws frames until one is shown. Returns whether the window has an area.
-    fn draw(&mut self) -> Result<bool, Box<dyn Error>> {
-        loop {
-            if self.refit {
-                let size = self.window.inner_size();
-                if !self.swapchain.resize(size.into())? {
-                    return Ok(false);
-                }
-                self.renderer.fit(&self.swapchain)?;
+    /// Draws a frame, and has it shown if the images fit the window.
+    fn draw(&mut self) -> Result<Presentation, Box<dyn Error>> {
+        if self.refit {
+            let size = self.window.inner_size();
+            if !self.swapchain.resize(size.into())? {
+                return Ok(Presentation::NoArea);
             }
-            match self.present()? {
-                Presentation::Shown(_) => self.refit = false,
-                Presentation::Suboptimal(_) => self.refit = true,
-                // The window has another size by now, or none.
-                _ => {
-                    self.refit = true;
-                    continue;
-                }
-            }
-            self.frames += 1;
-            return Ok(true);
+            self.renderer.fit(&self.swapchain)?;
         }
-    }
-
-    /// Draws a frame and has it shown, if the images still fit the window.
-    fn present(&mut self) -> Result<Presentation, Box<dyn Error>> {
         let device = self.renderer.device().clone();
         let prepared = self.renderer.prepare()?;
         let objects = match (self.objects.take(), prepared.change) {
@@ -77,7 +62,9 @@ impl Shown {
         let objects = self.objects.insert(objects);
         // The system then says when it wants another frame: on Wayland not while nobody sees the window.
         self.window.pre_present_notify();
-        Ok(self.renderer.present(objects, &mut self.swapchain)?)
+        let shown = self.renderer.present(objects, &mut self.swapchain)?;
+        self.refit = !matches!(shown, Presentation::Shown(_));
+        Ok(shown)
     }
 }
 
@@ -88,13 +75,32 @@ struct Program {
     problem: Option<Box<dyn Error>>,
 }
 
+impl Program {
+    fn draw(&mut self, events: &ActiveEventLoop) {
+        let Some(shown) = self.shown.as_mut().filter(|_| !events.exiting()) else { return };
+        let drawn = shown.draw();
+        shown.waits = true;
+        match drawn {
+            Ok(Presentation::Shown(_) | Presentation::Suboptimal(_)) => {
+                shown.frames += 1;
+                shown.window.request_redraw();
+            }
+            Ok(Presentation::NoArea) => {}
+            // The window has another size by now.
+            Ok(_) => shown.waits = false,
+            Err(problem) => self.problem = Some(problem),
+        }
+        events.set_control_flow(if shown.waits { ControlFlow::Wait } else { ControlFlow::Poll });
+        if self.problem.is_some() || shown.frames >= self.most {
+            events.exit();
+        }
+    }
+}
+
 impl ApplicationHandler for Program {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         match Shown::open(events) {
-            Ok(shown) => {
-                shown.window.request_redraw();
-                self.shown = Some(shown);
-            }
+            Ok(shown) => self.shown = Some(shown),
             Err(problem) => {
                 self.problem = Some(problem);
                 events.exit();
@@ -105,22 +111,15 @@ impl ApplicationHandler for Program {
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match (event, &mut self.shown) {
             (WindowEvent::CloseRequested, _) => events.exit(),
-            (WindowEvent::Resized(_), Some(shown)) => {
-                shown.refit = true;
-                shown.window.request_redraw();
-            }
-            (WindowEvent::RedrawRequested, Some(shown)) => {
-                match shown.draw() {
-                    Ok(true) => shown.window.request_redraw(),
-                    // A minimised window: nothing is drawn until it has another size.
-                    Ok(false) => {}
-                    Err(problem) => self.problem = Some(problem),
-                }
-                if self.problem.is_some() || shown.frames >= self.most {
-                    events.exit();
-                }
-            }
+            (WindowEvent::Resized(_), Some(shown)) => (shown.refit, shown.waits) = (true, false),
+            (WindowEvent::RedrawRequested, _) => self.draw(events),
             _ => {}
+        }
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        if self.shown.as_ref().is_some_and(|shown| !shown.waits) {
+            self.draw(events);
         }
     }
 }

@@ -23,7 +23,7 @@ use workload::Workload;
 /// The figures, and how new ones are accepted.
 const GUARD: Guard = Guard {
     figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
-    accept: "FRAMEWRIGHT_ACCEPT=1 cargo bench --workspace --profile dev --bench dev_instructions",
+    accept: "FRAMEWRIGHT_ACCEPT=backend-vulkan cargo bench --workspace --profile dev --bench dev_instructions",
 };
 
 /// A row of the table, and the frame that is recorded for it.

@@ -14,7 +14,7 @@ use counts::{Code, Guard};
 use std::error::Error;
 use std::process::{Command, ExitCode};
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=1 cargo bench --workspace --profile dev --bench dev_instructions";
+const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=cli cargo bench --workspace --profile dev --bench dev_instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

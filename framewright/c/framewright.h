@@ -110,7 +110,8 @@ typedef struct {
     const char *helper;
 } FramewrightDeviceOptions;
 
-// Is told a finding of the validation layer, which lives until it returns.
+// Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
+// knows them.
 typedef void (*FramewrightFinding)(void *context, const char *text);
 
 // Several texts.
@@ -169,7 +170,7 @@ typedef struct {
     uint32_t width;
     // Height of the targets; 0 outside of a scope.
     uint32_t height;
-    // The number of the frame since the Plan was made, from 0.
+    // The number of the frame, as `framewright_renderer_frame` returns it.
     uint64_t frame;
     // Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
     const FramewrightResources *resources;

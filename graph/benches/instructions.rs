@@ -37,7 +37,7 @@ use std::sync::Arc;
 /// The figures, and how new ones are accepted.
 const GUARD: Guard = Guard {
     figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
-    accept: "FRAMEWRIGHT_ACCEPT=1 cargo bench -p framewright-graph --bench instructions",
+    accept: "FRAMEWRIGHT_ACCEPT=graph cargo bench -p framewright-graph --bench instructions",
 };
 
 /// A row of the table, and what is run for it.

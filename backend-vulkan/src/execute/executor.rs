@@ -285,7 +285,7 @@ impl Executor {
 
     /// The number of a frame among its own.
     pub(super) fn own(&self, frame: u64) -> Result<u64, Error> {
-        let earlier = || Error::BadResource { what: format!("frame {frame} was drawn by an earlier executor") };
+        let earlier = || Error::BadResource { what: format!("frame {frame} was drawn by an earlier Plan") };
         frame.checked_sub(self.first_frame).ok_or_else(earlier)
     }
 

@@ -60,6 +60,12 @@ impl Message {
             && !self.takes_a_fill_for_a_copy()
     }
 
+    /// The layer's words, behind [`Message::at`] if that is known.
+    #[must_use]
+    pub fn located(&self) -> String {
+        self.at.as_ref().map_or_else(|| self.text.clone(), |at| format!("{at}: {}", self.text))
+    }
+
     /// Whether it is about the layer's settings, wherever they come from: this program, a file, the environment.
     fn is_about_settings(&self) -> bool {
         ["VALIDATION-SETTINGS", "WARNING-Setting-Limit-Adjusted"].contains(&&*self.id)

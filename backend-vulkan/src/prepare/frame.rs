@@ -20,7 +20,7 @@ pub(crate) struct Frame<'f> {
     pub(crate) physical: &'f PhysicalResources,
     /// The number of the frame among those of its executor, from 0.
     pub(crate) number: u64,
-    /// The number by which the program knows it.
+    /// The number by which the program knows it. Preparing, which shows the program nothing, has none.
     pub(crate) told: u64,
 }
 

@@ -135,8 +135,8 @@ impl<'f> CustomRecorder<'f> {
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
-    /// they may touch the pass's images and buffers, as the Plan says, and the program's own resources, and nothing else. A rendering scope that is left open is a finding of the validation
-    /// layer, which [names the pass](crate::Message::at).
+    /// they may touch the pass's images and buffers, as the Plan says, and the program's own resources, and nothing else. A rendering scope
+    /// that is left open is a finding of the validation layer, which [names the pass](crate::Message::at).
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
         self.recorded += 1;
@@ -211,12 +211,12 @@ impl<'f> CustomRecorder<'f> {
     }
 }
 
-/// Under the validation layer, has it look whether a rendering scope is open. The barrier makes nothing wait, and is wrong in a scope.
+/// Under the validation layer, has it look whether a rendering scope is open. The barrier is wrong in a scope, and makes nothing wait: no
+/// stage comes after it.
 fn no_scope(gpu: &Gpu, commands: vk::CommandBuffer) {
     if gpu.instance.validation.is_none() {
         return;
     }
-    let none = vk::MemoryBarrier2::default();
-    let barrier = none.src_stage_mask(vk::PipelineStageFlags2::COPY).dst_stage_mask(vk::PipelineStageFlags2::COPY);
-    barriers(gpu, commands, &[barrier], &[]);
+    let after_copies = vk::MemoryBarrier2::default().src_stage_mask(vk::PipelineStageFlags2::COPY);
+    barriers(gpu, commands, &[after_copies], &[]);
 }

@@ -137,7 +137,8 @@ impl<'f> Recorder<'f> {
         self.canvas.target.extent
     }
 
-    /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it: what moves and what is shifted from frame to frame goes by it.
+    /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it: what moves and what is shifted
+    /// from frame to frame goes by it.
     #[must_use]
     pub fn frame(&self) -> u64 {
         self.frame.told

@@ -30,7 +30,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
-/// While nothing is drawn, as in a window that nobody sees, it is looked this often whether the command shall end.
+/// How often the command looks whether it shall end, while nothing is drawn, as in a window that nobody sees.
 const ASLEEP: Duration = Duration::from_millis(50);
 /// A step of a wheel, in the pixels that touch pads tell.
 const WHEEL_STEP: f64 = 40.0;
@@ -78,8 +78,7 @@ fn report(messages: &Messages) -> bool {
     let messages = messages.list();
     let findings: Vec<_> = messages.iter().filter(|message| message.is_finding()).collect();
     for finding in &findings {
-        let at = finding.at.iter().map(|at| format!("{}: ", text::escape(at))).collect::<String>();
-        text::say(&format!("finding: {at}{}: {}", text::escape(&finding.id), text::escape(&finding.text)));
+        text::say(&format!("finding: {}: {}", text::escape(&finding.id), text::escape(&finding.located())));
     }
     text::say(&format!("validation: {}", text::count(findings.len(), "finding", "findings")));
     !findings.is_empty()
@@ -144,7 +143,7 @@ impl<'a> App<'a> {
 
     /// Draws a frame, or waits where there is nothing to draw into.
     fn draw(&mut self, events: &ActiveEventLoop) -> Result<(), Error> {
-        let Some(open) = &mut self.open else { return Ok(()) };
+        let Some(open) = self.open.as_mut().filter(|_| self.ended.is_none()) else { return Ok(()) };
         let drawn = open.session.frame(|| open.window.pre_present_notify())?;
         open.asked = drawn == Drawn::Shown;
         if open.asked {
@@ -259,9 +258,7 @@ impl ApplicationHandler for App<'_> {
         if self.open.as_ref().is_some_and(|open| open.asked) {
             return events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + ASLEEP));
         }
-        if self.ended.is_none()
-            && let Err(error) = self.draw(events)
-        {
+        if let Err(error) = self.draw(events) {
             self.end(events, Err(error));
         }
     }

@@ -7,7 +7,9 @@ use framewright_tests::wayland_server::{Shell, WaylandServer};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
 
 /// A server; `None` where there is none, which fails in CI.
 fn server(shell: Shell) -> Option<WaylandServer> {
@@ -47,18 +49,45 @@ fn the_picture_in_the_window_is_the_one_that_run_writes() {
     }
 }
 
+/// A process that ends with the test.
+struct Ends(Child);
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 /// Drivers wait without end where a second frame is shown in a window that nobody sees.
 #[test]
 fn a_window_that_nobody_sees_ends_when_it_is_told_to() {
     let Some(server) = server(Shell::Kiosk) else { return };
     let place = Place::new();
     let Some(mut command) = on(&server, &place, &[&["window", "forward"][..], &SCENE].concat()) else { return };
-    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the command starts");
-    let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines();
-    assert!(lines.any(|line| line.is_ok_and(|line| line.starts_with("keys: "))), "it opens a window");
-    // Long enough for several frames. If it draws none by then, the test shows less and still passes.
-    std::thread::sleep(std::time::Duration::from_secs(2));
-    let process = Pid::from_raw(i32::try_from(child.id()).expect("a process number"));
+    // What is said to the server tells when a frame is shown.
+    command.env("WAYLAND_DEBUG", "1").stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = Ends(command.spawn().expect("the command starts"));
+    let lines = BufReader::new(child.0.stderr.take().expect("piped")).lines();
+    let (send, said) = mpsc::channel();
+    std::thread::spawn(move || lines.map_while(Result::ok).for_each(|line| drop(send.send(line))));
+    loop {
+        let line = said.recv_timeout(Duration::from_secs(60)).expect("it shows a frame");
+        if line.contains(".attach(wl_buffer@") {
+            break;
+        }
+    }
+    // Time for a second frame, for a command that draws one.
+    std::thread::sleep(Duration::from_secs(1));
+    let process = Pid::from_raw(i32::try_from(child.0.id()).expect("a process number"));
     kill(process, Signal::SIGINT).expect("sent");
-    assert!(child.wait().expect("it ends").success());
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = child.0.try_wait().expect("its status") {
+            break status;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "it doesn't end");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(status.success());
 }

@@ -38,7 +38,8 @@ unsafe impl Structure for FramewrightDeviceOptions {
         FramewrightDeviceOptions { struct_size: 0, name: ptr::null(), validation: 0, helper: ptr::null() };
 }
 
-/// Is told a finding of the validation layer, which lives until it returns.
+/// Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
+/// knows them.
 pub type FramewrightFinding = Option<unsafe extern "C" fn(context: *mut c_void, text: *const c_char)>;
 
 impl FramewrightDevice {
@@ -97,8 +98,7 @@ pub unsafe extern "C" fn framewright_device_findings(
         let device = unsafe { reference(device, "device")? };
         let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
         for message in device.device.messages().list().iter().filter(|message| message.is_finding()) {
-            let at = message.at.iter().map(|at| format!("{at}: ")).collect::<String>();
-            let message = text(&format!("{at}{}", message.text));
+            let message = text(&message.located());
             // SAFETY: the caller's word: it takes a text and what is given with it.
             unsafe { tell(context, message.as_ptr()) };
         }

@@ -24,7 +24,7 @@ pub struct FramewrightPass<'p> {
     pub width: u32,
     /// Height of the targets; 0 outside of a scope.
     pub height: u32,
-    /// The number of the frame since the Plan was made, from 0.
+    /// The number of the frame, as `framewright_renderer_frame` returns it.
     pub frame: u64,
     /// Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
     pub resources: *const FramewrightResources<'p>,

@@ -284,7 +284,8 @@ impl Renderer {
         self.renew(true).inspect_err(|_| self.reading = before)
     }
 
-    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0: whatever the Plan, each frame has one more.
+    /// Draws a frame, waits until the device is done, and returns the frame's number, from 0. Numbers rise by
+    /// one, over Plans too, unless contents couldn't be carried over to a new one.
     ///
     /// # Errors
     /// Those of [`Renderer::prepare`] and [`Executor::frame`].

@@ -205,8 +205,18 @@ fn frames_are_numbered_on_and_waited_for_over_executors() {
     assert_eq!(executor.frame(&mut objects).expect("drawn"), 3);
     assert_eq!(executor.frames(), 4);
     assert_eq!(renderer.submit(&mut objects).expect("submitted"), 4);
-    // What moves goes on too.
-    assert_eq!(objects.frames, BTreeSet::from([0, 1, 2, 3, 4]));
+    // Over several executors too, of which the last knows those before by number alone.
+    renderer.set("msaa", 4).expect("allowed");
+    assert_eq!(renderer.submit(&mut objects).expect("submitted"), 5);
+    renderer.wait(4).expect("it was waited for");
+    let gone = renderer.report(4).expect_err("its executor is gone").to_string();
+    assert!(gone.contains("frame 4 was drawn by an earlier Plan"), "{gone}");
+    let executor = renderer.executor_mut().expect("prepared");
+    executor.read_back_image(4, 0).expect_err("its executor is gone");
+    // SAFETY: it is no frame of the executor's.
+    unsafe { executor.discard(4) };
+    // What moves goes on as well.
+    assert_eq!(objects.frames, BTreeSet::from([0, 1, 2, 3, 4, 5]));
 }
 
 #[test]

@@ -61,11 +61,17 @@ impl Guard {
         self.judge(&committed, &now)
     }
 
+    /// Whether the environment names the folder whose figures are accepted.
+    fn is_accepted(&self) -> bool {
+        let folder = Path::new(self.figures).ancestors().nth(2).and_then(Path::file_name);
+        folder.is_some() && std::env::var_os("FRAMEWRIGHT_ACCEPT").as_deref() == folder
+    }
+
     /// Says how the figures differ from the committed ones, and writes them where they are accepted.
     fn judge(&self, committed: &Figures, now: &Figures) -> Result<ExitCode, Box<dyn Error>> {
         let accept = self.accept;
         let is_set = |variable: &str| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
-        if is_set("FRAMEWRIGHT_ACCEPT") {
+        if self.is_accepted() {
             now.write(self.figures)?;
             println!("accepted: {}", self.figures);
             return Ok(ExitCode::SUCCESS);

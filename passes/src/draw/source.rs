@@ -5,7 +5,6 @@ use super::eyes::Eyes;
 use super::geometry::Geometry;
 use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::textures::Textures;
-use super::view_buffers::ViewBuffers;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
@@ -116,7 +115,7 @@ impl SceneDrawSource {
         let objects = interface(Draw::Objects(DrawList::Opaque));
         let outline = scene.outline();
         let views = views.into_iter().map(|view| {
-            let seen = ViewDraws::new(ViewBuffers::new(device), &outline, &view, 0)?;
+            let seen = ViewDraws::new(device, &outline, &view, 0)?;
             Ok::<_, Error>((view, seen))
         });
         Ok(SceneDrawSource {
@@ -182,7 +181,7 @@ impl SceneDrawSource {
             if self.drawn {
                 view.moved_from.get_or_insert(before);
             } else {
-                seen.renew(&self.outline, view, self.frame)?;
+                seen.renew(&self.outline, view, self.frame).inspect_err(|_| view.camera = before)?;
             }
         }
         Ok(())

@@ -49,12 +49,6 @@ impl ViewBuffers {
         ViewBuffers { device: device.clone(), shared: BTreeMap::new(), groups: BTreeMap::new() }
     }
 
-    /// All buffers, with none left behind.
-    pub(super) fn take(&mut self) -> ViewBuffers {
-        let none = ViewBuffers::new(&self.device);
-        std::mem::replace(self, none)
-    }
-
     /// Writes the blocks that all sights share. Groups that were given out before must be asked for again.
     pub(super) fn write(&mut self, blocks: &Blocks) -> Result<(), Error> {
         let Blocks { lights, objects, cascades, clusters, motion } = blocks;
@@ -68,7 +62,7 @@ impl ViewBuffers {
             let bytes = block.len() as u64;
             let before = self.shared.get(&binding).map(DynamicBuffer::bytes);
             if before.is_none_or(|before| before < bytes) {
-                // With room to grow, if it has grown before.
+                // One that grows gets room to grow on.
                 let bytes = before.map_or(bytes, |_| bytes.next_power_of_two());
                 self.shared.insert(binding, self.device.dynamic_buffer(usage, bytes)?);
                 self.groups.clear();
@@ -123,7 +117,7 @@ mod tests {
     fn a_view_that_changes_from_frame_to_frame_takes_no_new_buffers() {
         let Some(device) = device() else { return };
         let (scene, view) = passing();
-        let mut draws = ViewDraws::new(ViewBuffers::new(device), &scene, &view, 0).expect("memory");
+        let mut draws = ViewDraws::new(device, &scene, &view, 0).expect("memory");
         let mut bound = BTreeSet::new();
         for frame in 1..10 {
             draws.advance_to(&scene, &view, frame).expect("memory");
@@ -147,7 +141,7 @@ mod tests {
             shadows: false,
         };
         scene.point_lights = vec![lamp(1e-6)];
-        let mut draws = ViewDraws::new(ViewBuffers::new(device), &scene, &view, 0).expect("memory");
+        let mut draws = ViewDraws::new(device, &scene, &view, 0).expect("memory");
         let bytes = |draws: &ViewDraws| draws.buffers.shared[&CLUSTERS_BINDING].bytes();
         let before = bytes(&draws);
         scene.point_lights = vec![lamp(0.5); 100];

@@ -9,7 +9,7 @@ use super::lists::draw_order_from;
 use super::view_buffers::{Blocks, Sight, ViewBuffers};
 use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{DrawList, Eye, Jitter};
-use framewright_vulkan::{BindGroup, CullMode, Error, FrontFace};
+use framewright_vulkan::{BindGroup, CullMode, Device, Error, FrontFace};
 use glam::{DMat4, DVec3};
 
 /// The camera of a view, its eyes, and how its picture is drawn.
@@ -123,13 +123,20 @@ pub(super) struct ObjectDraw {
 }
 
 impl ViewDraws {
-    /// Prepares `view` at a frame, with the buffers of a frame before. `scene` is as it is at frame 0.
-    pub(super) fn new(
-        mut buffers: ViewBuffers,
+    /// Prepares `view` at a frame. `scene` is as it is at frame 0.
+    pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<ViewDraws, Error> {
+        let mut buffers = ViewBuffers::new(device);
+        let (jittered, transparent, cascades) = ViewDraws::parts(&mut buffers, scene, view, frame)?;
+        Ok(ViewDraws { jittered, transparent, cascades, buffers })
+    }
+
+    /// All that isn't a buffer, for `view` at a frame. What buffers hold is written anew.
+    fn parts(
+        buffers: &mut ViewBuffers,
         scene: &Scene,
         view: &Viewpoint,
         frame: u64,
-    ) -> Result<ViewDraws, Error> {
+    ) -> Result<(JitteredDraws, Vec<ObjectDraw>, Vec<CascadeDraws>), Error> {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
         let (camera, before) = (view.camera.at(frame), view.moved_from.unwrap_or(view.camera).at(frame_before));
@@ -159,12 +166,7 @@ impl ViewDraws {
             let frame = buffers.group(Sight::OfSun(number), &camera, [transform; 2])?;
             cascades.push(CascadeDraws { frame, casts });
         }
-        Ok(ViewDraws {
-            jittered: JitteredDraws::new(&mut buffers, scene, view, frame)?,
-            transparent: draws(scene, &camera, DrawList::Transparent),
-            cascades,
-            buffers,
-        })
+        Ok((JitteredDraws::new(buffers, scene, view, frame)?, draws(scene, &camera, DrawList::Transparent), cascades))
     }
 
     /// Prepares another frame.
@@ -179,7 +181,7 @@ impl ViewDraws {
 
     /// Prepares `view` anew.
     pub(super) fn renew(&mut self, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
-        *self = ViewDraws::new(self.buffers.take(), scene, view, frame)?;
+        (self.jittered, self.transparent, self.cascades) = ViewDraws::parts(&mut self.buffers, scene, view, frame)?;
         Ok(())
     }
 

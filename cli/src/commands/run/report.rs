@@ -113,6 +113,9 @@ pub(crate) struct ValidationMessage {
     /// The step and pass that were recorded, if the layer tells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) at: Option<String>,
+    /// Both, for people.
+    #[serde(skip)]
+    located: String,
 }
 
 impl From<&DeviceSummary> for DeviceUsed {
@@ -179,6 +182,7 @@ impl From<&Message> for ValidationMessage {
             id: message.id.clone(),
             text: message.text.clone(),
             at: message.at.clone(),
+            located: message.located(),
         }
     }
 }
@@ -252,9 +256,8 @@ impl Validation {
         }
         for message in &self.messages {
             let word = if message.finding { message.severity } else { "note" };
-            let at = message.at.iter().map(|at| format!("{}: ", text::escape(at))).collect::<String>();
-            let (id, said) = (text::escape(&message.id), text::escape(&message.text));
-            shown += &format!("{word} ({}): {at}{id}: {said}\n", message.kind);
+            let (id, said) = (text::escape(&message.id), text::escape(&message.located));
+            shown += &format!("{word} ({}): {id}: {said}\n", message.kind);
         }
         shown
     }
