@@ -130,7 +130,7 @@ impl ViewDraws {
         Ok(ViewDraws { jittered, transparent, cascades, buffers })
     }
 
-    /// All that isn't a buffer, for `view` at a frame. What buffers hold is written anew.
+    /// The bind groups and draw lists of `view` at a frame, whose buffers are written.
     fn parts(
         buffers: &mut ViewBuffers,
         scene: &Scene,

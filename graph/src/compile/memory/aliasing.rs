@@ -73,8 +73,8 @@ impl Aliasing {
         self.heaps.push([first, behind]);
     }
 
-    /// Numbers offsets from `first` on, by a bit for each multiple of a power of two, `unit`, in so many words. Returns the
-    /// number behind the last one.
+    /// Numbers offsets from `first` on. Each multiple of 2 to the power of `unit` has a bit, which is set where an offset is.
+    /// The bits take `words` words. Returns the number behind the last one.
     fn number_marked(&mut self, placed: &Placed, heap: u32, first: u32, (unit, words): (u32, usize)) -> u32 {
         // Each word with the number of its first offset.
         let mut marked = vec![(0_u64, 0_u32); words];
