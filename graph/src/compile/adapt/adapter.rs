@@ -25,7 +25,7 @@ pub(super) struct Adapter<'a> {
     pub(super) depth_writers: BTreeMap<PhysicalIndex, Vec<u32>>,
     /// How often each pass is drawn again.
     pub(super) redrawn_times: BTreeMap<u32, u32>,
-    /// Whether each image is an output.
+    /// Whether each image is an output, if any is forwarded.
     pub(super) is_output: Vec<bool>,
     /// How many resolved copies, copies and second images each image has had: they need distinct names.
     pub(super) inserted_for: BTreeMap<ImageIndex, u32>,
@@ -42,8 +42,10 @@ pub(super) struct Adapter<'a> {
     pub(super) adapted: Adapted,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
-    /// Uses of the current pass.
-    pub(super) scratch: Vec<Use>,
+    /// Where the uses of the current pass begin, behind those of all operations so far.
+    pub(super) first_use: usize,
+    /// Whether the current pass samples what it also draws into or stores.
+    pub(super) feeds_back: bool,
     /// Images that the current pass reads and writes: each one, and the copy that it reads.
     pub(super) copies: Vec<(PhysicalIndex, PhysicalIndex)>,
 }
@@ -72,7 +74,7 @@ impl<'a> Adapter<'a> {
             versions: Vec::with_capacity(frame.images.len()),
             depth_writers: BTreeMap::new(),
             redrawn_times: BTreeMap::new(),
-            is_output: vec![false; frame.images.len()],
+            is_output: Vec::new(),
             inserted_for: BTreeMap::new(),
             known_as: BTreeMap::new(),
             last_accesses: LastAccesses::default(),
@@ -82,23 +84,48 @@ impl<'a> Adapter<'a> {
             adapted: Adapted::default(),
             notes: Vec::new(),
             errors: Vec::new(),
-            scratch: Vec::new(),
+            first_use: 0,
+            feeds_back: false,
             copies: Vec::new(),
         }
     }
 
+    /// Adds a use of the current pass.
+    #[inline]
+    pub(super) fn add_use(&mut self, used: Use) {
+        let used = self.of_parts(used);
+        self.adapted.uses.push(used);
+    }
+
+    /// Adds the current pass as an operation.
+    pub(super) fn push_pass(&mut self, kind: OpKind, side_effect: bool) {
+        self.push_op(kind, self.adapted.uses.len(), side_effect);
+    }
+
+    /// Adds an operation before the current pass.
     pub(super) fn push(&mut self, kind: OpKind, uses: &[Use]) {
-        let start = self.adapted.uses.len() as u32;
-        let versions = &self.versions;
-        let of_parts = |used: &Use| Use { subresource: versions[used.resource as usize].subresource, ..*used };
-        self.adapted.uses.extend(uses.iter().map(of_parts));
-        for used in uses.iter().filter(|used| used.writes) {
-            self.versions[used.resource as usize].drawn = kind.draws();
-            self.note_depth_writer(used, kind.draws());
+        let (start, end) = (self.first_use, self.first_use + uses.len());
+        let uses: Vec<Use> = uses.iter().map(|used| self.of_parts(*used)).collect();
+        self.adapted.uses.splice(start..start, uses);
+        self.push_op(kind, end, false);
+    }
+
+    fn of_parts(&self, used: Use) -> Use {
+        Use { subresource: self.versions[used.resource as usize].subresource, ..used }
+    }
+
+    /// Adds an operation with the uses behind those of all others, up to `end`.
+    fn push_op(&mut self, kind: OpKind, end: usize, side_effect: bool) {
+        let (start, draws) = (std::mem::replace(&mut self.first_use, end), kind.draws());
+        for at in start..end {
+            let used = &self.adapted.uses[at];
+            if used.writes {
+                let Use { resource, contents, role, .. } = *used;
+                self.versions[resource as usize].drawn = draws;
+                self.note_depth_writer(resource, contents, role, draws);
+            }
         }
-        let own = if kind.inserted().is_none() { kind.pass() } else { None };
-        let side_effect = own.is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
-        self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32, side_effect });
+        self.adapted.ops.push(Op { kind, uses: start as u32..end as u32, side_effect });
     }
 
     /// Adds an operation from one image to another, whole, which have the same parts.

@@ -4,7 +4,7 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
+use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role};
 use crate::frame::{Draw, ImageIndex, ViewIndex, Work};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, Subresources};
@@ -20,8 +20,13 @@ struct Unavailable {
 
 impl Adapter<'_> {
     /// Notes the operations that wrote the current version of multisampled depth.
-    pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
-        let Use { resource, contents, role, .. } = *used;
+    pub(super) fn note_depth_writer(
+        &mut self,
+        resource: PhysicalIndex,
+        contents: InitialContents,
+        role: Role,
+        draws: bool,
+    ) {
         if role == Role::Stencil || self.samples(resource) == 1 {
             return;
         }

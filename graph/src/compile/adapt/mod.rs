@@ -30,13 +30,14 @@ use last_accesses::LastAccesses;
 pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagnostic>> {
     let Input { frame, live, .. } = input;
     let mut adapter = Adapter::new(input);
-    for output in &frame.outputs {
-        if let Resource::Image(image) = output.resource {
-            adapter.is_output[image.0 as usize] = true;
-        }
-    }
     if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
         adapter.last_accesses = LastAccesses::of(frame, live);
+        adapter.is_output = vec![false; frame.images.len()];
+        for output in &frame.outputs {
+            if let Resource::Image(image) = output.resource {
+                adapter.is_output[image.0 as usize] = true;
+            }
+        }
     }
     adapter.demotions = demote::find(&input, &mut adapter.notes);
     adapter.adapted.resources.reserve(frame.images.len());

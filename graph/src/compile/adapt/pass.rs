@@ -26,12 +26,15 @@ impl Adapter<'_> {
             return self.forward(number, pass, *from, *to, because);
         }
         self.copies.clear();
-        let mut uses = std::mem::take(&mut self.scratch);
-        uses.clear();
+        let writes = |image: ImageIndex| {
+            pass.color.iter().any(|target| target.image == image)
+                || pass.storage.iter().any(|storage| storage.image == image)
+        };
+        self.feeds_back = pass.sampled.iter().any(|sampled| sampled.frames_ago == 0 && writes(sampled.image));
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(resource) = self.sampled(number, pass, sampled) {
                 let range = self.sampled_range(sampled.image, sampled.range);
-                uses.push(access::sampled(sampled, entry, resource, range));
+                self.add_use(access::sampled(sampled, entry, resource, range));
             }
         }
         for (entry, storage) in (0_u32..).zip(&pass.storage) {
@@ -40,7 +43,7 @@ impl Adapter<'_> {
                 false => self.current(storage.image),
             };
             let range = self.range(storage.image, storage.range);
-            uses.push(access::storage(storage, entry, resource, range));
+            self.add_use(access::storage(storage, entry, resource, range));
         }
         for (entry, target) in (0_u32..).zip(&pass.color) {
             let contents = match target.clear {
@@ -51,7 +54,7 @@ impl Adapter<'_> {
             let resource =
                 self.target(number, pass, target.image, target.range, target.span, contents == InitialContents::Keep);
             let range = self.range(target.image, target.range);
-            uses.push(access::color(target, entry, resource, range, contents));
+            self.add_use(access::color(target, entry, resource, range, contents));
         }
         if let Some(depth) = &pass.depth {
             let image = &frame.images[depth.image.0 as usize];
@@ -68,25 +71,24 @@ impl Adapter<'_> {
                 };
                 self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
                 let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
-                uses.push(access::depth(plane, resource, range, contents, writes, image.format));
+                self.add_use(access::depth(plane, resource, range, contents, writes, image.format));
             }
         }
         for (entry, used) in (0_u32..).zip(&pass.buffers) {
             let resource = self.buffer(used.buffer, used.frames_ago);
-            uses.push(access::buffer(used, entry, resource));
+            self.add_use(access::buffer(used, entry, resource));
         }
         for (entry, used) in (0_u32..).zip(&pass.transfers) {
             if let Some((resource, range)) = self.transferred(pass, used) {
-                uses.push(access::transfer(&pass.work, used, entry, resource, range));
+                self.add_use(access::transfer(&pass.work, used, entry, resource, range));
             }
         }
-        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &uses) {
+        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &self.adapted.uses[self.first_use..]) {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
             self.note(&pass.name, text, pass.span);
         }
         let kind = if matches!(pass.work, Work::Draw { .. }) { OpKind::Draw(number) } else { OpKind::Pass(number) };
-        self.push(kind, &uses);
-        self.scratch = uses;
+        self.push_pass(kind, pass.side_effect);
     }
 
     /// The physical image that a sampling pass reads.

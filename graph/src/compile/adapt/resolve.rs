@@ -203,7 +203,8 @@ impl Adapter<'_> {
         let Some(grid) = &resource.grid else { return vec![Subresources::WHOLE] };
         let declared = &input.frame.images[image.0 as usize];
         let mut written = vec![declared.lifetime.outlives_frame(); grid.len() as usize];
-        for used in adapted.uses.iter().filter(|used| used.writes && used.resource == source) {
+        let so_far = &adapted.uses[..self.first_use];
+        for used in so_far.iter().filter(|used| used.writes && used.resource == source) {
             grid.cover(adapted.range(used)).for_each(|part| written[part as usize] = true);
         }
         let mut read = vec![false; grid.len() as usize];

@@ -7,7 +7,7 @@ use crate::compile::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::Inserted;
-use crate::vulkan::{BufferUsage, FillValue, Rotation, Sharing, Usage};
+use crate::vulkan::{BufferUsage, FillValue, Format, Rotation, Sharing, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -86,7 +86,10 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let samples = self.input.negotiated.samples(image);
         let (name, lifetime) = (&declared.name, &declared.lifetime);
-        let first = self.add_lives(Resource::Image(image), name, lifetime, |adapter| adapter.add_image(image, samples));
+        let first = self.add_image(image, samples);
+        if !matches!(lifetime, Lifetime::Transient) {
+            self.add_lives(first, name, lifetime, |adapter| adapter.add_image(image, samples));
+        }
         self.resource_of[image.0 as usize] = Some(first);
         first
     }
@@ -98,22 +101,23 @@ impl Adapter<'_> {
             None => {
                 let declared = &self.input.frame.buffers[buffer.0 as usize];
                 let (name, lifetime) = (&declared.name, &declared.lifetime);
-                self.add_lives(Resource::Buffer(buffer), name, lifetime, |adapter| adapter.add_buffer(buffer))
+                let first = self.add_buffer(buffer);
+                self.add_lives(first, name, lifetime, |adapter| adapter.add_buffer(buffer));
+                first
             }
         };
         self.buffer_resource_of[buffer.0 as usize] = Some(first);
         first + frames_ago
     }
 
-    /// Adds the resources that a lifetime takes: one, or with history one for each frame, the newest first.
+    /// Gives a resource the memory that its lifetime takes; with history, adds one for each earlier frame, the newest first.
     fn add_lives(
         &mut self,
-        of: Resource,
+        first: PhysicalIndex,
         name: &Arc<str>,
         lifetime: &Lifetime,
         mut add: impl FnMut(&mut Self) -> PhysicalIndex,
-    ) -> PhysicalIndex {
-        let first = add(self);
+    ) {
         let persistent =
             |initial: FillValue, becomes: PhysicalIndex| MemorySource::Persistent { becomes, initial: Some(initial) };
         match *lifetime {
@@ -142,8 +146,6 @@ impl Adapter<'_> {
                 (resource.memory, resource.after) = (MemorySource::Imported { before }, after);
             }
         }
-        debug_assert_eq!(self.adapted.resources[first as usize].of, of);
-        first
     }
 
     /// A further physical image for `image`, which holds no version yet.
@@ -179,13 +181,9 @@ impl Adapter<'_> {
             sharing: Sharing::Exclusive,
         };
         self.images += 1;
-        let resource = self.add(
-            Resource::Image(image),
-            self.images - 1,
-            Kind::Image(descriptor),
-            self.input.grids.of(image).cloned(),
-        );
-        self.adapted.resources[resource as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
+        let usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
+        let (kind, grid) = (Kind::Image(descriptor), self.input.grids.of(image).cloned());
+        let resource = self.add(Resource::Image(image), self.images - 1, kind, usual, grid);
         if let Some(allocated) = declared.allocated {
             self.adapted.allocated.insert(resource, allocated);
         }
@@ -199,10 +197,18 @@ impl Adapter<'_> {
         let bytes = self.input.frame.buffers[buffer.0 as usize].bytes;
         let descriptor = BufferDescriptor { bytes, usage: BufferUsage::empty(), sharing: Sharing::Exclusive };
         self.adapted.buffers += 1;
-        self.add(Resource::Buffer(buffer), self.adapted.buffers - 1, Kind::Buffer(descriptor), None)
+        self.add(Resource::Buffer(buffer), self.adapted.buffers - 1, Kind::Buffer(descriptor), None, None)
     }
 
-    fn add(&mut self, of: Resource, id: u32, kind: Kind, grid: Option<Arc<Grid>>) -> PhysicalIndex {
+    #[inline(always)]
+    fn add(
+        &mut self,
+        of: Resource,
+        id: u32,
+        kind: Kind,
+        usual: Option<Format>,
+        grid: Option<Arc<Grid>>,
+    ) -> PhysicalIndex {
         let (subresource, subresources) = match &grid {
             None => (self.adapted.subresources, 1),
             Some(grid) => (Use::SEVERAL, grid.len()),
@@ -215,7 +221,7 @@ impl Adapter<'_> {
             renamed: None,
             inserted: None,
             kind,
-            usual: None,
+            usual,
             memory: MemorySource::Transient,
             after: None,
             grid,

@@ -15,6 +15,9 @@ impl Adapter<'_> {
         sampled: &Sampled,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
+        if !self.feeds_back {
+            return before;
+        }
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
             return *copy;
         }
@@ -82,6 +85,9 @@ impl Adapter<'_> {
         let frame = self.input.frame;
         if self.demotions.moves(number, image) {
             return self.demoted(pass, image, span);
+        }
+        if !self.feeds_back {
+            return self.written(image, keeps);
         }
         let declared = &frame.images[image.0 as usize];
         let wanted = self.input.negotiated.samples(image);
