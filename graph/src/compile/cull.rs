@@ -1,7 +1,7 @@
 //! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
 use super::link::{self, Linked};
-use super::parts::Grids;
+use super::parts::{Grids, Parts};
 use super::validate;
 use crate::base::Diagnostic;
 use crate::frame::Frame;
@@ -19,23 +19,34 @@ pub(super) struct Live {
 pub(super) fn live(frame: &Frame) -> Result<(Grids, Live), Vec<Diagnostic>> {
     validate::check(frame)?;
     let grids = Grids::new(frame);
-    let live = cull(frame, &link::link(frame, &grids)?);
+    let parts = Parts::new(frame, &grids);
+    let linked = link::link(frame, &parts)?;
+    let live = match linked.all_are_needed {
+        true => Live { passes: (0..frame.passes.len() as u32).collect(), culled: Vec::new() },
+        false => cull(frame, &parts, &linked),
+    };
     Ok((grids, live))
 }
 
-fn cull(frame: &Frame, linked: &Linked) -> Live {
-    let mut needed = linked.needed.clone();
+fn cull(frame: &Frame, parts: &Parts<'_>, linked: &Linked) -> Live {
+    let mut needed = vec![false; parts.len()];
+    linked.kept.iter().for_each(|kept| needed[kept.clone()].fill(true));
     let (mut passes, mut culled) = (Vec::with_capacity(frame.passes.len()), Vec::new());
+    let (mut read, mut written) = (Vec::new(), Vec::new());
     for (number, pass) in frame.passes.iter().enumerate().rev() {
-        let uses = linked.uses(number);
         let number = number as u32;
-        if !uses.iter().any(|used| used.writes() && needed[used.part()]) && !pass.side_effect {
+        (read.clear(), written.clear());
+        parts.for_each_access(pass, |_, part, reads, writes| {
+            read.extend(reads.then_some(part as usize));
+            written.extend(writes.then_some(part as usize));
+        });
+        if !written.iter().any(|part| needed[*part]) && !pass.side_effect {
             culled.push(number);
             continue;
         }
         passes.push(number);
-        uses.iter().filter(|used| used.writes()).for_each(|used| needed[used.part()] = false);
-        uses.iter().filter(|used| used.reads()).for_each(|used| needed[used.part()] = true);
+        written.iter().for_each(|part| needed[*part] = false);
+        read.iter().for_each(|part| needed[*part] = true);
     }
     passes.reverse();
     culled.reverse();

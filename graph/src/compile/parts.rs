@@ -3,8 +3,9 @@
 //! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
 //! or ends, and each piece of that grid is a part.
 
-use crate::frame::{Frame, Image, ImageIndex, Pass};
+use crate::frame::{Access, BufferIndex, Effect, Frame, Image, ImageIndex, Pass, Resource, SAMPLING, VisitAccess};
 use crate::vulkan::{Aspects, Subresources};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
@@ -104,6 +105,115 @@ impl Grids {
     pub(super) fn of(&self, image: ImageIndex) -> Option<&Arc<Grid>> {
         let at = *self.of.get(image.0 as usize)?;
         self.grids.get(at as usize)
+    }
+}
+
+/// The parts of all images, then the buffers, each of which is one part, by number.
+pub(super) struct Parts<'f> {
+    frame: &'f Frame,
+    grids: &'f Grids,
+    /// For each image its first part, and that of the first buffer; empty if each image is one part, and has its number.
+    firsts: Vec<u32>,
+}
+
+impl<'f> Parts<'f> {
+    pub(super) fn new(frame: &'f Frame, grids: &'f Grids) -> Parts<'f> {
+        let mut firsts = Vec::new();
+        if !grids.grids.is_empty() {
+            let mut first = 0;
+            for number in 0..frame.images.len() as u32 {
+                firsts.push(first);
+                first += grids.of(ImageIndex(number)).map_or(1, |grid| grid.len());
+            }
+            firsts.push(first);
+        }
+        Parts { frame, grids, firsts }
+    }
+
+    /// Number of parts.
+    pub(super) fn len(&self) -> usize {
+        self.first(Resource::Buffer(BufferIndex(self.frame.buffers.len() as u32))) as usize
+    }
+
+    /// The first part of an image or buffer.
+    #[inline]
+    fn first(&self, resource: Resource) -> u32 {
+        let images = self.frame.images.len();
+        match resource {
+            Resource::Image(image) => self.firsts.get(image.0 as usize).copied().unwrap_or(image.0),
+            Resource::Buffer(buffer) => self.firsts.get(images).copied().unwrap_or(images as u32) + buffer.0,
+        }
+    }
+
+    /// All parts of an image or buffer.
+    pub(super) fn of(&self, resource: Resource) -> Range<usize> {
+        let first = self.first(resource) as usize;
+        let count = match resource {
+            Resource::Image(image) => self.grids.of(image).map_or(1, |grid| grid.len()),
+            Resource::Buffer(_) => 1,
+        };
+        first..first + count as usize
+    }
+
+    /// The name of an image or buffer.
+    pub(super) fn name(&self, resource: Resource) -> &'f str {
+        match resource {
+            Resource::Image(image) => &self.frame.images[image.0 as usize].name,
+            Resource::Buffer(buffer) => &self.frame.buffers[buffer.0 as usize].name,
+        }
+    }
+
+    /// The name of the image or buffer that has this part.
+    pub(super) fn name_of(&self, part: u32) -> &'f str {
+        let buffers = self.first(Resource::Buffer(BufferIndex(0)));
+        match part.checked_sub(buffers) {
+            Some(buffer) => self.name(Resource::Buffer(BufferIndex(buffer))),
+            None if self.firsts.is_empty() => self.name(Resource::Image(ImageIndex(part))),
+            None => {
+                let image = self.firsts.partition_point(|first| *first <= part) - 1;
+                self.name(Resource::Image(ImageIndex(image as u32)))
+            }
+        }
+    }
+
+    /// Calls `visit` with each access of a pass to a part as it is in this frame, and whether the access needs the contents,
+    /// and whether it changes them.
+    #[inline(always)]
+    pub(super) fn for_each_access(&self, pass: &Pass, visit: impl FnMut(&Access<'_>, u32, bool, bool)) {
+        pass.visit_accesses(&mut EachPart { parts: self, pass, visit });
+    }
+}
+
+/// Visits accesses part by part.
+struct EachPart<'p, F> {
+    parts: &'p Parts<'p>,
+    pass: &'p Pass,
+    visit: F,
+}
+
+impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
+    #[inline(always)]
+    fn visit(&mut self, access: Access<'_>) {
+        if access.frames_ago() > 0 {
+            return;
+        }
+        let EachPart { parts: Parts { frame, grids, .. }, pass, visit } = self;
+        let first = self.parts.first(access.resource());
+        let (image, grid) = match access.resource() {
+            Resource::Image(index) => (frame.images.get(index.0 as usize), grids.of(index)),
+            Resource::Buffer(_) => (None, None),
+        };
+        if let (Access::Sampled(_), None) = (access, grid) {
+            // The image itself isn't looked at: a large frame has more of them than a cache holds.
+            let (reads, writes) = SAMPLING;
+            return visit(&access, first, reads, writes);
+        }
+        access.for_each_effect(pass, image, |Effect { range, reads, writes }| match (image, grid) {
+            (Some(image), Some(grid)) => {
+                grid.cover(image.part(range)).for_each(|part| visit(&access, first + part, reads, writes));
+            }
+            _ => visit(&access, first, reads, writes),
+        });
     }
 }
 
