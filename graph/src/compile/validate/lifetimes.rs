@@ -9,7 +9,12 @@ use crate::vulkan::{FillValue, Format, Layout, State};
 const MOST_HISTORY: u32 = 32;
 
 /// The mistake in a lifetime, if there is one.
-pub(super) fn check(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnostic> {
+#[inline]
+pub(super) fn check<'s>(lifetime: &Lifetime, span: Span, of: impl FnOnce() -> Subject<'s>) -> Option<Diagnostic> {
+    if matches!(lifetime, Lifetime::Transient) { None } else { mistake(lifetime, span, of()) }
+}
+
+fn mistake(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnostic> {
     let wrong = |what: String| Diagnostic::new(span, format!("`{}` {what}", of.name));
     match lifetime {
         Lifetime::Transient => None,

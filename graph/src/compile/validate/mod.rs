@@ -21,22 +21,25 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         let message = format!("a frame has at most {MOST} images, buffers and passes each");
         return Err(vec![Diagnostic::new(Span::NONE, message)]);
     }
+    let (mut has_eyes, mut has_files) = (false, false);
     for image in &frame.images {
-        let problem = image_problem(image).or_else(|| eyes::image_problem(image, frame.stereo));
-        let problem = problem.map(|what| Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
-        errors.extend(problem.or_else(|| lifetimes::check(&image.lifetime, image.span, of_image(image))));
+        has_eyes |= image.eyes.is_some();
+        has_files |= matches!(image.lifetime, Lifetime::File(_));
+        if let Some(what) = image_problem(image).or_else(|| eyes::image_problem(image, frame.stereo)) {
+            errors.push(Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
+        } else if let Some(wrong) = lifetimes::check(&image.lifetime, image.span, || of_image(image)) {
+            errors.push(wrong);
+        }
     }
     for buffer in &frame.buffers {
         let empty =
             (buffer.bytes == 0).then(|| Diagnostic::new(buffer.span, format!("`{}` has no bytes", buffer.name)));
-        errors.extend(empty.or_else(|| lifetimes::check(&buffer.lifetime, buffer.span, of_buffer(buffer))));
+        errors.extend(empty.or_else(|| lifetimes::check(&buffer.lifetime, buffer.span, || of_buffer(buffer))));
     }
     if !errors.is_empty() {
         return Err(errors);
     }
     views(frame, &mut errors);
-    let has_eyes = frame.images.iter().any(|image| image.eyes.is_some());
-    let has_files = frame.images.iter().any(|image| matches!(image.lifetime, Lifetime::File(_)));
     for pass in &frame.passes {
         let mut check = Check { frame, pass, errors: &mut errors };
         if check.resources() {
@@ -197,13 +200,14 @@ fn image_problem(image: &Image) -> Option<String> {
 }
 
 /// What is wrong with the size of an image, or with what else the size decides about.
+#[inline]
 fn size_problem(image: &Image) -> Option<String> {
     let [width, height, depth] = image.extent;
-    let levels = width.max(height).max(depth).checked_ilog2().map_or(0, |log| log + 1);
+    let levels = || width.max(height).max(depth).checked_ilog2().map_or(0, |log| log + 1);
     if image.extent.contains(&0) {
         Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
-    } else if !(1..=levels).contains(&image.mips) {
-        Some(format!("has {} mip levels; its size allows 1 to {levels}", image.mips))
+    } else if image.mips != 1 && !(1..=levels()).contains(&image.mips) {
+        Some(format!("has {} mip levels; its size allows 1 to {}", image.mips, levels()))
     } else if image.allocated.is_some_and(|[wide, high]| wide < width || high < height) {
         Some(format!("is {width}×{height}, and has no room for that"))
     } else if depth > 1 && image.shape != Shape::D3 {

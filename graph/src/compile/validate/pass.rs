@@ -131,17 +131,18 @@ impl Check<'_> {
             _ => {}
         }
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
-        let sampled = pass.sampled.iter().find(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
-        let storage = || pass.storage.iter().find(|storage| !fits(storage.stages)).map(|storage| &storage.binding);
-        let buffers = || {
-            let wrong = pass.buffers.iter().find(|used| match used.role {
-                BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
-                BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
-            });
-            wrong.map(|used| &self.frame.buffers[used.buffer.0 as usize].name)
-        };
-        if let Some(name) = sampled.or_else(storage).or_else(buffers) {
-            return self.wrong(pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
+        if let Some(sampled) = pass.sampled.iter().find(|sampled| !fits(sampled.stages)) {
+            return self.wrong_stages(&sampled.binding);
+        }
+        if let Some(storage) = pass.storage.iter().find(|storage| !fits(storage.stages)) {
+            return self.wrong_stages(&storage.binding);
+        }
+        let wrong = pass.buffers.iter().find(|used| match used.role {
+            BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
+        });
+        if let Some(used) = wrong {
+            return self.wrong_stages(&self.frame.buffers[used.buffer.0 as usize].name);
         }
         if !clears_are_finite(pass) {
             return self.wrong(pass.span, "clears to what is not a finite number");
@@ -156,6 +157,11 @@ impl Check<'_> {
             return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
         }
         self.transfers();
+    }
+
+    #[cold]
+    fn wrong_stages(&mut self, name: &str) {
+        self.wrong(self.pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
     }
 
     /// Checks the accesses to storage images and to buffers: each reads or writes, and nothing else of the pass accesses the

@@ -8,13 +8,12 @@ use crate::vulkan::Subresources;
 impl Check<'_> {
     pub(super) fn transfers(&mut self) {
         let pass = self.pass;
-        let writes: Vec<bool> = pass.transfers.iter().map(|used| used.write).collect();
-        match (&pass.work, &writes[..]) {
-            (Work::Copy, [false, true]) => self.copy(&pass.transfers[0], &pass.transfers[1]),
-            (Work::Blit { .. }, [false, true]) => self.blit(&pass.transfers[0], &pass.transfers[1]),
+        match (&pass.work, &pass.transfers[..]) {
+            (Work::Copy, [source, target]) if !source.write && target.write => self.copy(source, target),
+            (Work::Blit { .. }, [source, target]) if !source.write && target.write => self.blit(source, target),
             (Work::Copy | Work::Blit { .. }, _) => self.wrong(pass.span, "needs one source and one target"),
-            (Work::Fill { value }, [true]) => {
-                let format = match pass.transfers[0].resource {
+            (Work::Fill { value }, [target]) if target.write => {
+                let format = match target.resource {
                     Resource::Image(image) => Some(self.frame.images[image.0 as usize].format),
                     Resource::Buffer(_) => None,
                 };
