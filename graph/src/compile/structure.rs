@@ -102,7 +102,7 @@ impl Structure {
         });
         let by_first_step = memory::by_first_step(&adapted, &timeline.lifetimes);
         let adapted = usage::finish(adapted, &sharing, &mut timeline, &load_store, &scoped, options);
-        fit::check_support(frame, &adapted, &scoped, device)?;
+        fit::check_support(frame, &adapted, &scoped, &formats.supports)?;
         let notes = [negotiated.notes, of_adapt, of_scope].into_iter().flatten().collect();
         Ok(Structure {
             live,

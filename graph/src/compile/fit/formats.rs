@@ -57,7 +57,7 @@ fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
 
 /// Demands of a frame on the formats of its images, and other formats where the device lacks those.
 pub(crate) struct Formats<'d> {
-    pub(super) supports: Supports<'d>,
+    pub(crate) supports: Supports<'d>,
     /// Of each image, in the formats that are taken.
     pub(super) needs: Vec<Needs>,
     /// Whether the device has all that the images need of their formats.

@@ -6,14 +6,14 @@ use crate::vulkan::states::usage_for;
 use crate::vulkan::{Format, State, Usage};
 
 /// Support of a device for each format, indexed by format.
-pub(super) struct Supports<'d> {
+pub(crate) struct Supports<'d> {
     pub(super) device: &'d Profile,
-    of: Vec<Option<&'d FormatSupport>>,
+    of: [Option<&'d FormatSupport>; Format::ALL.len()],
 }
 
 impl<'d> Supports<'d> {
     pub(super) fn new(device: &'d Profile) -> Supports<'d> {
-        let mut of = vec![None; Format::ALL.len()];
+        let mut of = [None; Format::ALL.len()];
         // Of several entries the first counts.
         device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
         Supports { device, of }

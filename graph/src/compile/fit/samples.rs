@@ -15,13 +15,15 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> Result<Negotiated, Vec<Diagnostic>> {
     let (needs, supports) = (&formats.needs, &formats.supports);
     let device = supports.device;
-    let multisampled = frame.images.iter().any(|image| image.samples > 1);
+    let samples: Vec<u32> = frame.images.iter().map(|image| image.samples).collect();
+    let multisampled = samples.iter().any(|count| *count > 1);
     let attachments = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
     let attached = needs.iter().any(|needs| needs.usage.intersects(attachments));
     // Nothing is asked of the other passes here.
     let passes = if attached || multisampled || !formats.are_met { live } else { &[] };
-    let mut together = UnionFind::<u32>::new(if multisampled { frame.images.len() } else { 0 });
-    let mut forwarded = vec![false; frame.images.len()];
+    // These serve multisampled images alone.
+    let count = if multisampled { frame.images.len() } else { 0 };
+    let (mut together, mut forwarded) = (UnionFind::<u32>::new(count), vec![false; count]);
     let mut errors = Vec::new();
     for pass in passes.iter().map(|pass| &frame.passes[*pass as usize]) {
         if multisampled && let Some((first, _)) = pass.attachments().next() {
@@ -39,9 +41,9 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
         if multisampled && matches!(pass.work, Work::Copy | Work::Custom { .. }) {
             copied_together(frame, pass, &mut together);
         }
-        if let Work::Forward { from, to, .. } = pass.work {
+        if multisampled && let Work::Forward { from, to, .. } = pass.work {
             forwarded[to.0 as usize] = true;
-            if multisampled && frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
+            if frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
                 together.union(from.0, to.0);
             }
         }
@@ -50,12 +52,11 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
         check_support(frame, image, needs.usage, supports, &mut errors);
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (image, _) in frame.images.iter().enumerate().filter(|(_, image)| image.samples > 1) {
-        if !needs[image].usage.is_empty() || forwarded[image] {
+    for (image, forwarded) in forwarded.into_iter().enumerate().filter(|(image, _)| samples[*image] > 1) {
+        if !needs[image].usage.is_empty() || forwarded {
             groups.entry(together.find(image as u32)).or_default().push(image);
         }
     }
-    let samples = frame.images.iter().map(|image| image.samples).collect();
     let mut negotiated = Negotiated { samples, attached, notes: Vec::new() };
     for group in groups.values() {
         lower(frame, group, supports, &mut negotiated);

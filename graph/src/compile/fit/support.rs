@@ -1,6 +1,7 @@
 //! Checks, after `usage`, that each format supports the final usage of its image. Usages that passes take were checked before
 //! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
+use super::needs::Supports;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{Adapted, MemorySource, OpKind, PhysicalIndex, PhysicalResource, Role};
 use crate::compile::scope::{Scoped, Step, resource_name};
@@ -14,16 +15,10 @@ pub(crate) fn check_support(
     frame: &Frame,
     adapted: &Adapted,
     scoped: &Scoped,
-    device: &Profile,
+    supports: &Supports<'_>,
 ) -> Result<(), Vec<Diagnostic>> {
-    let mut known: Option<(Format, Usage)> = None;
-    let mut supported = |format: Format| match known {
-        Some((same, usage)) if same == format => usage,
-        _ => {
-            let usage = device.format(format).map_or(Usage::empty(), |support| support.usage);
-            known.insert((format, usage)).1
-        }
-    };
+    let device = supports.device;
+    let supported = |format: Format| supports.of(format).map_or(Usage::empty(), |support| support.usage);
     let mut errors = Vec::new();
     for (resource, at) in adapted.resources.iter().zip(0..) {
         let Some(image) = resource.image() else { continue };
