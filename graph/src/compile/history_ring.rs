@@ -5,12 +5,15 @@
 use super::model::{Adapted, MemorySource, PhysicalIndex};
 
 /// The oldest member of the ring that `member` is in.
+#[inline]
 pub(super) fn last_of_ring(adapted: &Adapted, member: PhysicalIndex) -> PhysicalIndex {
-    let rotates = |resource: &PhysicalIndex| match adapted.resources[*resource as usize].memory {
-        MemorySource::Persistent { becomes, .. } => becomes > *resource,
-        _ => false,
-    };
-    (member..).find(|resource| !rotates(resource)).unwrap_or(member)
+    let mut last = member;
+    while let MemorySource::Persistent { becomes, .. } = adapted.resources[last as usize].memory
+        && becomes > last
+    {
+        last += 1;
+    }
+    last
 }
 
 /// The members that were `member` in earlier frames: how many frames ago, and which one. It was itself a whole turn ago.

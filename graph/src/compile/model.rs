@@ -109,6 +109,14 @@ impl PhysicalResource {
         }
     }
 
+    /// The bits of its usage flags.
+    pub(super) fn usage(&self) -> u32 {
+        match &self.kind {
+            Kind::Image(image) => image.usage.bits(),
+            Kind::Buffer(buffer) => buffer.usage.bits(),
+        }
+    }
+
     pub(super) fn set_sharing(&mut self, sharing: Sharing) {
         match &mut self.kind {
             Kind::Image(image) => image.sharing = sharing,
@@ -126,7 +134,7 @@ impl PhysicalResource {
     }
 
     pub(super) fn is_transient(&self) -> bool {
-        self.memory == MemorySource::Transient
+        matches!(self.memory, MemorySource::Transient)
     }
 }
 

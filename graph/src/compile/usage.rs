@@ -19,47 +19,45 @@ pub(super) fn finish(
     scoped: &Scoped,
     options: &Options,
 ) -> Adapted {
-    let usages = usages(&adapted, timeline, load_store, scoped, options);
-    adapted.resources.iter_mut().zip(usages).for_each(|(resource, usage)| resource.set_usage(usage));
+    for at in 0..adapted.resources.len() as PhysicalIndex {
+        let bits = usage(&adapted, at, timeline, load_store, scoped, options);
+        adapted.resources[at as usize].set_usage(bits);
+    }
+    share_usages(&mut adapted);
     sharing.iter().for_each(|(resource, sharing)| adapted.resources[*resource as usize].set_sharing(*sharing));
     timeline.swap_layouts(&mut adapted.uses);
     adapted
 }
 
-/// For each physical resource its usage flags, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`. Outputs and all
-/// that outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only
-/// scope become transient attachments.
-fn usages(
+/// The usage flags of a physical resource, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`. Outputs and all that
+/// outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only scope
+/// become transient attachments.
+fn usage(
     adapted: &Adapted,
+    at: PhysicalIndex,
     timeline: &AccessTimeline,
     load_store: &LoadStoreOps,
     scoped: &Scoped,
     options: &Options,
-) -> Vec<u32> {
-    let stays_in_scope = |at: u32| {
+) -> u32 {
+    let stays_in_scope = || {
         let [first, last] = timeline.lifetimes[at as usize];
         let in_one_scope = first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
         let stays = |ops: &AttachmentOps| ops.load != LoadOp::Load && ops.store != StoreOp::Store;
         in_one_scope && load_store.of(first).iter().filter(|ops| ops.target.resource == at).all(stays)
     };
-    let mut usages = Vec::with_capacity(adapted.resources.len());
-    for (resource, at) in adapted.resources.iter().zip(0_u32..) {
-        let bits = timeline.usage(resource.subresources());
-        usages.push(match &resource.kind {
-            Kind::Image(image) => {
-                let mut usage = Usage::from_bits_truncate(bits);
-                for state in timeline.states[at as usize].iter().flat_map(|states| [states.before, states.after]) {
-                    usage |= usage_for(state.layout);
-                }
-                (usage | of_image(usage, resource.memory, image.mips, options.poison, || stays_in_scope(at))).bits()
+    let resource = &adapted.resources[at as usize];
+    let bits = timeline.usage(resource.subresources());
+    match &resource.kind {
+        Kind::Image(image) => {
+            let mut usage = Usage::from_bits_truncate(bits);
+            if let Some(states) = &timeline.states[at as usize] {
+                usage |= usage_for(states.before.layout) | usage_for(states.after.layout);
             }
-            Kind::Buffer(_) => {
-                (BufferUsage::from_bits_truncate(bits) | of_buffer(resource.memory, options.poison)).bits()
-            }
-        });
+            (usage | of_image(usage, resource.memory, image.mips, options.poison, stays_in_scope)).bits()
+        }
+        Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(resource.memory, options.poison)).bits(),
     }
-    share_usages(adapted, &mut usages);
-    usages
 }
 
 /// The usage that follows from the lifetime of an image, which has `usage` already.
@@ -88,15 +86,15 @@ fn of_buffer(memory: MemorySource, poison: bool) -> BufferUsage {
     }
 }
 
-/// History images rotate from frame to frame, so each gets the usages of all.
-fn share_usages(adapted: &Adapted, usages: &mut [u32]) {
+/// History images and buffers rotate from frame to frame, so each gets the usages of all.
+fn share_usages(adapted: &mut Adapted) {
     let mut first = 0;
-    while first < usages.len() {
-        let last = last_of_ring(adapted, first as PhysicalIndex) as usize;
+    while (first as usize) < adapted.resources.len() {
+        let last = last_of_ring(adapted, first);
         if last > first {
-            let ring = &mut usages[first..=last];
-            let all = ring.iter().fold(0, |all, usage| all | usage);
-            ring.fill(all);
+            let ring = &mut adapted.resources[first as usize..=last as usize];
+            let all = ring.iter().fold(0, |all, resource| all | resource.usage());
+            ring.iter_mut().for_each(|resource| resource.set_usage(all));
         }
         first = last + 1;
     }

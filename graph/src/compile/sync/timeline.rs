@@ -51,13 +51,14 @@ impl AccessTimeline {
 
     /// Finds lifetimes, before the step behind all others is added.
     pub(super) fn find_lifetimes(&mut self, adapted: &Adapted) {
-        let lifetime = |Range { start, end }: Range<SubresourceIndex>| {
-            let used = self.subresources[start as usize..end as usize].iter().filter(|state| state.is_used());
-            used.fold([NEVER, 0], |[first, last], state| [first.min(state.first), last.max(state.last)])
+        let lifetime = |state: &SubresourceState| if state.is_used() { [state.first, state.last] } else { [NEVER, 0] };
+        let of_parts = |Range { start, end }: Range<SubresourceIndex>| {
+            let parts = self.subresources[start as usize..end as usize].iter().map(lifetime);
+            parts.fold([NEVER, 0], |[first, last], part| [part[0].min(first), part[1].max(last)])
         };
         self.lifetimes = match adapted.is_uncut() {
-            true => (0..adapted.subresources).map(|at| lifetime(at..at + 1)).collect(),
-            false => adapted.resources.iter().map(|resource| lifetime(resource.subresources())).collect(),
+            true => self.subresources.iter().map(lifetime).collect(),
+            false => adapted.resources.iter().map(|resource| of_parts(resource.subresources())).collect(),
         };
     }
 
