@@ -1,6 +1,6 @@
 //! The accesses of all operations to subresources, listed once because scheduling walks them often.
 
-use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
+use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex, Use};
 use crate::vulkan::Layout;
 
 /// An access of an operation to a subresource.
@@ -44,6 +44,9 @@ pub(super) struct Accesses {
 
 impl Accesses {
     pub(super) fn of(adapted: &Adapted) -> Accesses {
+        if adapted.is_uncut() && !adapted.ops.iter().any(|op| op.side_effect) {
+            return Accesses::of_uses(adapted);
+        }
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
         for op in &adapted.ops {
@@ -63,6 +66,20 @@ impl Accesses {
         }
         starts.push(list.len() as u32);
         Accesses { list, starts, subresources: adapted.subresources as usize + 1 }
+    }
+
+    /// Those of operations each of whose uses is one access, as they mostly are.
+    fn of_uses(adapted: &Adapted) -> Accesses {
+        let access = |used: &Use| {
+            let Use { subresource, resource, writes, layout, .. } = *used;
+            Access { subresource, resource, writes, layout }
+        };
+        let starts = adapted.ops.iter().map(|op| op.uses.start).chain([adapted.uses.len() as u32]);
+        Accesses {
+            list: adapted.uses.iter().map(access).collect(),
+            starts: starts.collect(),
+            subresources: adapted.subresources as usize + 1,
+        }
     }
 
     /// Those of the operations `ops`, in this order.
