@@ -5,7 +5,7 @@
 
 use super::parts::Parts;
 use crate::base::Diagnostic;
-use crate::frame::{Access, BufferIndex, Frame, ImageIndex, Pass, Resource};
+use crate::frame::{Access, BufferIndex, Frame, ImageIndex, Lifetime, Pass, Resource};
 use std::ops::Range;
 
 /// How passes depend on each other.
@@ -26,14 +26,18 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
         written: Vec::new(),
         errors: Vec::new(),
     };
-    let images = frame.images.iter().zip(0..).map(|(it, number)| (Resource::Image(ImageIndex(number)), &it.lifetime));
-    let buffers = frame.buffers.iter().zip(0..).map(|(it, at)| (Resource::Buffer(BufferIndex(at)), &it.lifetime));
-    images.chain(buffers).filter(|(_, lifetime)| lifetime.outlives_frame()).for_each(|(resource, lifetime)| {
+    let mut begin = |resource: Resource, lifetime: &Lifetime| {
         kept.push(parts.of(resource));
         if lifetime.has_contents(resource) {
             linker.writers[parts.of(resource)].fill(BEFORE);
         }
-    });
+    };
+    for (image, number) in frame.images.iter().zip(0..).filter(|(image, _)| image.lifetime.outlives_frame()) {
+        begin(Resource::Image(ImageIndex(number)), &image.lifetime);
+    }
+    for (buffer, number) in frame.buffers.iter().zip(0..).filter(|(buffer, _)| buffer.lifetime.outlives_frame()) {
+        begin(Resource::Buffer(BufferIndex(number)), &buffer.lifetime);
+    }
     for (pass, number) in frame.passes.iter().zip(1_u32..) {
         linker.pass(pass, number);
     }

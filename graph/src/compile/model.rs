@@ -435,6 +435,8 @@ pub(super) enum InitialContents {
 pub(super) struct Negotiated {
     /// Samples in force.
     pub(super) samples: Vec<u32>,
+    /// Whether any image has several samples.
+    pub(super) multisampled: bool,
     /// Whether any image is an attachment.
     pub(super) attached: bool,
     pub(super) notes: Vec<Note>,

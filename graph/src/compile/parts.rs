@@ -138,18 +138,27 @@ impl<'f> Parts<'f> {
     /// The first part of an image or buffer.
     #[inline]
     fn first(&self, resource: Resource) -> u32 {
-        let images = self.frame.images.len();
         match resource {
-            Resource::Image(image) => self.firsts.get(image.0 as usize).copied().unwrap_or(image.0),
-            Resource::Buffer(buffer) => self.firsts.get(images).copied().unwrap_or(images as u32) + buffer.0,
+            Resource::Image(image) if self.firsts.is_empty() => image.0,
+            Resource::Image(image) => self.firsts[image.0 as usize],
+            Resource::Buffer(buffer) => {
+                self.firsts.last().map_or(self.frame.images.len() as u32, |first| *first) + buffer.0
+            }
         }
+    }
+
+    /// How an image is cut; `None`: it is one part.
+    #[inline]
+    fn grid(&self, image: ImageIndex) -> Option<&'f Arc<Grid>> {
+        // Few frames have any.
+        if self.firsts.is_empty() { None } else { self.grids.of(image) }
     }
 
     /// All parts of an image or buffer.
     pub(super) fn of(&self, resource: Resource) -> Range<usize> {
         let first = self.first(resource) as usize;
         let count = match resource {
-            Resource::Image(image) => self.grids.of(image).map_or(1, |grid| grid.len()),
+            Resource::Image(image) => self.grid(image).map_or(1, |grid| grid.len()),
             Resource::Buffer(_) => 1,
         };
         first..first + count as usize
@@ -197,10 +206,10 @@ impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
         if access.frames_ago() > 0 {
             return;
         }
-        let EachPart { parts: Parts { frame, grids, .. }, pass, visit } = self;
-        let first = self.parts.first(access.resource());
+        let EachPart { parts, pass, visit } = self;
+        let first = parts.first(access.resource());
         let (image, grid) = match access.resource() {
-            Resource::Image(index) => (frame.images.get(index.0 as usize), grids.of(index)),
+            Resource::Image(index) => (parts.frame.images.get(index.0 as usize), parts.grid(index)),
             Resource::Buffer(_) => (None, None),
         };
         if let (Access::Sampled(_), None) = (access, grid) {

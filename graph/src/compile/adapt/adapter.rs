@@ -10,6 +10,7 @@ use crate::frame::{ImageIndex, ResolveWay};
 use crate::plan::{Inserted, Note, Stage};
 use crate::vulkan::Subresources;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The adapted part of the frame so far, and which physical image and buffer holds each current version.
@@ -60,7 +61,7 @@ pub(super) struct Version {
     pub(super) resolved: Option<(ResolveWay, PhysicalIndex)>,
     /// Its depth-only copy of one sample, if a pass asked for one.
     pub(super) redrawn: Option<PhysicalIndex>,
-    /// Whether a draw wrote it last.
+    /// Whether a draw wrote it last, if the frame has multisampled images.
     pub(super) drawn: bool,
 }
 
@@ -116,16 +117,22 @@ impl<'a> Adapter<'a> {
 
     /// Adds an operation with the uses behind those of all others, up to `end`.
     fn push_op(&mut self, kind: OpKind, end: usize, side_effect: bool) {
-        let (start, draws) = (std::mem::replace(&mut self.first_use, end), kind.draws());
-        for at in start..end {
-            let used = &self.adapted.uses[at];
-            if used.writes {
-                let Use { resource, contents, role, .. } = *used;
+        let start = std::mem::replace(&mut self.first_use, end);
+        if self.input.negotiated.multisampled {
+            self.note_writers(start..end, kind.draws());
+        }
+        self.adapted.ops.push(Op { kind, uses: start as u32..end as u32, side_effect });
+    }
+
+    /// Notes what wrote multisampled images, which may be resolved, with the uses `uses`.
+    fn note_writers(&mut self, uses: Range<usize>, draws: bool) {
+        for at in uses {
+            let Use { resource, contents, role, writes, .. } = self.adapted.uses[at];
+            if writes {
                 self.versions[resource as usize].drawn = draws;
                 self.note_depth_writer(resource, contents, role, draws);
             }
         }
-        self.adapted.ops.push(Op { kind, uses: start as u32..end as u32, side_effect });
     }
 
     /// Adds an operation from one image to another, whole, which have the same parts.

@@ -55,7 +55,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         }
     }
     let multisampled = |image: ImageIndex| negotiated.samples(image) > 1;
-    if !negotiated.samples.iter().any(|count| *count > 1) {
+    if !negotiated.multisampled {
         return demotions;
     }
     let mut needs = vec![Needs::Nothing; frame.images.len()];

@@ -26,11 +26,10 @@ impl Adapter<'_> {
             return self.forward(number, pass, *from, *to, because);
         }
         self.copies.clear();
-        let writes = |image: ImageIndex| {
-            pass.color.iter().any(|target| target.image == image)
-                || pass.storage.iter().any(|storage| storage.image == image)
-        };
-        self.feeds_back = pass.sampled.iter().any(|sampled| sampled.frames_ago == 0 && writes(sampled.image));
+        let samples =
+            |image: ImageIndex| pass.sampled.iter().any(|sampled| sampled.image == image && sampled.frames_ago == 0);
+        self.feeds_back = pass.storage.iter().any(|storage| samples(storage.image))
+            || pass.color.iter().any(|target| samples(target.image));
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(resource) = self.sampled(number, pass, sampled) {
                 let range = self.sampled_range(sampled.image, sampled.range);

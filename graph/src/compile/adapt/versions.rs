@@ -8,6 +8,7 @@ use crate::vulkan::Subresources;
 
 impl Adapter<'_> {
     /// A pass that samples what it also writes reads the version before itself, which `before` holds.
+    #[inline]
     pub(super) fn version_before(
         &mut self,
         number: u32,
@@ -15,9 +16,17 @@ impl Adapter<'_> {
         sampled: &Sampled,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
-        if !self.feeds_back {
-            return before;
-        }
+        if self.feeds_back { self.version_of_written(number, pass, sampled, before) } else { before }
+    }
+
+    /// The same where the pass writes something that it samples.
+    fn version_of_written(
+        &mut self,
+        number: u32,
+        pass: &Pass,
+        sampled: &Sampled,
+        before: PhysicalIndex,
+    ) -> PhysicalIndex {
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
             return *copy;
         }
@@ -73,6 +82,7 @@ impl Adapter<'_> {
     }
 
     /// The physical image that a pass writes; a second one if the pass also samples what it replaces.
+    #[inline]
     pub(super) fn target(
         &mut self,
         number: u32,
@@ -82,14 +92,26 @@ impl Adapter<'_> {
         span: Span,
         keeps: bool,
     ) -> PhysicalIndex {
-        let frame = self.input.frame;
         if self.demotions.moves(number, image) {
-            return self.demoted(pass, image, span);
+            self.demoted(pass, image, span)
+        } else if self.feeds_back {
+            self.target_beside_source(number, pass, image, range, span, keeps)
+        } else {
+            self.written(image, keeps)
         }
-        if !self.feeds_back {
-            return self.written(image, keeps);
-        }
-        let declared = &frame.images[image.0 as usize];
+    }
+
+    /// The same where the pass samples something that it also writes.
+    fn target_beside_source(
+        &mut self,
+        number: u32,
+        pass: &Pass,
+        image: ImageIndex,
+        range: Subresources,
+        span: Span,
+        keeps: bool,
+    ) -> PhysicalIndex {
+        let declared = &self.input.frame.images[image.0 as usize];
         let wanted = self.input.negotiated.samples(image);
         let samples_it = pass.sampled.iter().any(|sampled| {
             let same = sampled.image == image && sampled.frames_ago == 0 && declared.overlap(sampled.range, range);

@@ -57,10 +57,11 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
             groups.entry(together.find(image as u32)).or_default().push(image);
         }
     }
-    let mut negotiated = Negotiated { samples, attached, notes: Vec::new() };
+    let mut negotiated = Negotiated { samples, multisampled, attached, notes: Vec::new() };
     for group in groups.values() {
         lower(frame, group, supports, &mut negotiated);
     }
+    negotiated.multisampled &= negotiated.samples.iter().any(|count| *count > 1);
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
 }
 
@@ -108,7 +109,13 @@ pub(crate) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<Ima
 }
 
 /// Attachments of one pass must have one size, one number of layers and one sample count.
+#[inline]
 fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
+    let several = pass.color.len() + usize::from(pass.depth.is_some()) > 1;
+    several.then(|| disagreement_of_several(frame, pass)).flatten()
+}
+
+fn disagreement_of_several(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
     let shape = |(image, range): (ImageIndex, Subresources)| frame.images[image.0 as usize].target_shape(range);
     let mut attached = pass.attachments();
     let first = attached.next()?;

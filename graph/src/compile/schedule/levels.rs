@@ -47,12 +47,14 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
     for (run, lowest) in (0..runs.len()).zip(least).rev() {
         let accesses = runs.accesses(run);
         let mut sums = Sums::default();
-        let mut least = 0;
+        let (mut least, mut has_effects) = (0, false);
         for access in accesses {
             least = least.max(downwards.behind(access));
             if let Some(resource) = access.used() {
                 let Known { bytes, first, end } = known[resource as usize];
                 sums.add(bytes, first == run, end <= lowest + 1);
+            } else {
+                has_effects |= access.is_effect();
             }
         }
         let highest = top - least;
@@ -82,7 +84,7 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         // Effects keep their order.
-        let place = if accesses.iter().any(Access::is_effect) { 1 } else { decision.begins as i8 + 1 };
+        let place = if has_effects { 1 } else { decision.begins as i8 + 1 };
         keys[run as usize] = 3 * level + place as u32;
     }
     counting_sort(&keys, 3 * top + 3)

@@ -82,6 +82,9 @@ impl Runs {
     /// Calls `visit` with the accesses of one run, from its last operation to the first.
     #[inline]
     pub(super) fn for_each_backwards(&self, run: u32, mut visit: impl FnMut(&Access)) {
+        if self.starts.is_empty() {
+            return self.accesses.op(run).iter().for_each(visit);
+        }
         let [first, end] = self.places(run);
         (first..end).rev().for_each(|place| self.accesses.op(place).iter().for_each(&mut visit));
     }
