@@ -35,7 +35,8 @@ fn cull(frame: &Frame, parts: &Parts<'_>, linked: &Linked) -> Live {
     let (mut read, mut written) = (Vec::new(), Vec::new());
     for (number, pass) in frame.passes.iter().enumerate().rev() {
         let number = number as u32;
-        (read.clear(), written.clear());
+        read.clear();
+        written.clear();
         parts.for_each_access(pass, |_, part, reads, writes| {
             read.extend(reads.then_some(part as usize));
             written.extend(writes.then_some(part as usize));

@@ -23,7 +23,7 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
         parts,
         writers: vec![NOTHING; parts.len()],
         needed: vec![false; frame.passes.len() + 1],
-        written: Vec::new(),
+        written: Vec::with_capacity(8),
         errors: Vec::new(),
     };
     let mut begin = |resource: Resource, lifetime: &Lifetime| {

@@ -212,17 +212,19 @@ impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
             Resource::Image(index) => (parts.frame.images.get(index.0 as usize), parts.grid(index)),
             Resource::Buffer(_) => (None, None),
         };
-        if let (Access::Sampled(_), None) = (access, grid) {
-            // The image itself isn't looked at: a large frame has more of them than a cache holds.
-            let (reads, writes) = SAMPLING;
-            return visit(&access, first, reads, writes);
-        }
-        access.for_each_effect(pass, image, |Effect { range, reads, writes }| match (image, grid) {
-            (Some(image), Some(grid)) => {
-                grid.cover(image.part(range)).for_each(|part| visit(&access, first + part, reads, writes));
+        match (access, image, grid) {
+            (_, Some(image), Some(grid)) => {
+                access.for_each_effect(pass, Some(image), |Effect { range, reads, writes }| {
+                    grid.cover(image.part(range)).for_each(|part| visit(&access, first + part, reads, writes));
+                });
             }
-            _ => visit(&access, first, reads, writes),
-        });
+            // The image itself isn't looked at: a large frame has more of them than a cache holds.
+            (Access::Sampled(_), ..) => {
+                let (reads, writes) = SAMPLING;
+                visit(&access, first, reads, writes);
+            }
+            _ => access.for_each_effect(pass, image, |it| visit(&access, first, it.reads, it.writes)),
+        }
     }
 }
 

@@ -52,6 +52,9 @@ pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagno
     if adapter.renamed {
         resources::distinct_names(frame, &mut adapter.adapted.resources);
     }
-    access::settle_depth(&mut adapter.adapted);
+    // Depth is tested by passes with attachments, and by draws that are inserted for second images.
+    if input.negotiated.attached || adapter.renamed {
+        access::settle_depth(&mut adapter.adapted);
+    }
     if adapter.errors.is_empty() { Ok((adapter.adapted, adapter.notes)) } else { Err(adapter.errors) }
 }

@@ -91,13 +91,44 @@ impl Adapter<'_> {
     }
 
     /// The physical image that a sampling pass reads.
+    #[inline]
     fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<PhysicalIndex> {
+        let before = self.current(sampled.image);
+        if sampled.frames_ago == 0 && sampled.face != Face::Samples && self.samples(before) == 1 {
+            return Some(self.sampled_as_it_is(number, pass, sampled, before));
+        }
+        self.sampled_otherwise(number, pass, sampled, before)
+    }
+
+    /// The image that it reads if that has one sample, whose current version `before` holds.
+    #[inline]
+    fn sampled_as_it_is(
+        &mut self,
+        number: u32,
+        pass: &Pass,
+        sampled: &Sampled,
+        before: PhysicalIndex,
+    ) -> PhysicalIndex {
+        if self.demotions.is_worth_a_note(sampled.image) {
+            let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
+            self.note(&self.input.frame.images[sampled.image.0 as usize].name, text, sampled.span);
+        }
+        self.version_before(number, pass, sampled, before)
+    }
+
+    /// The image that it reads of an earlier frame, or where samples are to be read or resolved.
+    fn sampled_otherwise(
+        &mut self,
+        number: u32,
+        pass: &Pass,
+        sampled: &Sampled,
+        before: PhysicalIndex,
+    ) -> Option<PhysicalIndex> {
         let declared = &self.input.frame.images[sampled.image.0 as usize];
         if sampled.frames_ago > 0 {
-            let earlier = self.current(sampled.image) + sampled.frames_ago;
+            let earlier = before + sampled.frames_ago;
             return self.samples_unresolved(pass, sampled, earlier).then_some(earlier);
         }
-        let before = self.current(sampled.image);
         let count = self.samples(before);
         let per_sample = sampled.face == Face::Samples;
         if per_sample && count > 1 {
@@ -122,11 +153,7 @@ impl Adapter<'_> {
             }
             return self.resolved(sampled.image, sampled.face, because, sampled.span);
         }
-        if self.demotions.is_worth_a_note(sampled.image) {
-            let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
-            self.note(&declared.name, text, sampled.span);
-        }
-        Some(self.version_before(number, pass, sampled, before))
+        Some(self.sampled_as_it_is(number, pass, sampled, before))
     }
 
     /// Whether a shader can sample an earlier frame, which is never resolved. Reports it if not.
