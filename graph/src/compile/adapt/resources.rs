@@ -168,6 +168,7 @@ impl Adapter<'_> {
         resource
     }
 
+    #[inline(always)]
     fn add_image(&mut self, image: ImageIndex, samples: u32) -> PhysicalIndex {
         let declared = &self.input.frame.images[image.0 as usize];
         let descriptor = ImageDescriptor {
