@@ -12,7 +12,7 @@ use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
-use emit::StageResults;
+use emit::{StageResults, Subject};
 use structure::Structure;
 
 mod adapt;
@@ -58,10 +58,16 @@ pub fn compile(
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
     let mut settled = structure.settle_for_good(device, memory, options)?;
     let frame = substitute.as_ref().unwrap_or(frame);
-    let steps = emit::steps(StageResults::new(frame, device, &structure, &settled));
+    let subjects = Subject::of(&structure.adapted);
+    let mut steps = emit::steps(&StageResults::new(frame, device, &structure, &settled).with_subjects(&subjects));
     // Only `steps` needs these.
-    (structure.adapted.ops, structure.adapted.uses) = (Vec::new(), Vec::new());
     (settled.barriers.barriers, settled.barriers.batched) = (Vec::new(), Vec::new());
+    let results = StageResults::new(frame, device, &structure, &settled).with_subjects(&subjects);
+    let totals = emit::put_in_work(&results, &mut steps);
+    // Only `put_in_work` needs these.
+    (structure.adapted.ops, structure.adapted.uses) = (Vec::new(), Vec::new());
+    (structure.live.passes, structure.scoped.steps) = (Vec::new(), Vec::new());
+    drop(subjects);
     let resources = emit::resources(frame, &structure, &settled);
-    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), steps, resources))
+    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), (steps, totals), resources))
 }

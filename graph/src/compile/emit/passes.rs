@@ -9,7 +9,6 @@ use crate::plan::{
     Transfer, ViewId, Work,
 };
 use crate::vulkan::{CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
-use std::hint::black_box;
 use std::sync::Arc;
 
 /// The shader that draws one image into another. Inserted passes are drawn by shipped shaders, even if there are files of
@@ -17,17 +16,6 @@ use std::sync::Arc;
 const COPY_SHADER: &str = "shipped:copy";
 /// The name by which it knows its source.
 const COPY_SOURCE: &str = "source";
-
-/// Reads what the work of an operation is made of.
-pub(super) fn read(results: &StageResults<'_>, number: u32) {
-    if let Some(pass) = results.adapted.ops[number as usize].kind.pass() {
-        let FramePass { name, span, work, sampled, storage, .. } = &results.frame.passes[pass as usize];
-        black_box((Arc::strong_count(name), *span, std::mem::discriminant(work)));
-        sampled.iter().for_each(|sampled| _ = black_box(sampled.sampler));
-        storage.iter().for_each(|storage| _ = black_box(storage.image));
-    }
-    results.adapted.uses(number).iter().for_each(|used| _ = black_box(results.subjects[used.resource as usize].id));
-}
 
 /// The work of an operation that is not drawn.
 pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {

@@ -7,7 +7,7 @@ use super::stage_results::StageResults;
 use super::values::{changes, settings, views, with_bytes};
 use super::{attachments, notes, outputs, ownership, passes};
 use crate::compile::scope::Step as Grouped;
-use crate::compile::steps::in_order;
+use crate::compile::steps::NEVER;
 use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
@@ -37,38 +37,42 @@ pub(in crate::compile) fn emit(
     }
 }
 
-/// Steps of the Plan, and what they alone tell of its totals.
-pub(in crate::compile) fn steps(results: StageResults<'_>) -> (Vec<Step>, Totals) {
-    let results = &results.with_subjects();
+/// Steps of the Plan, with all but their work.
+pub(in crate::compile) fn steps(results: &StageResults<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = results.sync;
     let mut barriers = StepBarriers::new(results);
-    let mut made = (Vec::with_capacity(*count as usize), Totals::default());
-    let read = |_: &(Vec<Step>, Totals), number: u32| {
-        let ops = results.scoped.steps.get(number as usize).map_or(&[][..], Grouped::ops);
-        ops.iter().for_each(|op| passes::read(results, *op));
-    };
-    let apart = !results.scoped.is_in_frame_order();
-    in_order(&mut made, *count, apart, read, |(steps, totals), number| {
+    let mut steps = Vec::with_capacity(*count as usize);
+    for number in 0..*count {
         let (memory_barriers, image_barriers) = barriers.of(number);
-        let work = match results.scoped.steps.get(number as usize) {
-            Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(results, scope, number))),
-            Some(Grouped::Single(op)) => passes::single(results, *op),
-            Some(Grouped::BarriersOnly) | None => Work::Export,
-        };
-        let (queue, waits, releases) = (queues.queue(number), queues.waits(number), Vec::new());
-        let step = Step { queue, waits, memory_barriers, image_barriers, work, releases };
-        totals.add(&step);
-        steps.push(step);
-    });
-    let transfers = ownership::transfers(results);
-    if transfers.is_empty() {
-        return made;
+        let (queue, waits) = (queues.queue(number), queues.waits(number));
+        steps.push(Step { queue, waits, memory_barriers, image_barriers, work: Work::Export, releases: Vec::new() });
     }
-    let (mut steps, _) = made;
-    for Transfer { from, release, to, acquire } in transfers {
+    for Transfer { from, release, to, acquire } in ownership::transfers(results) {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);
     }
-    let totals = Totals::count(&steps);
-    (steps, totals)
+    steps
+}
+
+/// Puts the work of each step in. Returns what the steps alone tell of the Plan's totals.
+///
+/// Works in the frame's order. What a step is made of lies close together then: only steps that run in another order lie apart,
+/// and these are written, which nothing waits for.
+pub(in crate::compile) fn put_in_work(results: &StageResults<'_>, steps: &mut [Step]) -> Totals {
+    let scoped = &results.scoped.steps;
+    // For each operation the step that it is the first one of.
+    let mut begun = vec![NEVER; results.adapted.ops.len()];
+    for (step, number) in scoped.iter().zip(0_u32..) {
+        if let Some(op) = step.ops().first() {
+            begun[*op as usize] = number;
+        }
+    }
+    for number in begun.into_iter().filter(|number| *number != NEVER) {
+        steps[number as usize].work = match &scoped[number as usize] {
+            Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(results, scope, number))),
+            Grouped::Single(op) => passes::single(results, *op),
+            Grouped::BarriersOnly => Work::Export,
+        };
+    }
+    Totals::count(steps)
 }

@@ -25,7 +25,7 @@ pub(in crate::compile) struct StageResults<'a> {
     pub(super) sync: &'a Barriers,
     pub(super) exact_memory: bool,
     /// The subject of each physical resource; empty where no passes and no barriers are made.
-    pub(super) subjects: Vec<Subject>,
+    pub(super) subjects: &'a [Subject],
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
 }
@@ -47,19 +47,19 @@ impl<'a> StageResults<'a> {
             placed: &settled.placed,
             sync: &settled.barriers,
             exact_memory: settled.exact_memory,
-            subjects: Vec::new(),
+            subjects: &[],
             nothing: Arc::default(),
         }
     }
 
-    /// The same, to make passes and barriers.
-    pub(in crate::compile) fn with_subjects(self) -> StageResults<'a> {
-        StageResults { subjects: Subject::of(self.adapted), ..self }
+    /// The same, to make passes and barriers. `subjects`: one for each physical resource.
+    pub(in crate::compile) fn with_subjects(self, subjects: &'a [Subject]) -> StageResults<'a> {
+        StageResults { subjects, ..self }
     }
 }
 
 /// The properties of a physical resource that passes and barriers name: close together in memory, since they are read often.
-pub(super) struct Subject {
+pub(in crate::compile) struct Subject {
     pub(super) id: u32,
     pub(super) is_image: bool,
     /// Whether it has several subresources.
@@ -72,7 +72,7 @@ pub(super) struct Subject {
 
 impl Subject {
     /// A subject for each physical resource.
-    fn of(adapted: &Adapted) -> Vec<Subject> {
+    pub(in crate::compile) fn of(adapted: &Adapted) -> Vec<Subject> {
         let subject = |resource: &PhysicalResource| {
             let Subresources { aspects, mips, layers, .. } = resource.all();
             let (is_image, is_cut) = (resource.image().is_some(), resource.grid.is_some());

@@ -4,7 +4,7 @@
 //! there, the hand-over adds one. It adds none if the memory was free when the interval began. So each resource takes its
 //! memory for the whole interval in which it begins, where a little more memory saves calls.
 
-use super::pack::Block;
+use super::pack::{Block, Change};
 
 /// The share of the live peak that may be spent on fewer calls.
 const SHARE: u64 = 50;
@@ -20,19 +20,16 @@ impl Intervals {
     /// The fewest intervals in which, with each resource alive from the start of its interval on, at most a fiftieth more
     /// than `live_peak` is alive; `None` if the live peak alone allows as few intervals.
     ///
-    /// `waits`: for each step one more than the last step that the accesses of this one wait for. An interval ends before the
+    /// `waits`: for each step one more than the last step that the accesses of this one wait for. `changes`: those of all blocks
+    /// together. An interval ends before the
     /// first step that waits for a step in it, or with which it would take too much memory. Each interval reaches as far as it
     /// can, which gives the fewest.
-    pub(super) fn of<'b>(waits: &[u32], blocks: impl Iterator<Item = &'b Block>, live_peak: u64) -> Option<Intervals> {
-        let mut changes = vec![Change::default(); waits.len()];
-        for block in blocks {
-            changes[block.first as usize].begun += block.bytes;
-            changes[block.last as usize].ended += block.bytes;
-        }
+    pub(super) fn of(waits: &[u32], changes: &[Change], live_peak: u64) -> Option<Intervals> {
         let most_bytes = live_peak + live_peak / SHARE;
         let (mut tight, mut wide) = (Walk::new(live_peak), Walk::new(most_bytes));
         let mut starts = Vec::with_capacity(waits.len());
-        for ((waits, change), step) in waits.iter().zip(&changes).zip(0..) {
+        for (waits, step) in waits.iter().zip(0_u32..) {
+            let change = changes.get(step as usize).copied().unwrap_or_default();
             tight.step(step, *waits, change);
             wide.step(step, *waits, change);
             starts.push(wide.start);
@@ -44,13 +41,6 @@ impl Intervals {
     pub(super) fn widen(&self, blocks: &[Block]) -> Vec<Block> {
         blocks.iter().map(|block| Block { first: self.starts[block.first as usize], ..*block }).collect()
     }
-}
-
-/// Bytes that begin and end with a step.
-#[derive(Debug, Clone, Copy, Default)]
-struct Change {
-    begun: u64,
-    ended: u64,
 }
 
 /// A walk through the steps that makes the fewest intervals with at most `most` bytes in each.
@@ -69,7 +59,7 @@ impl Walk {
         Walk { most, start: 0, taken: 0, ended: 0, count: 1 }
     }
 
-    fn step(&mut self, step: u32, waits: u32, change: &Change) {
+    fn step(&mut self, step: u32, waits: u32, change: Change) {
         if waits > self.start || self.taken + change.begun > self.most {
             self.taken -= self.ended;
             (self.start, self.ended) = (step, 0);
@@ -82,6 +72,7 @@ impl Walk {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pack::Measured;
     use super::*;
 
     const MIB: u64 = 1 << 20;
@@ -93,7 +84,7 @@ mod tests {
     /// Where intervals start in four steps whose blocks take 100 MiB together at most, and `extra` more in step 1.
     fn starts(waits: &[u32], extra: u64) -> Option<Vec<u32>> {
         let blocks = [block(0, 0, 50 * MIB), block(1, 1, 50 * MIB + extra), block(2, 3, 100 * MIB), block(3, 3, 0)];
-        Intervals::of(waits, blocks.iter(), 100 * MIB).map(|intervals| intervals.starts)
+        Intervals::of(waits, &Measured::of(&blocks).changes, 100 * MIB).map(|intervals| intervals.starts)
     }
 
     #[test]

@@ -96,6 +96,7 @@ pub(in crate::compile) fn place(
         chosen: Vec::new(),
     };
     let mut members: Vec<Members> = Vec::new();
+    let mut padding = 0_u64;
     let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
     // Images often follow others of the same descriptor.
     let mut last_needs: Option<(ImageDescriptor, MemoryNeeds)> = None;
@@ -127,6 +128,7 @@ pub(in crate::compile) fn place(
         }
         let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, resource.image().is_some());
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
+        padding = padding.saturating_add(needs.alignment);
         placed.placements.push(Some(Placement {
             heap: heap as u32,
             offset: 0,
@@ -137,8 +139,6 @@ pub(in crate::compile) fn place(
         }));
     }
     // The offsets and the height of any packing stay below this sum, so none of them overflows.
-    let placements = placed.placements.iter().flatten();
-    let padding = placements.map(|placement| placement.alignment).fold(0, u64::saturating_add);
     let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
@@ -155,18 +155,19 @@ pub(in crate::compile) fn place(
         }
     }
     let measured: Vec<Measured<'_>> = members.iter().map(|members| Measured::of(&members.blocks)).collect();
-    placed.live_peak_bytes = measured.last().map_or(0, Measured::live_peak);
-    if members.len() > 1 || overlaps {
-        let alive = |resource: &PhysicalIndex| {
-            let placement = placed.placements[*resource as usize].as_ref()?;
-            Some(block(placement, lifetimes[*resource as usize]))
-        };
-        placed.live_peak_bytes = Measured::of(&order.iter().filter_map(alive).collect::<Vec<Block>>()).live_peak();
-    }
+    let alive = |resource: &PhysicalIndex| {
+        let placement = placed.placements[*resource as usize].as_ref()?;
+        Some(block(placement, lifetimes[*resource as usize]))
+    };
+    let apart = members.len() > 1 || overlaps;
+    let all: Vec<Block> = if apart { order.iter().filter_map(alive).collect() } else { Vec::new() };
+    let together = apart.then(|| Measured::of(&all));
+    let together = together.as_ref().or(measured.last());
+    placed.live_peak_bytes = together.map_or(0, Measured::live_peak);
     let packings = if options.alias {
         let waits = waits.filter(|_| !overlaps);
         waits
-            .and_then(|waits| pack_by_intervals(waits, &members, placed.live_peak_bytes))
+            .and_then(|waits| pack_by_intervals(waits, &members, together?))
             .unwrap_or_else(|| measured.iter().map(Measured::pack).collect())
     } else {
         members.iter().map(|members| side_by_side(&members.blocks)).collect()
@@ -185,9 +186,9 @@ pub(in crate::compile) fn place(
 }
 
 /// Packings in which memory changes hands only where intervals between barrier calls begin; `None` if this saves no call, or
-/// takes too much memory.
-fn pack_by_intervals(waits: &[u32], members: &[Members], live_peak: u64) -> Option<Vec<Packing>> {
-    let intervals = Intervals::of(waits, members.iter().flat_map(|members| &members.blocks), live_peak)?;
+/// takes too much memory. `together`: the blocks of all heaps.
+fn pack_by_intervals(waits: &[u32], members: &[Members], together: &Measured<'_>) -> Option<Vec<Packing>> {
+    let intervals = Intervals::of(waits, &together.changes, together.live_peak())?;
     let pack = |members: &Members| Measured::of(&intervals.widen(&members.blocks)).pack();
     let packings: Vec<Packing> = members.iter().map(pack).collect();
     (packings.iter().map(|packing| packing.height).sum::<u64>() <= intervals.most_bytes).then_some(packings)

@@ -121,58 +121,87 @@ impl Completing<'_> {
 
     /// Completes those of a resource that takes over memory, from the last accesses of the memory's previous owner.
     fn take_over(&mut self, edge: &AliasEdge) {
-        let subresources = self.subresources(edge.resource);
-        if edge.resource == edge.from {
+        let (before, subresources) = (self.subresources(edge.from), self.subresources(edge.resource));
+        if self.initial.queues.is_one() && (before.len(), subresources.len()) == (1, 1) {
+            self.follow_one(edge, before.start, subresources.start);
+        } else if edge.resource == edge.from {
             // A resource that had its memory in the frame before too waits subresource by subresource.
             subresources
                 .for_each(|subresource| self.follow(edge, subresource..subresource + 1, subresource..subresource + 1));
         } else {
-            self.follow(edge, self.subresources(edge.from), subresources);
+            self.follow(edge, before, subresources);
+        }
+    }
+
+    /// Whether the barriers of a resource that takes over memory cover the memory itself: a buffer's do, an image's only the
+    /// image.
+    fn covers(&self, AliasEdge { resource, from, .. }: &AliasEdge) -> bool {
+        resource == from || !self.plain && self.adapted.resources[*resource as usize].image().is_none()
+    }
+
+    /// As [`Completing::follow`], for two subresources on one queue: mostly there are no others.
+    fn follow_one(&mut self, edge: &AliasEdge, before: SubresourceIndex, subresource: SubresourceIndex) {
+        let covers = self.covers(edge);
+        let Completing { timeline, initial: Initial { barriers, aliased, .. }, .. } = self;
+        let number = timeline.subresources[subresource as usize].first_barrier;
+        if let Some(access) = LastAccess::of_state(&timeline.subresources[before as usize], 0)
+            && let Some(barrier) = barriers.get_mut(number as usize)
+        {
+            aliased.extend(wait_for(barrier, number, &access, edge, covers));
         }
     }
 
     /// Lets the initial barriers of `subresources` wait for the last accesses to the subresources `before` of the memory's
     /// previous owner.
     fn follow(&mut self, edge: &AliasEdge, before: Range<SubresourceIndex>, subresources: Range<SubresourceIndex>) {
-        let AliasEdge { resource, from, this_frame } = *edge;
-        let Completing { adapted, timeline, plain, initial: Initial { barriers, queues, aliased }, accesses } = self;
-        let one = match before.len() {
-            1 if queues.is_one() => LastAccess::of_state(&timeline.subresources[before.start as usize], 0),
-            _ => None,
-        };
-        let accesses = match &one {
-            Some(one) => std::slice::from_ref(one),
-            None => {
-                find_last_accesses(timeline, from, before, accesses);
-                &accesses[..]
-            }
-        };
-        // A buffer's barrier covers all memory, an image's only the image.
-        let covers = resource == from || !*plain && adapted.resources[resource as usize].image().is_none();
+        let covers = self.covers(edge);
+        let Completing { timeline, initial: Initial { barriers, queues, aliased }, accesses, .. } = self;
+        find_last_accesses(timeline, edge.from, before, accesses);
         for subresource in &timeline.subresources[subresources.start as usize..subresources.end as usize] {
             let number = subresource.first_barrier;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
             let queue = queues.queue_number(barrier.step);
-            for LastAccess { queue: other, stages, writes, last } in accesses.iter().copied() {
-                if this_frame {
-                    barrier.after = if barrier.after == NEVER { last } else { barrier.after.max(last) };
-                }
-                if other != queue {
-                    queues.require_earlier(barrier.step, other, last, u32::from(!this_frame));
+            for access in &*accesses {
+                if access.queue == queue {
+                    aliased.extend(wait_for(barrier, number, access, edge, covers));
+                } else {
+                    come_after(barrier, access.last, edge);
+                    queues.require_earlier(barrier.step, access.queue, access.last, u32::from(!edge.this_frame));
                     queues.hold(number);
-                    continue;
-                }
-                barrier.src_stages |= stages;
-                if covers {
-                    barrier.src_accesses |= writes;
-                } else if !writes.is_empty() {
-                    let source = Source { stages, accesses: writes };
-                    let resources = [from, resource];
-                    aliased.push(AliasedWrite { resources, source, written: last, this_frame, barrier: number });
                 }
             }
         }
     }
+}
+
+/// Lets a barrier stand behind the step `last`, if that is one of this frame.
+fn come_after(barrier: &mut SubresourceBarrier, last: u32, edge: &AliasEdge) {
+    if edge.this_frame {
+        barrier.after = if barrier.after == NEVER { last } else { barrier.after.max(last) };
+    }
+}
+
+/// Lets barrier number `number` wait for a last access on its own queue, which wrote to memory that it takes over. Returns the
+/// write that a memory barrier has to name, where the barrier doesn't cover the memory.
+#[inline]
+fn wait_for(
+    barrier: &mut SubresourceBarrier,
+    number: u32,
+    access: &LastAccess,
+    edge: &AliasEdge,
+    covers: bool,
+) -> Option<AliasedWrite> {
+    let LastAccess { stages, writes, last, .. } = *access;
+    let AliasEdge { resource, from, this_frame } = *edge;
+    come_after(barrier, last, edge);
+    barrier.src_stages |= stages;
+    if covers {
+        barrier.src_accesses |= writes;
+        return None;
+    }
+    let source = Source { stages, accesses: writes };
+    let write = AliasedWrite { resources: [from, resource], source, written: last, this_frame, barrier: number };
+    (!writes.is_empty()).then_some(write)
 }
 
 /// Puts the last accesses to some subresources of a resource into `accesses`.

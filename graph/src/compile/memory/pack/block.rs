@@ -1,7 +1,5 @@
 //! Blocks of memory over time, and their peak.
 
-use std::borrow::Cow;
-
 /// A block that needs `bytes` from step `first` to step `last`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::compile::memory) struct Block {
@@ -25,20 +23,34 @@ pub(super) struct Peak {
     pub(super) bytes: u64,
 }
 
-pub(super) fn peak(blocks: &[Block]) -> Peak {
-    let mut changes = vec![0_i128; steps(blocks) + 1];
+/// Bytes of the blocks that begin and end with a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::compile::memory) struct Change {
+    pub(in crate::compile::memory) begun: u64,
+    pub(in crate::compile::memory) ended: u64,
+}
+
+/// The change of each step, up to the last one that a block needs.
+pub(super) fn changes(blocks: &[Block]) -> Vec<Change> {
+    let mut changes = vec![Change::default(); steps(blocks)];
     for block in blocks {
-        changes[block.first as usize] += i128::from(block.bytes);
-        changes[block.last as usize + 1] -= i128::from(block.bytes);
+        changes[block.first as usize].begun += block.bytes;
+        changes[block.last as usize].ended += block.bytes;
     }
-    let (mut live, mut most, mut at) = (0, 0, 0);
-    for (change, step) in changes.into_iter().zip(0_u32..) {
-        live += change;
-        if live > most {
-            (most, at) = (live, step);
+    changes
+}
+
+pub(super) fn peak(changes: &[Change]) -> Peak {
+    let mut live = 0;
+    let mut peak = Peak { step: 0, bytes: 0 };
+    for (Change { begun, ended }, step) in changes.iter().zip(0_u32..) {
+        live += begun;
+        if live > peak.bytes {
+            peak = Peak { step, bytes: live };
         }
+        live -= ended;
     }
-    Peak { step: at, bytes: u64::try_from(most).unwrap_or(u64::MAX) }
+    peak
 }
 
 /// Steps up to the last one that a block needs.
@@ -46,24 +58,11 @@ pub(super) fn steps(blocks: &[Block]) -> usize {
     blocks.iter().map(|block| block.last as usize + 1).max().unwrap_or(0)
 }
 
-/// The blocks over few steps: if there are many more steps than blocks, those at which none begins or ends are left out.
-pub(super) fn dense(blocks: &[Block]) -> Cow<'_, [Block]> {
-    const STEPS_A_BLOCK: usize = 16;
-    if steps(blocks) <= STEPS_A_BLOCK * blocks.len().max(64) {
-        return Cow::Borrowed(blocks);
-    }
-    let mut times: Vec<u32> = blocks.iter().flat_map(|block| [block.first, block.last]).collect();
-    times.sort_unstable();
-    times.dedup();
-    let rank = |step| times.partition_point(|time| *time < step) as u32;
-    blocks.iter().map(|block| Block { first: rank(block.first), last: rank(block.last), ..*block }).collect()
-}
-
 /// The first aligned offset from `offset` on.
 pub(super) fn align(offset: u64, alignment: u64) -> u64 {
     if alignment.is_power_of_two() {
         // Without a division.
-        return offset.checked_add(alignment - 1).map_or(u64::MAX, |above| above & !(alignment - 1));
+        return (offset + (alignment - 1)) & !(alignment - 1);
     }
-    offset.checked_next_multiple_of(alignment.max(1)).unwrap_or(u64::MAX)
+    offset.next_multiple_of(alignment.max(1))
 }

@@ -10,8 +10,8 @@ use super::block::align;
 const FINE_BITS: u32 = 3;
 /// Free ranges of a list that are looked at for the smallest that fits.
 const LOOKED_AT: usize = 16;
-/// No range.
-const NONE: u32 = u32::MAX;
+/// No range; an empty list.
+pub(super) const NONE: u32 = u32::MAX;
 /// Marks a range that is allocated, and so in no list.
 const TAKEN: u32 = u32::MAX - 1;
 
@@ -23,7 +23,7 @@ struct Range {
     /// The neighbours by offset.
     below: u32,
     above: u32,
-    /// The neighbours in a list of free ranges.
+    /// The neighbours in a list of free ranges. Of one that is allocated `next` is another that is freed together with it.
     previous: u32,
     next: u32,
 }
@@ -101,7 +101,7 @@ impl FreeList {
         let (at, fresh) = self.find(bytes, alignment);
         let Range { offset, bytes: size, below, above, .. } = self.ranges[at as usize];
         let mut padding = align(offset, alignment) - offset;
-        let mut rest = size.saturating_sub(padding).saturating_sub(bytes);
+        let mut rest = size - padding - bytes;
         if end == End::High {
             let moved = rest - rest % alignment.max(1);
             (padding, rest) = (padding + moved, rest - moved);
@@ -113,19 +113,29 @@ impl FreeList {
             self.insert(range, fresh && end == End::High);
         }
         if rest > 0 {
-            let offset = offset.saturating_add(padding).saturating_add(bytes);
+            let offset = offset + padding + bytes;
             let range = Range { offset, bytes: rest, below: at, above, previous: TAKEN, next: NONE };
             self.insert(range, fresh && end == End::Low);
         }
         at
     }
 
-    /// Frees a range.
-    pub(super) fn free(&mut self, at: u32) {
-        if !self.apart {
-            self.join(at);
+    /// Lets an allocated range be freed together with those of the list that begins with `head`, as the first of them.
+    pub(super) fn free_together(&mut self, at: u32, head: &mut u32) {
+        self.ranges[at as usize].next = std::mem::replace(head, at);
+    }
+
+    /// Frees the ranges of a list that begins with `head`.
+    pub(super) fn free(&mut self, head: u32) {
+        let mut at = head;
+        while at != NONE {
+            let next = self.ranges[at as usize].next;
+            if !self.apart {
+                self.join(at);
+            }
+            self.list(at);
+            at = next;
         }
-        self.list(at);
     }
 
     /// Joins a range, in no list, with its free neighbours.
@@ -135,14 +145,14 @@ impl FreeList {
             self.unlist(below);
             let joined = self.ranges[below as usize];
             self.ranges[at as usize].offset = joined.offset;
-            self.ranges[at as usize].bytes = self.ranges[at as usize].bytes.saturating_add(joined.bytes);
+            self.ranges[at as usize].bytes += joined.bytes;
             self.link(joined.below, at);
             self.joined.push(below);
         }
         if self.is_free(above) {
             self.unlist(above);
             let joined = self.ranges[above as usize];
-            self.ranges[at as usize].bytes = self.ranges[at as usize].bytes.saturating_add(joined.bytes);
+            self.ranges[at as usize].bytes += joined.bytes;
             self.link(at, joined.above);
             self.joined.push(above);
         }
@@ -232,14 +242,14 @@ impl FreeList {
     fn grow(&mut self, bytes: u64, alignment: u64) -> u32 {
         if !self.is_free(self.top) {
             let Range { offset, bytes, .. } = self.ranges[self.top as usize];
-            let (offset, below) = (offset.saturating_add(bytes), self.top);
+            let (offset, below) = (offset + bytes, self.top);
             self.top = self.push(Range { offset, bytes: 0, below, above: NONE, previous: TAKEN, next: NONE });
             self.link(below, self.top);
         } else {
             self.unlist(self.top);
         }
         let range = &mut self.ranges[self.top as usize];
-        range.bytes = (align(range.offset, alignment) - range.offset).saturating_add(bytes);
+        range.bytes = align(range.offset, alignment) - range.offset + bytes;
         self.top
     }
 

@@ -14,5 +14,5 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
-pub(super) use block::{Block, Packing};
+pub(super) use block::{Block, Change, Packing};
 pub(super) use measured::Measured;

@@ -4,7 +4,7 @@
 //! order of bytes × steps, then of bytes. After that, each block above the live peak moves forward in the order, where it
 //! finds a lower offset; the blocks that it displaces move in turn.
 
-use super::block::{Block, Packing, align, peak, steps};
+use super::block::{Block, Packing, align, changes, peak, steps};
 use std::cmp::Reverse;
 
 /// The bound on the pairs of blocks, alive at the same time, that are looked at: this many,
@@ -35,7 +35,7 @@ pub(super) fn search(blocks: &[Block], bound: u64, swept: Packing) -> Packing {
     while search.best.height > aim && effort < most {
         for at in 1..order.len() {
             let block = order[at] as usize;
-            if found.offsets[block].saturating_add(blocks[block].bytes) > aim {
+            if found.offsets[block] + blocks[block].bytes > aim {
                 // The generator of Knuth's MMIX.
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 order[((random >> 33) % at as u64) as usize..=at].rotate_right(1);
@@ -57,7 +57,7 @@ fn aligned_peak(blocks: &[Block]) -> u64 {
     }
     let aligned: Vec<Block> =
         blocks.iter().map(|block| Block { bytes: align(block.bytes, alignment), ..*block }).collect();
-    peak(&aligned).bytes - lacking
+    peak(&changes(&aligned)).bytes - lacking
 }
 
 /// How many pairs of blocks are alive at the same time.
@@ -101,19 +101,19 @@ impl Search<'_> {
             for other in self.neighbours.of_block(*at) {
                 let offset = packing.offsets[*other as usize];
                 if offset != UNPLACED {
-                    self.taken.push((offset, offset.saturating_add(self.blocks[*other as usize].bytes)));
+                    self.taken.push((offset, offset + self.blocks[*other as usize].bytes));
                 }
             }
             self.taken.sort_unstable();
             let mut offset = 0_u64;
             for (start, end) in &self.taken {
-                if offset.saturating_add(block.bytes) <= *start {
+                if offset + block.bytes <= *start {
                     break;
                 }
                 offset = align(offset.max(*end), block.alignment);
             }
             packing.offsets[*at as usize] = offset;
-            packing.height = packing.height.max(offset.saturating_add(block.bytes));
+            packing.height = packing.height.max(offset + block.bytes);
         }
         if packing.height < self.best.height {
             self.best.clone_from(&packing);

@@ -1,11 +1,8 @@
 //! One walk through time: each block takes a free range that fits, or grows the top.
 
 use super::block::{Block, Packing, Peak, steps};
-use super::free_list::{End, FreeList};
+use super::free_list::{End, FreeList, NONE};
 use std::cmp::Reverse;
-
-/// No block.
-const NONE: u32 = u32::MAX;
 
 /// Packs the blocks in the order of their first steps, of one step the largest first.
 ///
@@ -24,19 +21,13 @@ pub(super) fn sweep(blocks: &[Block], peak: Peak, memory: &mut FreeList) -> Pack
             group.sort_by_key(|at| Reverse(blocks[*at as usize].bytes));
         }
     }
-    let mut ranges = vec![NONE; blocks.len()];
-    // For each step the blocks that end there, as linked lists.
-    let mut heads = vec![NONE; steps(blocks)];
-    let mut next = vec![NONE; blocks.len()];
+    // For each step the ranges of the blocks that end there.
+    let mut ended = vec![NONE; steps(blocks)];
     let mut step = 0;
     for at in order {
         let block = &blocks[at as usize];
-        for head in &heads[step..block.first as usize] {
-            let mut ended = *head;
-            while ended != NONE {
-                memory.free(ranges[ended as usize]);
-                ended = next[ended as usize];
-            }
+        for ranges in &ended[step..block.first as usize] {
+            memory.free(*ranges);
         }
         step = block.first as usize;
         if block.bytes == 0 {
@@ -45,10 +36,9 @@ pub(super) fn sweep(blocks: &[Block], peak: Peak, memory: &mut FreeList) -> Pack
         let end = if block.last < peak.step { End::High } else { End::Low };
         let range = memory.take(block.bytes, block.alignment, end);
         let offset = memory.offset(range);
-        ranges[at as usize] = range;
         packing.offsets[at as usize] = offset;
-        packing.height = packing.height.max(offset.saturating_add(block.bytes));
-        next[at as usize] = std::mem::replace(&mut heads[block.last as usize], at);
+        packing.height = packing.height.max(offset + block.bytes);
+        memory.free_together(range, &mut ended[block.last as usize]);
     }
     packing
 }

@@ -1,4 +1,4 @@
-use super::block::{Block, Packing, Peak, peak};
+use super::block::{Block, Packing};
 use super::free_list::FreeList;
 use super::measured::Measured;
 use super::sweep::sweep;
@@ -130,7 +130,7 @@ fn one_walk_leaves_no_gap_among_the_blocks_of_the_peak() {
     // The second dies before the peak; the third, beside it, lives on into it.
     let blocks = [block(0, 3, 64, 1), block(1, 2, 2, 1), block(2, 3, 2, 1), block(3, 4, 16, 1)];
     assert_eq!(live_peak(&blocks), 82);
-    assert_eq!(sweep(&blocks, peak(&blocks), &mut FreeList::tight(82)).height, 82);
+    assert_eq!(sweep(&blocks, Measured::of(&blocks).peak, &mut FreeList::tight(82)).height, 82);
 }
 
 #[test]
@@ -230,36 +230,4 @@ fn the_live_peak_is_the_largest_total_of_any_step() {
 fn nothing_and_blocks_of_no_bytes_take_no_memory() {
     assert_eq!(packed(&[]), Packing { offsets: Vec::new(), height: 0 });
     assert_eq!(packed(&[block(0, 1, 0, 16), block(0, 1, 32, 16), block(1, 1, 0, 16)]).height, 32);
-}
-
-#[test]
-fn steps_far_apart_take_no_table_of_all_steps() {
-    let last = u32::MAX;
-    let blocks =
-        [block(0, 7, 64, 16), block(8, last - 1, 64, 16), block(last - 1, last, 32, 16), block(last, last, 64, 16)];
-    assert_eq!(live_peak(&blocks), 96);
-    assert_eq!(packed(&blocks).height, 96);
-}
-
-#[test]
-fn sums_beyond_what_a_number_holds_end_at_the_largest() {
-    let huge = u64::MAX;
-    let blocks = [
-        block(0, 1, huge, 1),
-        block(0, 3, huge, 1 << 63),
-        block(1, 2, huge - 1, 256),
-        block(2, 3, 1, huge),
-        block(3, 4, huge, 0),
-        block(4, 5, 3, 1),
-        block(5, 6, huge / 2, 1 << 40),
-    ];
-    assert_eq!(live_peak(&blocks), huge);
-    let measured = Measured::of(&blocks);
-    assert_eq!(measured.pack().height, huge);
-    // So is what the search finds that such a peak would end at once.
-    let unreached = Measured { peak: Peak { bytes: 0, ..measured.peak }, ..measured };
-    assert_eq!(unreached.pack().height, huge);
-    // Blocks that do fit stay exact.
-    let blocks = [block(0, 1, huge - 16, 16), block(1, 1, 15, 1), block(2, 2, huge - 1, 1)];
-    assert_eq!(packed(&blocks).height, huge - 1);
 }
