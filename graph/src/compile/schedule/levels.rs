@@ -16,7 +16,7 @@ pub(super) struct Levels {
     pub(super) lifetimes: Lifetimes,
 }
 
-/// The least level of each run; `None` if there is no level with more than one.
+/// The least level of each run; `None` if there is no level with more than one. `resources`: how many accesses may name.
 pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
     let mut upwards = Walk::new(runs);
     let mut lifetimes = Lifetimes::unused(resources, runs.len());
@@ -27,9 +27,7 @@ pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
         let level = upwards.least(accesses);
         for access in accesses {
             upwards.put(access, level);
-            if let Some(resource) = access.used() {
-                lifetimes.use_at(resource, run);
-            }
+            lifetimes.use_at(access.resource, run);
         }
         top = level.max(top);
         least.push(level);
@@ -47,27 +45,22 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
     for (run, lowest) in (0..runs.len()).zip(least).rev() {
         let accesses = runs.accesses(run);
         let mut sums = Sums::default();
-        let (mut least, mut has_effects) = (0, false);
+        let mut least = 0;
         for access in accesses {
             least = least.max(downwards.behind(access));
-            if let Some(resource) = access.used() {
-                let Known { bytes, first, end } = known[resource as usize];
-                sums.add(bytes, first == run, end <= lowest + 1);
-            } else {
-                has_effects |= access.is_effect();
-            }
+            let Known { bytes, first, end } = known[access.resource as usize];
+            sums.add(bytes, first == run, end <= lowest + 1);
         }
         let highest = top - least;
         let may_rise = highest > *lowest;
-        let used = || accesses.iter().filter_map(Access::used);
         let held = |it: &Known| it.first != run && it.end <= highest;
         if sums.may_rise(may_rise) {
-            let used = used().map(|resource| &known[resource as usize]);
+            let used = accesses.iter().map(|access| &known[access.resource as usize]);
             used.filter(|it| held(it)).for_each(|it| sums.hold(it.bytes));
         }
         let decision = sums.decide(may_rise);
         if let Some(weighed) = &mut weighed {
-            for resource in used() {
+            for Access { resource, .. } in accesses.iter().copied() {
                 let it = &known[resource as usize];
                 let (begun, ended, held) = (it.first == run, it.end <= lowest + 1, held(it));
                 weighed.weigh(Weight { resource, begun, ended, held });
@@ -77,14 +70,13 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
         let level = if decision.rises { highest } else { *lowest };
         runs.for_each_backwards(run, |access| {
             downwards.put(access, top - level);
-            if let Some(resource) = access.used() {
-                let end = &mut known[resource as usize].end;
-                *end = (level + 1).max(*end);
-            }
+            let end = &mut known[access.resource as usize].end;
+            *end = (level + 1).max(*end);
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         // Effects keep their order.
-        let place = if has_effects { 1 } else { decision.begins as i8 + 1 };
+        let keeps_place = runs.has_effects() && accesses.iter().any(|access| access.is_effect);
+        let place = if keeps_place { 1 } else { decision.begins as i8 + 1 };
         keys[run as usize] = 3 * level + place as u32;
     }
     counting_sort(&keys, 3 * top + 3)
@@ -152,12 +144,11 @@ impl Walk {
     /// Notes the level of an access.
     #[inline]
     fn put(&mut self, access: &Access, level: u32) {
-        // Another effect may share the level of an effect.
-        let behind = level + u32::from(!access.is_effect());
-        let Access { subresource, writes, layout, .. } = *access;
-        let state = &mut self.subresources[subresource as usize];
+        let Access { subresource, writes, layout, is_effect, .. } = *access;
+        let (state, behind) = (&mut self.subresources[subresource as usize], level + 1);
         if writes {
-            *state = LastLevels { before: behind, readers: 0, layout };
+            // Another effect may share the level of an effect.
+            *state = LastLevels { before: behind - u32::from(is_effect), readers: 0, layout };
         } else if state.readers != 0 && state.layout == layout {
             state.readers = state.readers.max(behind);
         } else {

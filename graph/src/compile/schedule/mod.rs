@@ -77,7 +77,7 @@ impl Scheduled {
 
 /// The runs in the order that scores best; `None`: as they are.
 fn scored(adapted: &Adapted, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
-    let levels = levels::levels(runs, adapted.resources.len())?;
+    let levels = levels::levels(runs, adapted.resources.len() + 1)?;
     let memory = Memory::of(adapted);
     let order = levels::by_level(runs, &levels, &memory, keep.as_deref_mut());
     if order.iter().zip(0..).all(|(run, place)| *run == place) {

@@ -63,6 +63,11 @@ impl Runs {
         self.accesses.subresources
     }
 
+    /// Whether any of them has an effect that nothing shows.
+    pub(super) fn has_effects(&self) -> bool {
+        self.accesses.has_effects
+    }
+
     /// The first place of one run, and the place behind its last one.
     #[inline]
     fn places(&self, run: u32) -> [u32; 2] {
