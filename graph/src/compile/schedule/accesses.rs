@@ -84,6 +84,11 @@ impl Accesses {
         Accesses { list, starts, ..*self }
     }
 
+    /// Number of operations.
+    pub(super) fn ops(&self) -> u32 {
+        self.starts.len() as u32 - 1
+    }
+
     /// Those of one operation.
     #[inline]
     pub(super) fn op(&self, op: u32) -> &[Access] {

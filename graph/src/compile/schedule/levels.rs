@@ -13,7 +13,7 @@ pub(super) struct Levels {
     least: Vec<u32>,
     top: u32,
     /// The lifetimes in the order of runs.
-    pub(super) lifetimes: Lifetimes,
+    lifetimes: Lifetimes,
 }
 
 /// The least level of each run; `None` if there is no level with more than one. `resources`: how many accesses may name.
@@ -35,14 +35,21 @@ pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
     (top + 1 < runs.len()).then_some(Levels { least, top, lifetimes })
 }
 
-/// The runs level by level. Decisions that sizes made go into `weighed`, if they are to be kept.
-pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighed: Option<&mut Weighed>) -> Vec<u32> {
-    let Levels { least, top, lifetimes } = levels;
-    let mut keys = vec![0_u32; least.len()];
+/// The runs level by level, and the lifetimes in the order of runs. Decisions that sizes made go into `weighed`, if they are
+/// to be kept.
+pub(super) fn by_level(
+    runs: &Runs,
+    levels: Levels,
+    memory: &Memory,
+    mut weighed: Option<&mut Weighed>,
+) -> (Vec<u32>, Lifetimes) {
+    // Each run's least level makes way for the key by which it is sorted.
+    let Levels { least: mut keys, top, lifetimes } = levels;
     let mut downwards = Walk::new(runs);
     let known = |resource| Known { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
     let mut known: Vec<Known> = (0..memory.resources() as u32).map(known).collect();
-    for (run, lowest) in (0..runs.len()).zip(least).rev() {
+    for (run, key) in (0..runs.len()).zip(&mut keys).rev() {
+        let lowest = *key;
         let accesses = runs.accesses(run);
         let mut sums = Sums::default();
         let mut least = 0;
@@ -52,7 +59,7 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
             sums.add(bytes, first == run, end <= lowest + 1);
         }
         let highest = top - least;
-        let may_rise = highest > *lowest;
+        let may_rise = highest > lowest;
         let held = |it: &Known| it.first != run && it.end <= highest;
         if sums.may_rise(may_rise) {
             let used = accesses.iter().map(|access| &known[access.resource as usize]);
@@ -67,7 +74,7 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
             }
             weighed.decided(may_rise, decision);
         }
-        let level = if decision.rises { highest } else { *lowest };
+        let level = if decision.rises { highest } else { lowest };
         runs.for_each_backwards(run, |access| {
             downwards.put(access, top - level);
             let end = &mut known[access.resource as usize].end;
@@ -77,9 +84,9 @@ pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighe
         // Effects keep their order.
         let keeps_place = runs.has_effects() && accesses.iter().any(|access| access.is_effect);
         let place = if keeps_place { 1 } else { decision.begins as i8 + 1 };
-        keys[run as usize] = 3 * level + place as u32;
+        *key = 3 * level + place as u32;
     }
-    counting_sort(&keys, 3 * top + 3)
+    (counting_sort(&keys, 3 * top + 3), lifetimes)
 }
 
 /// A resource while the runs are walked from the last to the first.
