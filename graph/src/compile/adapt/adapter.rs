@@ -116,6 +116,7 @@ impl<'a> Adapter<'a> {
     }
 
     /// Adds an operation with the uses behind those of all others, up to `end`.
+    #[inline]
     fn push_op(&mut self, kind: OpKind, end: usize, side_effect: bool) {
         let start = std::mem::replace(&mut self.first_use, end);
         if self.input.negotiated.multisampled {
@@ -125,6 +126,7 @@ impl<'a> Adapter<'a> {
     }
 
     /// Notes what wrote multisampled images, which may be resolved, with the uses `uses`.
+    #[inline(never)]
     fn note_writers(&mut self, uses: Range<usize>, draws: bool) {
         for at in uses {
             let Use { resource, contents, role, writes, .. } = self.adapted.uses[at];

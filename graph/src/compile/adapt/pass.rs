@@ -110,10 +110,15 @@ impl Adapter<'_> {
         before: PhysicalIndex,
     ) -> PhysicalIndex {
         if self.demotions.is_worth_a_note(sampled.image) {
-            let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
-            self.note(&self.input.frame.images[sampled.image.0 as usize].name, text, sampled.span);
+            self.note_one_sample(pass, sampled);
         }
         self.version_before(number, pass, sampled, before)
+    }
+
+    #[cold]
+    fn note_one_sample(&mut self, pass: &Pass, sampled: &Sampled) {
+        let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
+        self.note(&self.input.frame.images[sampled.image.0 as usize].name, text, sampled.span);
     }
 
     /// The image that it reads of an earlier frame, or where samples are to be read or resolved.

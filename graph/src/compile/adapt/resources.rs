@@ -62,16 +62,22 @@ impl Adapter<'_> {
 
     /// The physical image that takes the next version: another one if nothing is kept and the last draws moved to fewer
     /// samples.
+    #[inline]
     pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> PhysicalIndex {
         let Some(resource) = self.resource_of[image.0 as usize] else { return self.first_resource(image) };
         let wanted = self.input.negotiated.samples(image);
-        if !keeps && self.samples(resource) != wanted {
-            let declared = &self.input.frame.images[image.0 as usize];
-            let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
-            let why = self.reason(because, declared.span);
-            return self.replace(image, "again", why, wanted);
+        match !keeps && self.samples(resource) != wanted {
+            true => self.written_anew(image, wanted),
+            false => self.continued(image),
         }
-        self.continued(image)
+    }
+
+    #[cold]
+    fn written_anew(&mut self, image: ImageIndex, wanted: u32) -> PhysicalIndex {
+        let declared = &self.input.frame.images[image.0 as usize];
+        let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
+        let why = self.reason(because, declared.span);
+        self.replace(image, "again", why, wanted)
     }
 
     /// The physical image with the current version, which is about to change.

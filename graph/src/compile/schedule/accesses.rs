@@ -7,29 +7,13 @@ use crate::vulkan::Layout;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Access {
     pub(super) subresource: SubresourceIndex,
-    /// The image or buffer of a use, named by the first of its accesses; [`Access::NO_USE`] for the others.
+    /// The image or buffer of a use, named by the first of its accesses. The others, and effects that nothing shows, name
+    /// one behind all of them, which has no bytes.
     pub(super) resource: PhysicalIndex,
     pub(super) writes: bool,
     pub(super) layout: Layout,
-}
-
-impl Access {
-    /// No use begins with this access.
-    const NO_USE: PhysicalIndex = PhysicalIndex::MAX;
-    /// The access is an effect that nothing shows.
-    const EFFECT: PhysicalIndex = PhysicalIndex::MAX - 1;
-
-    /// The image or buffer of the use that begins with this access, if one does.
-    #[inline]
-    pub(super) fn used(&self) -> Option<PhysicalIndex> {
-        (self.resource < Access::EFFECT).then_some(self.resource)
-    }
-
-    /// Whether it is an effect that nothing shows.
-    #[inline]
-    pub(super) fn is_effect(&self) -> bool {
-        self.resource == Access::EFFECT
-    }
+    /// Whether the access is an effect that nothing shows.
+    pub(super) is_effect: bool,
 }
 
 /// The accesses of all operations.
@@ -40,13 +24,17 @@ pub(super) struct Accesses {
     starts: Vec<u32>,
     /// Number of subresources.
     pub(super) subresources: usize,
+    /// Whether any of them is an effect that nothing shows.
+    pub(super) has_effects: bool,
 }
 
 impl Accesses {
     pub(super) fn of(adapted: &Adapted) -> Accesses {
-        if adapted.is_uncut() && !adapted.ops.iter().any(|op| op.side_effect) {
+        let has_effects = adapted.ops.iter().any(|op| op.side_effect);
+        if adapted.is_uncut() && !has_effects {
             return Accesses::of_uses(adapted);
         }
+        let no_resource = adapted.resources.len() as u32;
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
         for op in &adapted.ops {
@@ -54,31 +42,33 @@ impl Accesses {
             for used in &adapted.uses[op.uses.start as usize..op.uses.end as usize] {
                 let mut resource = used.resource;
                 adapted.for_each_subresource(used, |subresource| {
-                    let resource = std::mem::replace(&mut resource, Access::NO_USE);
-                    list.push(Access { subresource, resource, writes: used.writes, layout: used.layout });
+                    let resource = std::mem::replace(&mut resource, no_resource);
+                    let Use { writes, layout, .. } = *used;
+                    list.push(Access { subresource, resource, writes, layout, is_effect: false });
                 });
             }
             if op.side_effect {
                 // Effects that nothing shows are writes of a subresource behind all others.
-                let (subresource, resource) = (adapted.subresources, Access::EFFECT);
-                list.push(Access { subresource, resource, writes: true, layout: Layout::Undefined });
+                let (subresource, resource, layout) = (adapted.subresources, no_resource, Layout::Undefined);
+                list.push(Access { subresource, resource, writes: true, layout, is_effect: true });
             }
         }
         starts.push(list.len() as u32);
-        Accesses { list, starts, subresources: adapted.subresources as usize + 1 }
+        Accesses { list, starts, subresources: adapted.subresources as usize + 1, has_effects }
     }
 
     /// Those of operations each of whose uses is one access, as they mostly are.
     fn of_uses(adapted: &Adapted) -> Accesses {
         let access = |used: &Use| {
             let Use { subresource, resource, writes, layout, .. } = *used;
-            Access { subresource, resource, writes, layout }
+            Access { subresource, resource, writes, layout, is_effect: false }
         };
         let starts = adapted.ops.iter().map(|op| op.uses.start).chain([adapted.uses.len() as u32]);
         Accesses {
             list: adapted.uses.iter().map(access).collect(),
             starts: starts.collect(),
             subresources: adapted.subresources as usize + 1,
+            has_effects: false,
         }
     }
 
@@ -91,7 +81,12 @@ impl Accesses {
             list.extend_from_slice(self.op(*op));
         }
         starts.push(list.len() as u32);
-        Accesses { list, starts, subresources: self.subresources }
+        Accesses { list, starts, ..*self }
+    }
+
+    /// Number of operations.
+    pub(super) fn ops(&self) -> u32 {
+        self.starts.len() as u32 - 1
     }
 
     /// Those of one operation.

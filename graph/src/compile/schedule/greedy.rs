@@ -5,7 +5,6 @@
 //! among equal runs matters much. A good one is the order that was found in the other direction, so the directions take
 //! turns, and each ranks equal runs by their places in the order before.
 
-use super::accesses::Access;
 use super::dependencies::Dependencies;
 use super::memory::{Lifetimes, Memory, lists};
 use super::runs::Runs;
@@ -32,12 +31,12 @@ impl<'a> Greedy<'a> {
     pub(super) fn new(adapted: &Adapted, runs: &'a Runs, memory: &'a Memory, forwards: Dependencies) -> Greedy<'a> {
         let mut uses: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
         for run in 0..runs.len() {
-            let used = runs.accesses(run).iter().filter_map(Access::used);
+            let used = runs.accesses(run).iter().map(|access| access.resource);
             uses.extend(used.filter(|resource| memory.bytes(*resource) > 0).map(|resource| (resource, run)));
         }
         uses.sort_unstable();
         uses.dedup();
-        let users = lists(&uses, adapted.resources.len() as u32);
+        let users = lists(&uses, memory.resources() as u32);
         uses.iter_mut().for_each(|(resource, run)| std::mem::swap(resource, run));
         let resources = lists(&uses, runs.len());
         let backwards = forwards.reversed();

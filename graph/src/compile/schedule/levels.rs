@@ -13,10 +13,10 @@ pub(super) struct Levels {
     least: Vec<u32>,
     top: u32,
     /// The lifetimes in the order of runs.
-    pub(super) lifetimes: Lifetimes,
+    lifetimes: Lifetimes,
 }
 
-/// The least level of each run; `None` if there is no level with more than one.
+/// The least level of each run; `None` if there is no level with more than one. `resources`: how many accesses may name.
 pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
     let mut upwards = Walk::new(runs);
     let mut lifetimes = Lifetimes::unused(resources, runs.len());
@@ -27,9 +27,7 @@ pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
         let level = upwards.least(accesses);
         for access in accesses {
             upwards.put(access, level);
-            if let Some(resource) = access.used() {
-                lifetimes.use_at(resource, run);
-            }
+            lifetimes.use_at(access.resource, run);
         }
         top = level.max(top);
         least.push(level);
@@ -37,57 +35,58 @@ pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
     (top + 1 < runs.len()).then_some(Levels { least, top, lifetimes })
 }
 
-/// The runs level by level. Decisions that sizes made go into `weighed`, if they are to be kept.
-pub(super) fn by_level(runs: &Runs, levels: &Levels, memory: &Memory, mut weighed: Option<&mut Weighed>) -> Vec<u32> {
-    let Levels { least, top, lifetimes } = levels;
-    let mut keys = vec![0_u32; least.len()];
+/// The runs level by level, and the lifetimes in the order of runs. Decisions that sizes made go into `weighed`, if they are
+/// to be kept.
+pub(super) fn by_level(
+    runs: &Runs,
+    levels: Levels,
+    memory: &Memory,
+    mut weighed: Option<&mut Weighed>,
+) -> (Vec<u32>, Lifetimes) {
+    // Each run's least level makes way for the key by which it is sorted.
+    let Levels { least: mut keys, top, lifetimes } = levels;
     let mut downwards = Walk::new(runs);
     let known = |resource| Known { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
     let mut known: Vec<Known> = (0..memory.resources() as u32).map(known).collect();
-    for (run, lowest) in (0..runs.len()).zip(least).rev() {
+    for (run, key) in (0..runs.len()).zip(&mut keys).rev() {
+        let lowest = *key;
         let accesses = runs.accesses(run);
         let mut sums = Sums::default();
-        let (mut least, mut has_effects) = (0, false);
+        let mut least = 0;
         for access in accesses {
             least = least.max(downwards.behind(access));
-            if let Some(resource) = access.used() {
-                let Known { bytes, first, end } = known[resource as usize];
-                sums.add(bytes, first == run, end <= lowest + 1);
-            } else {
-                has_effects |= access.is_effect();
-            }
+            let Known { bytes, first, end } = known[access.resource as usize];
+            sums.add(bytes, first == run, end <= lowest + 1);
         }
         let highest = top - least;
-        let may_rise = highest > *lowest;
-        let used = || accesses.iter().filter_map(Access::used);
+        let may_rise = highest > lowest;
         let held = |it: &Known| it.first != run && it.end <= highest;
         if sums.may_rise(may_rise) {
-            let used = used().map(|resource| &known[resource as usize]);
+            let used = accesses.iter().map(|access| &known[access.resource as usize]);
             used.filter(|it| held(it)).for_each(|it| sums.hold(it.bytes));
         }
         let decision = sums.decide(may_rise);
         if let Some(weighed) = &mut weighed {
-            for resource in used() {
+            for Access { resource, .. } in accesses.iter().copied() {
                 let it = &known[resource as usize];
                 let (begun, ended, held) = (it.first == run, it.end <= lowest + 1, held(it));
                 weighed.weigh(Weight { resource, begun, ended, held });
             }
             weighed.decided(may_rise, decision);
         }
-        let level = if decision.rises { highest } else { *lowest };
+        let level = if decision.rises { highest } else { lowest };
         runs.for_each_backwards(run, |access| {
             downwards.put(access, top - level);
-            if let Some(resource) = access.used() {
-                let end = &mut known[resource as usize].end;
-                *end = (level + 1).max(*end);
-            }
+            let end = &mut known[access.resource as usize].end;
+            *end = (level + 1).max(*end);
         });
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         // Effects keep their order.
-        let place = if has_effects { 1 } else { decision.begins as i8 + 1 };
-        keys[run as usize] = 3 * level + place as u32;
+        let keeps_place = runs.has_effects() && accesses.iter().any(|access| access.is_effect);
+        let place = if keeps_place { 1 } else { decision.begins as i8 + 1 };
+        *key = 3 * level + place as u32;
     }
-    counting_sort(&keys, 3 * top + 3)
+    (counting_sort(&keys, 3 * top + 3), lifetimes)
 }
 
 /// A resource while the runs are walked from the last to the first.
@@ -152,12 +151,11 @@ impl Walk {
     /// Notes the level of an access.
     #[inline]
     fn put(&mut self, access: &Access, level: u32) {
-        // Another effect may share the level of an effect.
-        let behind = level + u32::from(!access.is_effect());
-        let Access { subresource, writes, layout, .. } = *access;
-        let state = &mut self.subresources[subresource as usize];
+        let Access { subresource, writes, layout, is_effect, .. } = *access;
+        let (state, behind) = (&mut self.subresources[subresource as usize], level + 1);
         if writes {
-            *state = LastLevels { before: behind, readers: 0, layout };
+            // Another effect may share the level of an effect.
+            *state = LastLevels { before: behind - u32::from(is_effect), readers: 0, layout };
         } else if state.readers != 0 && state.layout == layout {
             state.readers = state.readers.max(behind);
         } else {

@@ -1,12 +1,12 @@
 //! How much memory an order keeps alive, and an order that keeps little.
 
-use super::accesses::Access;
 use super::runs::Runs;
 use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 
 /// Bytes of each resource in shared memory, counted in texels: the device's alignment and padding are not known here.
 #[derive(Debug)]
 pub(super) struct Memory {
+    /// And of the one behind all of them, which has none.
     bytes: Vec<u64>,
     /// The bytes of all of them together; `None` if these are more than can be addressed.
     total: Option<u64>,
@@ -31,8 +31,7 @@ impl Lifetimes {
     pub(super) fn of(runs: &Runs, order: &[u32], resources: usize) -> Lifetimes {
         let mut lifetimes = Lifetimes::unused(resources, order.len() as u32);
         for (run, place) in order.iter().zip(0_u32..) {
-            let used = runs.accesses(*run).iter().filter_map(Access::used);
-            used.for_each(|resource| lifetimes.use_at(resource, place));
+            runs.accesses(*run).iter().for_each(|access| lifetimes.use_at(access.resource, place));
         }
         lifetimes
     }
@@ -54,7 +53,7 @@ impl Lifetimes {
 impl Memory {
     pub(super) fn of(adapted: &Adapted) -> Memory {
         let mut total = Some(0_u64);
-        let mut bytes: Vec<u64> = Vec::with_capacity(adapted.resources.len());
+        let mut bytes: Vec<u64> = Vec::with_capacity(adapted.resources.len() + 1);
         for (resource, index) in adapted.resources.iter().zip(0..) {
             let here = match &resource.kind {
                 _ if !resource.is_transient() => 0,
@@ -71,10 +70,11 @@ impl Memory {
             total = total.and_then(|total| total.checked_add(here));
             bytes.push(here);
         }
+        bytes.push(0);
         Memory { bytes, total }
     }
 
-    /// Number of resources.
+    /// Number of resources that accesses may name.
     pub(super) fn resources(&self) -> usize {
         self.bytes.len()
     }

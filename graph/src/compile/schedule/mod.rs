@@ -28,7 +28,6 @@ use super::model::Adapted;
 use super::options::Order;
 use dependencies::Dependencies;
 use greedy::Greedy;
-use levels::Levels;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
 use weighed::Weighed;
@@ -77,13 +76,12 @@ impl Scheduled {
 
 /// The runs in the order that scores best; `None`: as they are.
 fn scored(adapted: &Adapted, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
-    let levels = levels::levels(runs, adapted.resources.len())?;
+    let levels = levels::levels(runs, adapted.resources.len() + 1)?;
     let memory = Memory::of(adapted);
-    let order = levels::by_level(runs, &levels, &memory, keep.as_deref_mut());
+    let (order, in_file) = levels::by_level(runs, levels, &memory, keep.as_deref_mut());
     if order.iter().zip(0..).all(|(run, place)| *run == place) {
         return None;
     }
-    let Levels { lifetimes: in_file, .. } = levels;
     let in_levels = Lifetimes::of(runs, &order, memory.resources());
     let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
     if let Some(weighed) = keep {

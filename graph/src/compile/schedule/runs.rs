@@ -10,17 +10,18 @@ const NONE: u32 = u32::MAX;
 /// Operations in an order that is valid, in runs: draws into the same attachments, or one operation.
 #[derive(Debug)]
 pub(super) struct Runs {
+    /// Empty, as `starts` is, if each run is one operation and they stand in the frame's order.
     ops: Vec<u32>,
-    /// For each run its first place in `ops`, and where the last one ends; empty if each is one operation.
+    /// For each run its first place in `ops`, and where the last one ends.
     starts: Vec<u32>,
-    /// The accesses of `ops`, by place.
+    /// The accesses of the operations, by place.
     accesses: Accesses,
 }
 
 impl Runs {
     /// Each operation by itself, in the order of the frame.
     pub(super) fn of_one(adapted: &Adapted) -> Runs {
-        Runs { ops: (0..adapted.ops.len() as u32).collect(), starts: Vec::new(), accesses: Accesses::of(adapted) }
+        Runs { ops: Vec::new(), starts: Vec::new(), accesses: Accesses::of(adapted) }
     }
 
     /// Draws that may share a scope in one run.
@@ -55,12 +56,17 @@ impl Runs {
     }
 
     pub(super) fn len(&self) -> u32 {
-        if self.starts.is_empty() { self.ops.len() as u32 } else { self.starts.len() as u32 - 1 }
+        if self.starts.is_empty() { self.accesses.ops() } else { self.starts.len() as u32 - 1 }
     }
 
     /// Number of subresources.
     pub(super) fn subresources(&self) -> usize {
         self.accesses.subresources
+    }
+
+    /// Whether any of them has an effect that nothing shows.
+    pub(super) fn has_effects(&self) -> bool {
+        self.accesses.has_effects
     }
 
     /// The first place of one run, and the place behind its last one.
@@ -91,7 +97,7 @@ impl Runs {
 
     /// The operations of all runs.
     pub(super) fn into_operations(self) -> Vec<u32> {
-        self.ops
+        if self.starts.is_empty() { (0..self.len()).collect() } else { self.ops }
     }
 
     /// The operations of all runs, in the given order of runs.

@@ -6,7 +6,16 @@ use crate::frame::{Image, Resource, TransferUse, Work};
 use crate::vulkan::Subresources;
 
 impl Check<'_> {
+    #[inline]
     pub(super) fn transfers(&mut self) {
+        let is_transfer = matches!(self.pass.work, Work::Copy | Work::Blit { .. } | Work::Fill { .. });
+        if is_transfer || !self.pass.transfers.is_empty() {
+            self.sides();
+        }
+    }
+
+    /// The sides of a transfer, and those of a pass that has them without being one.
+    fn sides(&mut self) {
         let pass = self.pass;
         match (&pass.work, &pass.transfers[..]) {
             (Work::Copy, [source, target]) if !source.write && target.write => self.copy(source, target),
@@ -22,7 +31,7 @@ impl Check<'_> {
                 }
             }
             (Work::Fill { .. }, _) => self.wrong(pass.span, "fills one image or buffer"),
-            (Work::Custom { .. }, _) | (_, []) => {}
+            (Work::Custom { .. }, _) => {}
             _ => self.wrong(pass.span, "transfers and is no copy, blit, fill or custom pass"),
         }
     }
