@@ -41,12 +41,12 @@ pub(in crate::compile) fn emit(
 pub(in crate::compile) fn steps(results: &StageResults<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = results.sync;
     let mut barriers = StepBarriers::new(results);
-    let mut steps = Vec::with_capacity(*count as usize);
-    for number in 0..*count {
+    let step = |number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
         let (queue, waits) = (queues.queue(number), queues.waits(number));
-        steps.push(Step { queue, waits, memory_barriers, image_barriers, work: Work::Export, releases: Vec::new() });
-    }
+        Step { queue, waits, memory_barriers, image_barriers, work: Work::Export, releases: Vec::new() }
+    };
+    let mut steps: Vec<Step> = (0..*count).map(step).collect();
     for Transfer { from, release, to, acquire } in ownership::transfers(results) {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);

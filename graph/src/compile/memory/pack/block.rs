@@ -55,7 +55,7 @@ pub(super) fn peak(changes: &[Change]) -> Peak {
 
 /// Steps up to the last one that a block needs.
 pub(super) fn steps(blocks: &[Block]) -> usize {
-    blocks.iter().map(|block| block.last as usize + 1).max().unwrap_or(0)
+    blocks.iter().fold(0, |steps, block| steps.max(block.last + 1)) as usize
 }
 
 /// The first aligned offset from `offset` on.

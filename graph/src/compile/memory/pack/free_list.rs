@@ -23,7 +23,8 @@ struct Range {
     /// The neighbours by offset.
     below: u32,
     above: u32,
-    /// The neighbours in a list of free ranges. Of one that is allocated `next` is another that is freed together with it.
+    /// The neighbours in a list of free ranges. Of one that is allocated `next` is another that is freed together with it, of one
+    /// that was joined to another the one that was joined before.
     previous: u32,
     next: u32,
 }
@@ -44,8 +45,8 @@ pub(super) enum End {
 /// Ranges of memory, allocated and free.
 pub(super) struct FreeList {
     ranges: Vec<Range>,
-    /// Ranges that were joined to others: their indices serve for new ones.
-    joined: Vec<u32>,
+    /// The last range that was joined to another: its index serves for a new one.
+    joined: u32,
     /// The highest range.
     top: u32,
     /// A free range in no list that was never allocated. It is allocated before those in lists.
@@ -64,11 +65,13 @@ impl FreeList {
     /// Free memory of that many bytes, at least 1, which grows where it has to.
     ///
     /// Memory that was never allocated goes first, then the range that was freed first. Free neighbours stay apart as long as
-    /// free ranges fit.
-    pub(super) fn spread(bytes: u64) -> FreeList {
+    /// free ranges fit. There is room for the ranges of that many allocations.
+    pub(super) fn spread(bytes: u64, allocations: usize) -> FreeList {
+        let mut ranges = Vec::with_capacity(allocations + 2);
+        ranges.push(Range { offset: 0, bytes, below: NONE, above: NONE, previous: TAKEN, next: NONE });
         FreeList {
-            ranges: vec![Range { offset: 0, bytes, below: NONE, above: NONE, previous: TAKEN, next: NONE }],
-            joined: Vec::new(),
+            ranges,
+            joined: NONE,
             top: 0,
             fresh: 0,
             apart: true,
@@ -80,15 +83,10 @@ impl FreeList {
     }
 
     /// Free memory of that many bytes, at least 1, which grows where it has to. Small free ranges are allocated first.
-    pub(super) fn tight(bytes: u64) -> FreeList {
-        let mut memory = FreeList::spread(bytes);
+    pub(super) fn tight(bytes: u64, allocations: usize) -> FreeList {
+        let mut memory = FreeList::spread(bytes, allocations);
         memory.join_all();
         memory
-    }
-
-    /// Makes room for the ranges of that many allocations.
-    pub(super) fn reserve(&mut self, allocations: usize) {
-        self.ranges.reserve_exact(allocations + 1);
     }
 
     /// Where a range begins.
@@ -147,14 +145,14 @@ impl FreeList {
             self.ranges[at as usize].offset = joined.offset;
             self.ranges[at as usize].bytes += joined.bytes;
             self.link(joined.below, at);
-            self.joined.push(below);
+            self.free_index(below);
         }
         if self.is_free(above) {
             self.unlist(above);
             let joined = self.ranges[above as usize];
             self.ranges[at as usize].bytes += joined.bytes;
             self.link(at, joined.above);
-            self.joined.push(above);
+            self.free_index(above);
         }
     }
 
@@ -266,16 +264,18 @@ impl FreeList {
     }
 
     fn push(&mut self, range: Range) -> u32 {
-        match self.joined.pop() {
-            Some(at) => {
-                self.ranges[at as usize] = range;
-                at
-            }
-            None => {
-                self.ranges.push(range);
-                self.ranges.len() as u32 - 1
-            }
+        let at = self.joined;
+        if at == NONE {
+            self.ranges.push(range);
+            return self.ranges.len() as u32 - 1;
         }
+        self.joined = std::mem::replace(&mut self.ranges[at as usize], range).next;
+        at
+    }
+
+    /// Lets the index of a range that was joined to another serve for a new one.
+    fn free_index(&mut self, at: u32) {
+        self.ranges[at as usize].next = std::mem::replace(&mut self.joined, at);
     }
 
     /// Makes two ranges neighbours by offset.

@@ -31,11 +31,11 @@ impl Measured<'_> {
     pub(in crate::compile::memory) fn pack(&self) -> Packing {
         let Measured { blocks, peak, .. } = *self;
         let bound = peak.bytes;
-        let spread = sweep::sweep(blocks, peak, &mut FreeList::spread(bound.max(1)));
+        let spread = sweep::sweep(self, &mut FreeList::spread(bound.max(1), blocks.len()));
         if spread.height <= bound {
             return spread;
         }
-        let tight = sweep::sweep(blocks, peak, &mut FreeList::tight(bound.max(1)));
+        let tight = sweep::sweep(self, &mut FreeList::tight(bound.max(1), blocks.len()));
         if tight.height <= bound { tight } else { search::search(blocks, bound, tight) }
     }
 }

@@ -1,15 +1,15 @@
 //! One walk through time: each block takes a free range that fits, or grows the top.
 
-use super::block::{Block, Packing, Peak, steps};
+use super::block::Packing;
 use super::free_list::{End, FreeList, NONE};
+use super::measured::Measured;
 use std::cmp::Reverse;
 
 /// Packs the blocks in the order of their first steps, of one step the largest first.
 ///
 /// Blocks that end before the step of the live peak go to the high ends of free ranges. So those that are alive at the peak
 /// lie close together at the low ends, with no free range between them at the step where memory is scarcest.
-pub(super) fn sweep(blocks: &[Block], peak: Peak, memory: &mut FreeList) -> Packing {
-    memory.reserve(blocks.len());
+pub(super) fn sweep(Measured { blocks, changes, peak }: &Measured<'_>, memory: &mut FreeList) -> Packing {
     let mut packing = Packing { offsets: vec![0; blocks.len()], height: 0 };
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
     let first = |at: u32| blocks[at as usize].first;
@@ -22,7 +22,7 @@ pub(super) fn sweep(blocks: &[Block], peak: Peak, memory: &mut FreeList) -> Pack
         }
     }
     // For each step the ranges of the blocks that end there.
-    let mut ended = vec![NONE; steps(blocks)];
+    let mut ended = vec![NONE; changes.len()];
     let mut step = 0;
     for at in order {
         let block = &blocks[at as usize];

@@ -130,7 +130,7 @@ fn one_walk_leaves_no_gap_among_the_blocks_of_the_peak() {
     // The second dies before the peak; the third, beside it, lives on into it.
     let blocks = [block(0, 3, 64, 1), block(1, 2, 2, 1), block(2, 3, 2, 1), block(3, 4, 16, 1)];
     assert_eq!(live_peak(&blocks), 82);
-    assert_eq!(sweep(&blocks, Measured::of(&blocks).peak, &mut FreeList::tight(82)).height, 82);
+    assert_eq!(sweep(&Measured::of(&blocks), &mut FreeList::tight(82, blocks.len())).height, 82);
 }
 
 #[test]
