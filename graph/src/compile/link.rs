@@ -1,5 +1,5 @@
 //! `link`: follows the contents of each part through the passes. Checks that earlier passes wrote all that is read, and finds
-//! out whether each pass wrote anything that is needed later.
+//! out what is kept and whether all passes are needed.
 //!
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
@@ -8,12 +8,12 @@ use crate::base::Diagnostic;
 use crate::frame::{Access, BufferIndex, Frame, ImageIndex, Lifetime, Pass, Resource};
 use std::ops::Range;
 
-/// How passes depend on each other.
+/// What a frame leaves, and whether any pass can be culled.
 #[derive(Debug)]
 pub(super) struct Linked {
     /// The parts that are needed when the frame is done.
     pub(super) kept: Vec<Range<usize>>,
-    /// Whether each pass has a side effect, or wrote something that a later pass reads or that is kept.
+    /// Whether no pass can be culled.
     pub(super) all_are_needed: bool,
 }
 
@@ -59,8 +59,8 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
     for writer in kept.iter().flat_map(|parts| &writers[parts.clone()]).filter(|writer| **writer != NOTHING) {
         needed[*writer as usize] = true;
     }
-    // What a pass reads counts even if nothing needs the pass. But the last pass that nothing needs is always found, since all
-    // passes behind it are needed.
+    // A read counts here even if its pass is culled itself, so passes may seem needed that are not. Yet whether all are needed
+    // is exact: of the passes to be culled, no pass reads what the last one wrote, since all passes behind it stay.
     let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
     Ok(Linked { kept, all_are_needed })
 }
@@ -74,7 +74,7 @@ struct Linker<'l> {
     parts: &'l Parts<'l>,
     /// The last pass that wrote each part, counted from 1; [`NOTHING`], [`BEFORE`].
     writers: Vec<u32>,
-    /// Whether each pass, counted from 1, wrote what a later one reads.
+    /// Whether each pass, counted from 1, wrote what a later one reads; the entry before them stands for contents from before.
     needed: Vec<bool>,
     /// The parts that the current pass writes.
     written: Vec<u32>,

@@ -45,7 +45,10 @@ pub(super) struct Adapter<'a> {
     pub(super) errors: Vec<Diagnostic>,
     /// Where the uses of the current pass begin, behind those of all operations so far.
     pub(super) first_use: usize,
-    /// Whether the current pass samples what it also draws into or stores.
+    /// The uses of the current pass, if an operation was added before it that came behind some of them; else they stand behind
+    /// those of the operations.
+    held_uses: Vec<Use>,
+    /// Whether the current pass samples an image that it also draws into or stores.
     pub(super) feeds_back: bool,
     /// Images that the current pass reads and writes: each one, and the copy that it reads.
     pub(super) copies: Vec<(PhysicalIndex, PhysicalIndex)>,
@@ -86,6 +89,7 @@ impl<'a> Adapter<'a> {
             notes: Vec::new(),
             errors: Vec::new(),
             first_use: 0,
+            held_uses: Vec::new(),
             feeds_back: false,
             copies: Vec::new(),
         }
@@ -95,29 +99,38 @@ impl<'a> Adapter<'a> {
     #[inline]
     pub(super) fn add_use(&mut self, used: Use) {
         let used = self.of_parts(used);
-        self.adapted.uses.push(used);
+        if self.held_uses.is_empty() { self.adapted.uses.push(used) } else { self.held_uses.push(used) }
+    }
+
+    /// The uses of the current pass so far.
+    pub(super) fn uses_of_pass(&self) -> &[Use] {
+        if self.held_uses.is_empty() { &self.adapted.uses[self.first_use..] } else { &self.held_uses }
     }
 
     /// Adds the current pass as an operation.
     pub(super) fn push_pass(&mut self, kind: OpKind, side_effect: bool) {
-        self.push_op(kind, self.adapted.uses.len(), side_effect);
+        self.adapted.uses.append(&mut self.held_uses);
+        self.push_op(kind, side_effect);
     }
 
-    /// Adds an operation before the current pass.
+    /// Adds an operation behind all others: before the current pass, if that has uses already.
     pub(super) fn push(&mut self, kind: OpKind, uses: &[Use]) {
-        let (start, end) = (self.first_use, self.first_use + uses.len());
-        let uses: Vec<Use> = uses.iter().map(|used| self.of_parts(*used)).collect();
-        self.adapted.uses.splice(start..start, uses);
-        self.push_op(kind, end, false);
+        self.held_uses.extend(self.adapted.uses.drain(self.first_use..));
+        for used in uses {
+            let used = self.of_parts(*used);
+            self.adapted.uses.push(used);
+        }
+        self.push_op(kind, false);
     }
 
     fn of_parts(&self, used: Use) -> Use {
         Use { subresource: self.versions[used.resource as usize].subresource, ..used }
     }
 
-    /// Adds an operation with the uses behind those of all others, up to `end`.
+    /// Makes the uses that stand behind those of all operations the uses of another one.
     #[inline]
-    fn push_op(&mut self, kind: OpKind, end: usize, side_effect: bool) {
+    fn push_op(&mut self, kind: OpKind, side_effect: bool) {
+        let end = self.adapted.uses.len();
         let start = std::mem::replace(&mut self.first_use, end);
         if self.input.negotiated.multisampled {
             self.note_writers(start..end, kind.draws());

@@ -28,7 +28,7 @@ impl Adapter<'_> {
         self.copies.clear();
         let samples =
             |image: ImageIndex| pass.sampled.iter().any(|sampled| sampled.image == image && sampled.frames_ago == 0);
-        self.feeds_back = pass.storage.iter().any(|storage| samples(storage.image))
+        self.feeds_back = pass.storage.iter().any(|storage| storage.write && samples(storage.image))
             || pass.color.iter().any(|target| samples(target.image));
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(resource) = self.sampled(number, pass, sampled) {
@@ -82,7 +82,7 @@ impl Adapter<'_> {
                 self.add_use(access::transfer(&pass.work, used, entry, resource, range));
             }
         }
-        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &self.adapted.uses[self.first_use..]) {
+        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, self.uses_of_pass()) {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
             self.note(&pass.name, text, pass.span);
         }
@@ -97,7 +97,7 @@ impl Adapter<'_> {
         if sampled.frames_ago == 0 && sampled.face != Face::Samples && self.samples(before) == 1 {
             return Some(self.sampled_as_it_is(number, pass, sampled, before));
         }
-        self.sampled_otherwise(number, pass, sampled, before)
+        self.sampled_earlier_or_resolved(number, pass, sampled, before)
     }
 
     /// The image that it reads if that has one sample, whose current version `before` holds.
@@ -122,7 +122,7 @@ impl Adapter<'_> {
     }
 
     /// The image that it reads of an earlier frame, or where samples are to be read or resolved.
-    fn sampled_otherwise(
+    fn sampled_earlier_or_resolved(
         &mut self,
         number: u32,
         pass: &Pass,

@@ -16,11 +16,11 @@ impl Adapter<'_> {
         sampled: &Sampled,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
-        if self.feeds_back { self.version_of_written(number, pass, sampled, before) } else { before }
+        if self.feeds_back { self.version_before_feedback(number, pass, sampled, before) } else { before }
     }
 
-    /// The same where the pass writes something that it samples.
-    fn version_of_written(
+    /// The version that a pass reads that also writes something that it samples.
+    fn version_before_feedback(
         &mut self,
         number: u32,
         pass: &Pass,
@@ -101,7 +101,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// The same where the pass samples something that it also writes.
+    /// The physical image that a pass writes that also samples something that it writes.
     fn target_beside_source(
         &mut self,
         number: u32,

@@ -12,7 +12,7 @@ use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
 
-/// The Plan, with the steps that `steps` made, and the images and buffers that `resources` made.
+/// The Plan, with the steps that `steps` and `put_in_work` made, and the images and buffers that `resources` made.
 pub(in crate::compile) fn emit(
     results: &StageResults<'_>,
     (steps, totals): (Vec<Step>, Totals),
@@ -56,8 +56,8 @@ pub(in crate::compile) fn steps(results: &StageResults<'_>) -> Vec<Step> {
 
 /// Puts the work of each step in. Returns what the steps alone tell of the Plan's totals.
 ///
-/// Works in the frame's order. What a step is made of lies close together then: only steps that run in another order lie apart,
-/// and these are written, which nothing waits for.
+/// Works in the frame's order: passes, operations and uses are then read one after the other. Only the steps, which are written,
+/// may lie apart.
 pub(in crate::compile) fn put_in_work(results: &StageResults<'_>, steps: &mut [Step]) -> Totals {
     let scoped = &results.scoped.steps;
     // For each operation the step that it is the first one of.
@@ -71,7 +71,7 @@ pub(in crate::compile) fn put_in_work(results: &StageResults<'_>, steps: &mut [S
         steps[number as usize].work = match &scoped[number as usize] {
             Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(results, scope, number))),
             Grouped::Single(op) => passes::single(results, *op),
-            Grouped::BarriersOnly => Work::Export,
+            Grouped::BarriersOnly => continue,
         };
     }
     Totals::count(steps)

@@ -21,9 +21,10 @@ impl Intervals {
     /// than `live_peak` is alive; `None` if the live peak alone allows as few intervals.
     ///
     /// `waits`: for each step one more than the last step that the accesses of this one wait for. `changes`: those of all blocks
-    /// together. An interval ends before the
-    /// first step that waits for a step in it, or with which it would take too much memory. Each interval reaches as far as it
-    /// can, which gives the fewest.
+    /// together.
+    ///
+    /// An interval ends before the first step that waits for a step in it, or with which it would take too much memory. Each
+    /// interval reaches as far as it can, which gives the fewest.
     pub(super) fn of(waits: &[u32], changes: &[Change], live_peak: u64) -> Option<Intervals> {
         let most_bytes = live_peak + live_peak / SHARE;
         let (mut tight, mut wide) = (Walk::new(live_peak), Walk::new(most_bytes));

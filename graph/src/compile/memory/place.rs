@@ -138,7 +138,7 @@ pub(in crate::compile) fn place(
             lifetime: [StepId(*first), StepId(*last)],
         }));
     }
-    // The offsets and the height of any packing stay below this sum, so none of them overflows.
+    // The offsets and the height of any packing stay below twice this sum, so none of them overflows.
     let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
@@ -234,9 +234,9 @@ fn choose_heap(
 fn side_by_side(blocks: &[Block]) -> Packing {
     let mut packing = Packing { offsets: Vec::with_capacity(blocks.len()), height: 0 };
     for block in blocks {
-        let offset = packing.height.checked_next_multiple_of(block.alignment.max(1)).unwrap_or(u64::MAX);
+        let offset = packing.height.next_multiple_of(block.alignment.max(1));
         packing.offsets.push(offset);
-        packing.height = offset.saturating_add(block.bytes);
+        packing.height = offset + block.bytes;
     }
     packing
 }

@@ -133,8 +133,8 @@ impl Completing<'_> {
         }
     }
 
-    /// Whether the barriers of a resource that takes over memory cover the memory itself: a buffer's do, an image's only the
-    /// image.
+    /// Whether the barriers of a resource that takes over memory cover the memory itself. A buffer's barriers do; an image's
+    /// cover only the image.
     fn covers(&self, AliasEdge { resource, from, .. }: &AliasEdge) -> bool {
         resource == from || !self.plain && self.adapted.resources[*resource as usize].image().is_none()
     }
@@ -181,8 +181,8 @@ fn come_after(barrier: &mut SubresourceBarrier, last: u32, edge: &AliasEdge) {
     }
 }
 
-/// Lets barrier number `number` wait for a last access on its own queue, which wrote to memory that it takes over. Returns the
-/// write that a memory barrier has to name, where the barrier doesn't cover the memory.
+/// Lets barrier number `number` wait for a last access, on its own queue, to the memory that is taken over. Returns the write
+/// that a memory barrier has to name, if there is one: where the access wrote and the barrier doesn't cover the memory.
 #[inline]
 fn wait_for(
     barrier: &mut SubresourceBarrier,

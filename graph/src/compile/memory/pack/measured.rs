@@ -13,7 +13,7 @@ pub(in crate::compile::memory) struct Measured<'b> {
 }
 
 impl Measured<'_> {
-    /// The bytes and alignments of all blocks together must be less than a number holds.
+    /// The bytes and alignments of all blocks together must be at most `i64::MAX`: a packing takes at most twice as much.
     pub(in crate::compile::memory) fn of(blocks: &[Block]) -> Measured<'_> {
         let changes = changes(blocks);
         Measured { peak: peak(&changes), changes, blocks }
