@@ -21,6 +21,7 @@ pub(super) fn live(frame: &Frame) -> Result<(Grids, Live), Vec<Diagnostic>> {
     let grids = Grids::new(frame);
     let parts = Parts::new(frame, &grids);
     let linked = link::link(frame, &parts)?;
+    debug_assert_eq!(linked.all_are_needed, cull(frame, &parts, &linked).culled.is_empty());
     let live = match linked.all_are_needed {
         true => Live { passes: (0..frame.passes.len() as u32).collect(), culled: Vec::new() },
         false => cull(frame, &parts, &linked),

@@ -60,7 +60,7 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
         needed[*writer as usize] = true;
     }
     // A read counts here even if its pass is culled itself, so passes may seem needed that are not. Yet whether all are needed
-    // is exact: of the passes to be culled, no pass reads what the last one wrote, since all passes behind it stay.
+    // is exact. Take the last pass that is culled: all passes behind it stay, so if one of them read its writes, it would stay too.
     let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
     Ok(Linked { kept, all_are_needed })
 }

@@ -43,12 +43,13 @@ pub(super) struct Adapter<'a> {
     pub(super) adapted: Adapted,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
-    /// Where the uses of the current pass begin, behind those of all operations so far.
+    /// Behind the uses of all operations so far.
     pub(super) first_use: usize,
-    /// The uses of the current pass, if an operation was added before it that came behind some of them; else they stand behind
-    /// those of the operations.
+    /// The uses of the current pass, if an operation was inserted after it had some; else empty, and they are
+    /// `adapted.uses[first_use..]`.
     held_uses: Vec<Use>,
-    /// Whether the current pass samples an image that it also draws into or stores.
+    /// Whether the current pass samples an image that is also its colour target or storage image that it writes. Depth that it
+    /// samples and writes is refused.
     pub(super) feeds_back: bool,
     /// Images that the current pass reads and writes: each one, and the copy that it reads.
     pub(super) copies: Vec<(PhysicalIndex, PhysicalIndex)>,
@@ -113,7 +114,7 @@ impl<'a> Adapter<'a> {
         self.push_op(kind, side_effect);
     }
 
-    /// Adds an operation behind all others: before the current pass, if that has uses already.
+    /// Inserts an operation before the current pass, behind all operations so far.
     pub(super) fn push(&mut self, kind: OpKind, uses: &[Use]) {
         self.held_uses.extend(self.adapted.uses.drain(self.first_use..));
         for used in uses {
@@ -127,7 +128,7 @@ impl<'a> Adapter<'a> {
         Use { subresource: self.versions[used.resource as usize].subresource, ..used }
     }
 
-    /// Makes the uses that stand behind those of all operations the uses of another one.
+    /// Adds an operation that has all uses from `first_use` on.
     #[inline]
     fn push_op(&mut self, kind: OpKind, side_effect: bool) {
         let end = self.adapted.uses.len();
@@ -138,7 +139,7 @@ impl<'a> Adapter<'a> {
         self.adapted.ops.push(Op { kind, uses: start as u32..end as u32, side_effect });
     }
 
-    /// Notes what wrote multisampled images, which may be resolved, with the uses `uses`.
+    /// Notes that these uses wrote images. Multisampled ones may be resolved.
     #[inline(never)]
     fn note_writers(&mut self, uses: Range<usize>, draws: bool) {
         for at in uses {

@@ -19,7 +19,7 @@ impl Adapter<'_> {
         if self.feeds_back { self.version_before_feedback(number, pass, sampled, before) } else { before }
     }
 
-    /// The version that a pass reads that also writes something that it samples.
+    /// As `version_before`, for a pass that feeds back.
     fn version_before_feedback(
         &mut self,
         number: u32,
@@ -101,7 +101,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// The physical image that a pass writes that also samples something that it writes.
+    /// As `target`, for a pass that feeds back.
     fn target_beside_source(
         &mut self,
         number: u32,

@@ -71,6 +71,7 @@ pub(in crate::compile) fn put_in_work(results: &StageResults<'_>, steps: &mut [S
         steps[number as usize].work = match &scoped[number as usize] {
             Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(results, scope, number))),
             Grouped::Single(op) => passes::single(results, *op),
+            // It has no operation to be found by.
             Grouped::BarriersOnly => continue,
         };
     }

@@ -127,7 +127,7 @@ impl Aliasing {
         let Some([first_piece, end_piece]) = self.heaps.last().copied() else { return };
         let mut owners = vec![NEVER; (end_piece - first_piece) as usize];
         let mut from_frame_before: Vec<(PhysicalIndex, u32)> = Vec::with_capacity(owners.len());
-        let mut known: Vec<PhysicalIndex> = Vec::with_capacity(owners.len());
+        let mut known: Vec<PhysicalIndex> = Vec::with_capacity(8);
         let is_here = |resource: &&PhysicalIndex| {
             placed.placements[**resource as usize].as_ref().is_some_and(|it| it.heap == heap)
         };

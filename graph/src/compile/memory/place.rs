@@ -138,7 +138,8 @@ pub(in crate::compile) fn place(
             lifetime: [StepId(*first), StepId(*last)],
         }));
     }
-    // The offsets and the height of any packing stay below twice this sum, so none of them overflows.
+    // A packing begins with the live peak and grows by each block once at most. So its offsets and its height stay below twice this
+    // sum, and none of them overflows.
     let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();

@@ -8,7 +8,7 @@ use crate::vulkan::Layout;
 pub(super) struct Access {
     pub(super) subresource: SubresourceIndex,
     /// The image or buffer of a use, named by the first of its accesses. The others, and effects that nothing shows, name
-    /// one behind all of them, which has no bytes.
+    /// [`Accesses::no_resource`].
     pub(super) resource: PhysicalIndex,
     pub(super) writes: bool,
     pub(super) layout: Layout,
@@ -22,9 +22,11 @@ pub(super) struct Accesses {
     list: Vec<Access>,
     /// For each operation where its accesses begin, and where those of the last one end.
     starts: Vec<u32>,
-    /// Number of subresources.
+    /// Number of subresources, with one behind all of them that effects write.
     pub(super) subresources: usize,
-    /// Whether any of them is an effect that nothing shows.
+    /// Stands for no resource. It is one behind all of them, and has no bytes.
+    pub(super) no_resource: PhysicalIndex,
+    /// Whether any access is an effect that nothing shows.
     pub(super) has_effects: bool,
 }
 
@@ -34,7 +36,7 @@ impl Accesses {
         if adapted.is_uncut() && !has_effects {
             return Accesses::of_uses(adapted);
         }
-        let no_resource = adapted.resources.len() as u32;
+        let no_resource = adapted.resources.len() as PhysicalIndex;
         let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
         let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
         for op in &adapted.ops {
@@ -54,7 +56,7 @@ impl Accesses {
             }
         }
         starts.push(list.len() as u32);
-        Accesses { list, starts, subresources: adapted.subresources as usize + 1, has_effects }
+        Accesses { list, starts, subresources: adapted.subresources as usize + 1, no_resource, has_effects }
     }
 
     /// Those of operations each of whose uses is one access, as they mostly are.
@@ -68,6 +70,7 @@ impl Accesses {
             list: adapted.uses.iter().map(access).collect(),
             starts: starts.collect(),
             subresources: adapted.subresources as usize + 1,
+            no_resource: adapted.resources.len() as PhysicalIndex,
             has_effects: false,
         }
     }

@@ -36,7 +36,7 @@ impl<'a> Greedy<'a> {
         }
         uses.sort_unstable();
         uses.dedup();
-        let users = lists(&uses, memory.resources() as u32);
+        let users = lists(&uses, runs.resources() as u32);
         uses.iter_mut().for_each(|(resource, run)| std::mem::swap(resource, run));
         let resources = lists(&uses, runs.len());
         let backwards = forwards.reversed();
@@ -56,7 +56,7 @@ impl<'a> Greedy<'a> {
             };
             orders.push(order.clone());
         }
-        let peak = |order: &Vec<u32>| self.memory.peak(&Lifetimes::of(self.runs, order, self.memory.resources()));
+        let peak = |order: &Vec<u32>| self.memory.peak(&Lifetimes::of(self.runs, order));
         orders.into_iter().min_by_key(peak).unwrap_or_default()
     }
 
@@ -72,8 +72,8 @@ impl<'a> Greedy<'a> {
             heap: BinaryHeap::new(),
         };
         // For each resource how many runs are still to use it, and the sum of their numbers: of one, it is its number.
-        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.memory.resources());
-        for resource in 0..self.memory.resources() as u32 {
+        let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.runs.resources());
+        for resource in 0..self.runs.resources() as u32 {
             let (users, bytes) = (of(&self.users, resource), i128::from(self.memory.bytes(resource)));
             users.iter().for_each(|user| queue.costs[*user as usize] += bytes);
             if let [user] = users {

@@ -16,10 +16,10 @@ pub(super) struct Levels {
     lifetimes: Lifetimes,
 }
 
-/// The least level of each run; `None` if there is no level with more than one. `resources`: how many accesses may name.
-pub(super) fn levels(runs: &Runs, resources: usize) -> Option<Levels> {
+/// The least level of each run; `None` if there is no level with more than one.
+pub(super) fn levels(runs: &Runs) -> Option<Levels> {
     let mut upwards = Walk::new(runs);
-    let mut lifetimes = Lifetimes::unused(resources, runs.len());
+    let mut lifetimes = Lifetimes::unused(runs.resources(), runs.len());
     let mut least: Vec<u32> = Vec::with_capacity(runs.len() as usize);
     let mut top = 0;
     for run in 0..runs.len() {
@@ -47,7 +47,7 @@ pub(super) fn by_level(
     let Levels { least: mut keys, top, lifetimes } = levels;
     let mut downwards = Walk::new(runs);
     let known = |resource| Known { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
-    let mut known: Vec<Known> = (0..memory.resources() as u32).map(known).collect();
+    let mut known: Vec<Known> = (0..runs.resources() as u32).map(known).collect();
     for (run, key) in (0..runs.len()).zip(&mut keys).rev() {
         let lowest = *key;
         let accesses = runs.accesses(run);
@@ -67,7 +67,8 @@ pub(super) fn by_level(
         }
         let decision = sums.decide(may_rise);
         if let Some(weighed) = &mut weighed {
-            for Access { resource, .. } in accesses.iter().copied() {
+            let used = accesses.iter().map(|access| access.resource);
+            for resource in used.filter(|resource| *resource != runs.no_resource()) {
                 let it = &known[resource as usize];
                 let (begun, ended, held) = (it.first == run, it.end <= lowest + 1, held(it));
                 weighed.weigh(Weight { resource, begun, ended, held });

@@ -6,7 +6,7 @@ use crate::compile::model::{Adapted, Kind, PhysicalIndex};
 /// Bytes of each resource in shared memory, counted in texels: the device's alignment and padding are not known here.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// And of the one behind all of them, which has none.
+    /// The last entry, 0, is that of the resource that stands for none.
     bytes: Vec<u64>,
     /// The bytes of all of them together; `None` if these are more than can be addressed.
     total: Option<u64>,
@@ -28,8 +28,8 @@ impl Lifetimes {
     }
 
     /// In an order of runs.
-    pub(super) fn of(runs: &Runs, order: &[u32], resources: usize) -> Lifetimes {
-        let mut lifetimes = Lifetimes::unused(resources, order.len() as u32);
+    pub(super) fn of(runs: &Runs, order: &[u32]) -> Lifetimes {
+        let mut lifetimes = Lifetimes::unused(runs.resources(), order.len() as u32);
         for (run, place) in order.iter().zip(0_u32..) {
             runs.accesses(*run).iter().for_each(|access| lifetimes.use_at(access.resource, place));
         }
@@ -72,11 +72,6 @@ impl Memory {
         }
         bytes.push(0);
         Memory { bytes, total }
-    }
-
-    /// Number of resources that accesses may name.
-    pub(super) fn resources(&self) -> usize {
-        self.bytes.len()
     }
 
     /// Bytes of one resource, 0 if it has memory of its own.

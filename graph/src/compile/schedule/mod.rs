@@ -76,13 +76,13 @@ impl Scheduled {
 
 /// The runs in the order that scores best; `None`: as they are.
 fn scored(adapted: &Adapted, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
-    let levels = levels::levels(runs, adapted.resources.len() + 1)?;
+    let levels = levels::levels(runs)?;
     let memory = Memory::of(adapted);
     let (order, in_file) = levels::by_level(runs, levels, &memory, keep.as_deref_mut());
     if order.iter().zip(0..).all(|(run, place)| *run == place) {
         return None;
     }
-    let in_levels = Lifetimes::of(runs, &order, memory.resources());
+    let in_levels = Lifetimes::of(runs, &order);
     let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
         weighed.took(in_file, in_levels, takes_levels);

@@ -1,7 +1,7 @@
 //! Draws that may share a rendering scope are brought together, and from then on stay together.
 
 use super::accesses::{Access, Accesses};
-use crate::compile::model::{Adapted, InitialContents, Role, Use};
+use crate::compile::model::{Adapted, InitialContents, PhysicalIndex, Role, Use};
 use crate::vulkan::Layout;
 
 /// No run.
@@ -10,7 +10,7 @@ const NONE: u32 = u32::MAX;
 /// Operations in an order that is valid, in runs: draws into the same attachments, or one operation.
 #[derive(Debug)]
 pub(super) struct Runs {
-    /// Empty, as `starts` is, if each run is one operation and they stand in the frame's order.
+    /// Empty, as `starts` is, if the runs were made by [`Runs::of_one`].
     ops: Vec<u32>,
     /// For each run its first place in `ops`, and where the last one ends.
     starts: Vec<u32>,
@@ -62,6 +62,16 @@ impl Runs {
     /// Number of subresources.
     pub(super) fn subresources(&self) -> usize {
         self.accesses.subresources
+    }
+
+    /// The resource that accesses name which begin no use.
+    pub(super) fn no_resource(&self) -> PhysicalIndex {
+        self.accesses.no_resource
+    }
+
+    /// Number of resources that accesses name, with the one that stands for none.
+    pub(super) fn resources(&self) -> usize {
+        self.no_resource() as usize + 1
     }
 
     /// Whether any of them has an effect that nothing shows.

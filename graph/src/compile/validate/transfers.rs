@@ -10,12 +10,12 @@ impl Check<'_> {
     pub(super) fn transfers(&mut self) {
         let is_transfer = matches!(self.pass.work, Work::Copy | Work::Blit { .. } | Work::Fill { .. });
         if is_transfer || !self.pass.transfers.is_empty() {
-            self.sides();
+            self.check_sides();
         }
     }
 
-    /// The sides of a transfer, and those of a pass that has them without being one.
-    fn sides(&mut self) {
+    /// Checks both sides of a transfer, and refuses them in passes that are none.
+    fn check_sides(&mut self) {
         let pass = self.pass;
         match (&pass.work, &pass.transfers[..]) {
             (Work::Copy, [source, target]) if !source.write && target.write => self.copy(source, target),

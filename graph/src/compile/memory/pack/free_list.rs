@@ -12,7 +12,7 @@ const FINE_BITS: u32 = 3;
 const LOOKED_AT: usize = 16;
 /// No range; an empty list.
 pub(super) const NONE: u32 = u32::MAX;
-/// Marks a range that is allocated, and so in no list.
+/// Marks a range that is in no list of free ranges: allocated, fresh, or joined to another.
 const TAKEN: u32 = u32::MAX - 1;
 
 /// One piece of memory.
@@ -23,9 +23,9 @@ struct Range {
     /// The neighbours by offset.
     below: u32,
     above: u32,
-    /// The neighbours in a list of free ranges. Of one that is allocated `next` is another that is freed together with it, of one
-    /// that was joined to another the one that was joined before.
+    /// The neighbour in a list of free ranges, or [`TAKEN`].
     previous: u32,
+    /// The other neighbour. Allocated: the next range that is freed with it. Joined to another: the next unused index.
     next: u32,
 }
 
@@ -45,8 +45,8 @@ pub(super) enum End {
 /// Ranges of memory, allocated and free.
 pub(super) struct FreeList {
     ranges: Vec<Range>,
-    /// The last range that was joined to another: its index serves for a new one.
-    joined: u32,
+    /// The first unused index: that of the last range that was joined to another.
+    unused: u32,
     /// The highest range.
     top: u32,
     /// A free range in no list that was never allocated. It is allocated before those in lists.
@@ -65,13 +65,14 @@ impl FreeList {
     /// Free memory of that many bytes, at least 1, which grows where it has to.
     ///
     /// Memory that was never allocated goes first, then the range that was freed first. Free neighbours stay apart as long as
-    /// free ranges fit. There is room for the ranges of that many allocations.
+    /// free ranges fit. Reserves one range for each of that many allocations; more may be
+    /// needed.
     pub(super) fn spread(bytes: u64, allocations: usize) -> FreeList {
         let mut ranges = Vec::with_capacity(allocations + 2);
         ranges.push(Range { offset: 0, bytes, below: NONE, above: NONE, previous: TAKEN, next: NONE });
         FreeList {
             ranges,
-            joined: NONE,
+            unused: NONE,
             top: 0,
             fresh: 0,
             apart: true,
@@ -145,14 +146,14 @@ impl FreeList {
             self.ranges[at as usize].offset = joined.offset;
             self.ranges[at as usize].bytes += joined.bytes;
             self.link(joined.below, at);
-            self.free_index(below);
+            self.keep_index(below);
         }
         if self.is_free(above) {
             self.unlist(above);
             let joined = self.ranges[above as usize];
             self.ranges[at as usize].bytes += joined.bytes;
             self.link(at, joined.above);
-            self.free_index(above);
+            self.keep_index(above);
         }
     }
 
@@ -264,18 +265,18 @@ impl FreeList {
     }
 
     fn push(&mut self, range: Range) -> u32 {
-        let at = self.joined;
+        let at = self.unused;
         if at == NONE {
             self.ranges.push(range);
             return self.ranges.len() as u32 - 1;
         }
-        self.joined = std::mem::replace(&mut self.ranges[at as usize], range).next;
+        self.unused = std::mem::replace(&mut self.ranges[at as usize], range).next;
         at
     }
 
-    /// Lets the index of a range that was joined to another serve for a new one.
-    fn free_index(&mut self, at: u32) {
-        self.ranges[at as usize].next = std::mem::replace(&mut self.joined, at);
+    /// Keeps the index of a range that was joined to another, for a new one.
+    fn keep_index(&mut self, at: u32) {
+        self.ranges[at as usize].next = std::mem::replace(&mut self.unused, at);
     }
 
     /// Makes two ranges neighbours by offset.

@@ -5,6 +5,7 @@
 //! finds a lower offset; the blocks that it displaces move in turn.
 
 use super::block::{Block, Packing, align, changes, peak, steps};
+use std::borrow::Cow;
 use std::cmp::Reverse;
 
 /// The bound on the pairs of blocks, alive at the same time, that are looked at: this many,
@@ -14,6 +15,7 @@ const EFFORT_A_BLOCK: usize = 16;
 
 /// The lowest of `swept` and the packings found on the way to `bound`.
 pub(super) fn search(blocks: &[Block], bound: u64, swept: Packing) -> Packing {
+    let blocks = &*dense(blocks);
     let aim = aligned_peak(blocks).max(bound);
     let most = EFFORT + EFFORT_A_BLOCK * blocks.len();
     if swept.height <= aim || pairs(blocks) > most {
@@ -45,6 +47,19 @@ pub(super) fn search(blocks: &[Block], bound: u64, swept: Packing) -> Packing {
         effort += search.effort();
     }
     search.best
+}
+
+/// The blocks over few steps: if there are many more steps than blocks, those at which none begins or ends are left out.
+fn dense(blocks: &[Block]) -> Cow<'_, [Block]> {
+    const STEPS_A_BLOCK: usize = 16;
+    if steps(blocks) <= STEPS_A_BLOCK * blocks.len().max(64) {
+        return Cow::Borrowed(blocks);
+    }
+    let mut times: Vec<u32> = blocks.iter().flat_map(|block| [block.first, block.last]).collect();
+    times.sort_unstable();
+    times.dedup();
+    let rank = |step| times.partition_point(|time| *time < step) as u32;
+    blocks.iter().map(|block| Block { first: rank(block.first), last: rank(block.last), ..*block }).collect()
 }
 
 /// The live peak where each block but the highest is padded to a multiple of the least alignment: no packing is

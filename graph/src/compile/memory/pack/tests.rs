@@ -231,3 +231,25 @@ fn nothing_and_blocks_of_no_bytes_take_no_memory() {
     assert_eq!(packed(&[]), Packing { offsets: Vec::new(), height: 0 });
     assert_eq!(packed(&[block(0, 1, 0, 16), block(0, 1, 32, 16), block(1, 1, 0, 16)]).height, 32);
 }
+
+#[test]
+fn steps_at_which_nothing_begins_or_ends_change_no_place() {
+    let mut random = Random(7);
+    let mut searched = 0;
+    for _ in 0..50 {
+        let blocks = random.blocks(40, 60, 12, 4, false);
+        let mut times: Vec<u32> = blocks.iter().flat_map(|block| [block.first, block.last]).collect();
+        times.sort_unstable();
+        times.dedup();
+        let rank = |step| times.partition_point(|time| *time < step) as u32;
+        let over = |step: &dyn Fn(u32) -> u32| -> Vec<Block> {
+            blocks.iter().map(|it| Block { first: step(it.first), last: step(it.last), ..*it }).collect()
+        };
+        let (close, apart) = (over(&rank), over(&|step| rank(step).pow(3)));
+        let measured = Measured::of(&close);
+        let tight = sweep(&measured, &mut FreeList::tight(measured.live_peak(), close.len()));
+        searched += u32::from(tight.height > measured.live_peak());
+        assert_eq!(packed(&apart), packed(&close));
+    }
+    assert!(searched > 10, "{searched} of 50 were searched");
+}
