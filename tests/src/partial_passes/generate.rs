@@ -48,7 +48,8 @@ pub fn of_one(means: &'static Means, pattern: usize) -> Vec<Chain> {
         (Life::Persistent, None),
         (Life::History, Some(Base::Covers)),
     ];
-    let links = vec![Link { means, pattern, value: 30, shown: true }];
+    // Nearer than every base.
+    let links = vec![Link { means, pattern, value: 32, shown: true }];
     let all = kinds.flat_map(|kind| lives.map(|(life, base)| Chain { kind, life, base, links: links.clone() }));
     all.collect()
 }

@@ -9,7 +9,7 @@ use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{self, Frame, Stereo};
 use framewright_graph::language::{self, Facts};
-use framewright_graph::plan::{Attachment, Plan, Work};
+use framewright_graph::plan::{Attachment, Hazard, Plan, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Layout, LoadOp, Rotation};
 use framewright_passes::draw::interfaces;
@@ -224,8 +224,8 @@ fn forgets(plan: &Plan, chains: &[Chain]) -> Result<(), Fault> {
         }
         let name = format!("a{number}");
         let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
-        let mut undefined = barriers.filter(|barrier| barrier.old_layout == Layout::Undefined);
-        if undefined.any(|barrier| *plan.image(barrier.image).name == *name) {
+        let mut first = barriers.filter(|it| it.hazard == Hazard::FirstUse && it.old_layout == Layout::Undefined);
+        if first.any(|barrier| *plan.image(barrier.image).name == *name) {
             return Err(Fault::Forgets(format!("each frame forgets what `{name}` held before it, and shows some of it")));
         }
     }

@@ -34,10 +34,11 @@ pub enum On {
     Words,
 }
 
-/// A shader, whose text has `$keep`, `$value` and `$z` for the condition of its pattern, its value, and its depth.
+/// A shader, whose text has `$keep`, `$value` and `$z` for the condition of its pattern, its value, and its depth, and `$out` for a
+/// colour output `c` that is none where depth is drawn alone.
 #[derive(Debug)]
 pub enum File {
-    /// A fragment stage with one colour output `c`.
+    /// A fragment stage with one colour output `c`, as `$out` declares it.
     Fragment(&'static str),
     /// One that declares its outputs by itself, or has none.
     Bare(&'static str),
@@ -116,7 +117,7 @@ pub const MEANS: &[Means] = &[
     Means { name: "masks_samples", files: &[Fragment("gl_SampleMask[0] = keep(p) ? 5 : 2; c = color();")], effect: some_samples, ..COLOR },
     Means { name: "masks_in_a_function", files: &[Bare("layout(location = 0) out vec4 c;\nvoid leave(bool kept) { gl_SampleMask[0] = kept ? -1 : 0; }\nvoid main() { leave(keep(ivec2(gl_FragCoord.xy))); c = color(); }")], ..COLOR },
     Means { name: "masks_what_it_reads", files: &[Fragment("gl_SampleMask[0] = keep(p) ? gl_SampleMaskIn[0] : 0; c = color();")], ..COLOR },
-    Means { name: "reads_the_mask", files: &[Fragment("c = vec4(float(4 * bitCount(gl_SampleMaskIn[0])) / 255.0, color().yzw);")], effect: counts, ..COLOR },
+    Means { name: "reads_the_mask", files: &[Fragment("c = color(); if (bitCount(gl_SampleMaskIn[0]) < 2) c.r = 4.0 / 255.0;")], effect: tells_samples, ..COLOR },
     Means { name: "alpha_to_coverage", files: &[Fragment("c = color();\nif (!keep(p)) c.a = 0.0;")], pass: r#"draw: FullScreen("$shader"), color: ["$image"], alpha_to_coverage: true"#, effect: by_alpha, ..COLOR },
     Means { name: "alpha_to_coverage_of_vertices", files: &[WHOLE, Fragment("c = color();\nif (!keep(p)) c.a = 0.0;")], pass: r#"draw: Vertices(3), shader: "$shader", color: ["$image"], alpha_to_coverage: true"#, effect: by_alpha, ..COLOR },
     Means { name: "blends_nothing", files: &[Fragment("c = color();\nif (!keep(p)) c.a = 0.0;")], pass: r#"draw: FullScreen("$shader"), color: [(image: "$image", blend: Alpha)]"#, effect: blended, ..COLOR },
@@ -133,15 +134,16 @@ pub const MEANS: &[Means] = &[
     // By depth.
     Means { name: "depth_covers", files: &[Fragment("c = color(); gl_FragDepth = $z;")], pass: FULL_DEPTH, effect: all_near, ..DEPTH },
     Means { name: "depth_tests", files: &[Fragment("c = color(); gl_FragDepth = $z;")], pass: r#"draw: FullScreen("$shader"), color: ["$image"], depth: (image: "$depth", write: false)"#, effect: nearer, ..DEPTH },
-    Means { name: "depth_tests_early", files: &[WHOLE, Bare("layout(early_fragment_tests) in;\nlayout(location = 0) out vec4 c;\nvoid main() { c = color(); }")], effect: nearer_writes, ..DEPTH },
+    Means { name: "depth_tests_early", files: &[WHOLE, Bare("layout(early_fragment_tests) in;\n$out\nvoid main() { c = color(); }")], effect: nearer_writes, ..DEPTH },
     Means { name: "depth_never", files: &[PLAIN], pass: r#"draw: FullScreen("$shader"), color: ["$image"], depth: (image: "$depth", test: Never)"#, effect: none, ..DEPTH },
     Means { name: "depth_and_discard", files: &[WHOLE, DISCARDS], ..DEPTH },
+    Means { name: "depth_and_discard_of_colour_too", files: &[WHOLE, Bare("layout(location = 0) out vec4 c;\nvoid main() { if (!keep(ivec2(gl_FragCoord.xy))) discard; c = color(); }")], ..DEPTH },
     Means { name: "depth_and_demote", files: &[WHOLE, Fragment("c = color(); if (!keep(p)) demote;")], ..DEPTH },
     Means { name: "depth_and_mask", files: &[WHOLE, MASKS], ..DEPTH },
     Means { name: "depth_and_mask_of_samples", files: &[WHOLE, Fragment("gl_SampleMask[0] = keep(p) ? 5 : 2; c = color();")], effect: some_samples_nearer, ..DEPTH },
     Means { name: "depth_and_mask_it_reads", files: &[WHOLE, Fragment("gl_SampleMask[0] = keep(p) ? gl_SampleMaskIn[0] : 0; c = color();")], ..DEPTH },
     Means { name: "depth_and_alpha_to_coverage", files: &[WHOLE, Fragment("c = color();\n#ifndef ALPHA_TO_COVERAGE\nif (!keep(p)) discard;\n#endif\nif (!keep(p)) c.a = 0.0;")], pass: r#"draw: Vertices(3), shader: "$shader", color: ["$image"], depth: "$depth", alpha_to_coverage: true"#, ..DEPTH },
-    Means { name: "depth_and_early_tests_with_discard", files: &[WHOLE, Bare("layout(early_fragment_tests) in;\nlayout(location = 0) out vec4 c;\nvoid main() { if (!keep(ivec2(gl_FragCoord.xy))) discard; c = color(); }")], effect: early_discard, ..DEPTH },
+    Means { name: "depth_and_early_tests_with_discard", files: &[WHOLE, Bare("layout(early_fragment_tests) in;\n$out\nvoid main() { if (!keep(ivec2(gl_FragCoord.xy))) discard; c = color(); }")], effect: early_discard, ..DEPTH },
     Means { name: "depth_alone_and_discard", files: &[WHOLE, DISCARDS_DEPTH], pass: DEPTH_ALONE, effect: kept_depth_alone, ..DEPTH },
     Means { name: "depth_alone_and_mask", files: &[WHOLE, MASKS_DEPTH], pass: DEPTH_ALONE, effect: kept_depth_alone, ..DEPTH },
     Means { name: "full_depth_and_discard", files: &[Fragment("if (!keep(p)) discard; c = color(); gl_FragDepth = $z;")], pass: FULL_DEPTH, effect: kept_near, ..DEPTH },
@@ -160,12 +162,12 @@ pub const MEANS: &[Means] = &[
     Means { name: "stores_without_a_word", on: OneSample, files: &[Compute("layout(set = 0, binding = 0, rgba8) uniform image2D to;\nvoid main() { if (keep(p)) imageStore(to, p, color()); }")], pass: STORES, ..COLOR },
     Means { name: "stores_from_fragments", on: OneSample, files: &[Bare("layout(set = 0, binding = 0, rgba8) uniform writeonly image2D to;\nlayout(location = 0) out vec4 c;\nvoid main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(0.0); if (keep(p)) imageStore(to, p, color()); }")], pass: FRAGMENT_STORES, ..COLOR },
     Means { name: "stores_all_as_promised", on: OneSample, files: &[Compute("layout(set = 0, binding = 0, rgba8) uniform writeonly image2D to;\nvoid main() { imageStore(to, p, color()); }")], pass: r#"dispatch: "$shader", groups: Texels("$image"), storage: {"to": (image: "$image", access: Write)}"#, effect: all, ..COLOR },
-    Means { name: "words_in_part", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nvoid main() { if (keep(p)) to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
-    Means { name: "words_in_part_and_says_so", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nvoid main() { if (keep(p)) to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: r#"dispatch: "$shader", groups: Invocations(16, 8), storage: {"to": (buffer: "$image", access: ReadWrite)}"#, ..COLOR },
-    Means { name: "words_and_returns_early", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nvoid main() { if (!keep(p)) return; to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
-    Means { name: "words_without_a_word", on: Words, files: &[Compute("layout(set = 0, binding = 0) buffer To { uint to[]; };\nvoid main() { if (keep(p)) to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
-    Means { name: "words_from_fragments", on: Words, files: &[Bare("layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nlayout(location = 0) out vec4 c;\nvoid main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(0.0); if (keep(p)) to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: FRAGMENT_STORES, ..COLOR },
-    Means { name: "words_all_as_promised", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nvoid main() { to[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: r#"dispatch: "$shader", groups: Invocations(16, 8), storage: {"to": (buffer: "$image", access: Write)}"#, effect: all, ..COLOR },
+    Means { name: "words_in_part", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nvoid main() { if (keep(p)) to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
+    Means { name: "words_in_part_and_says_so", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nvoid main() { if (keep(p)) to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: r#"dispatch: "$shader", groups: Invocations(16, 8), storage: {"to": (buffer: "$image", access: ReadWrite)}"#, ..COLOR },
+    Means { name: "words_and_returns_early", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nvoid main() { if (!keep(p)) return; to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
+    Means { name: "words_without_a_word", on: Words, files: &[Compute("layout(set = 0, binding = 0) buffer To { uint v[]; } to;\nvoid main() { if (keep(p)) to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: WORDS_STORE, ..COLOR },
+    Means { name: "words_from_fragments", on: Words, files: &[Bare("layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nlayout(location = 0) out vec4 c;\nvoid main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(0.0); if (keep(p)) to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: FRAGMENT_STORES, ..COLOR },
+    Means { name: "words_all_as_promised", on: Words, files: &[Compute("layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nvoid main() { to.v[p.x + 16 * p.y] = uint(color().x * 255.0 + 0.5); }")], pass: r#"dispatch: "$shader", groups: Invocations(16, 8), storage: {"to": (buffer: "$image", access: Write)}"#, effect: all, ..COLOR },
 ];
 
 fn none(_: &mut Texel, _: &At) {}
@@ -199,9 +201,12 @@ fn some_samples(texel: &mut Texel, at: &At) {
     }
 }
 
-fn counts(texel: &mut Texel, at: &At) {
+/// A driver may clip a triangle into several, so that one of them covers some samples of a texel: at least two, if there are four.
+fn tells_samples(texel: &mut Texel, at: &At) {
     all(texel, at);
-    texel.color[0] = 4 * at.samples as u8;
+    if at.samples == 1 {
+        texel.color[0] = 4;
+    }
 }
 
 /// With one sample, alpha covers nothing and is stored.

@@ -43,11 +43,24 @@ const FUNCTIONS: &str = "\
 bool keep(ivec2 p) { return $keep; }
 vec4 color() { return vec4($value.0, 252.0 - $value.0, 0.0, 255.0) / 255.0; }
 ";
+const OUT: &str = "\
+#ifdef DEPTH_ONLY
+vec4 c;
+#else
+layout(location = 0) out vec4 c;
+#endif";
 const SHOW: &str = "\
 #version 460
 layout(set = 0, binding = 0) uniform sampler2D a;
 layout(location = 0) out vec4 c;
 void main() { c = texelFetch(a, ivec2(gl_FragCoord.xy), 0); }
+";
+const SHOW_SAMPLES: &str = "\
+#version 460
+layout(set = 0, binding = 0) uniform sampler2DMS a;
+layout(location = 0) out vec4 c;
+vec4 sample_of(int number) { return texelFetch(a, ivec2(gl_FragCoord.xy), number); }
+void main() { c = (sample_of(0) + sample_of(1) + sample_of(2) + sample_of(3)) / 4.0; }
 ";
 const SHOW_DEPTH: &str = "\
 #version 460
@@ -57,9 +70,9 @@ void main() { c = vec4(texelFetch(d, ivec2(gl_FragCoord.xy), 0).x * 0.8); }
 ";
 const SHOW_WORDS: &str = "\
 #version 460
-layout(set = 0, binding = 0) readonly buffer A { uint a[]; };
+layout(set = 0, binding = 0) readonly buffer A { uint v[]; } a;
 layout(location = 0) out vec4 c;
-void main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(float(a[p.x + 16 * p.y]) / 255.0); }
+void main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(float(a.v[p.x + 16 * p.y]) / 255.0); }
 ";
 const BEHIND: &str = "\
 #version 460
@@ -141,7 +154,7 @@ impl Text {
             if base == Base::Clears {
                 return format!("(name: \"{name}\", fill: (to: \"{image}\", value: {word})),");
             }
-            let store = "layout(set = 0, binding = 0) writeonly buffer To { uint to[]; };\nvoid main() { to[p.x + 16 * p.y] = \
+            let store = "layout(set = 0, binding = 0) writeonly buffer To { uint v[]; } to;\nvoid main() { to.v[p.x + 16 * p.y] = \
                          uint(color().x * 255.0 + 0.5); }";
             self.add("base_words", &File::Compute(store), 5, BASE);
             return format!(
@@ -226,7 +239,12 @@ impl Text {
             return vec![show('o', What::Word, "show_words", SHOW_WORDS, reads)];
         }
         let reads = format!("sample: {{\"a\": (image: \"a{number}\", filter: Nearest{ago})}}");
-        let mut passes = vec![show('o', What::Color, "show", SHOW, reads)];
+        // Earlier frames aren't resolved.
+        let (shader, text) = match chain.kind {
+            Kind::Picture(4) if previous > 0 => ("show_samples", SHOW_SAMPLES),
+            _ => ("show", SHOW),
+        };
+        let mut passes = vec![show('o', What::Color, shader, text, reads)];
         if chain.shows_depth() && previous == 0 {
             let plane = if chain.has_stencil() { ", plane: Depth" } else { "" };
             let reads = format!("sample: {{\"d\": (image: \"d{number}\", filter: Nearest{plane})}}");
@@ -239,7 +257,7 @@ impl Text {
         let version = "#version 460\n#extension GL_EXT_demote_to_helper_invocation : require\n";
         let (ending, text) = match file {
             File::Fragment(body) => {
-                let head = format!("{version}layout(location = 0) out vec4 c;\n{FUNCTIONS}");
+                let head = format!("{version}$out\n{FUNCTIONS}");
                 ("frag", format!("{head}void main() {{\nivec2 p = ivec2(gl_FragCoord.xy);\n{body}\n}}\n"))
             }
             File::Bare(text) => ("frag", format!("{version}{FUNCTIONS}{text}\n")),
@@ -251,7 +269,7 @@ impl Text {
             }
         };
         let depth = format!("0.{}", u32::from(near(value)) * 25);
-        let text = text.replace("$keep", PATTERNS[pattern].0).replace("$z", &depth);
+        let text = text.replace("$out", OUT).replace("$keep", PATTERNS[pattern].0).replace("$z", &depth);
         let text = text.replace("$value", &color(value)[0].to_string());
         self.shaders.insert(format!("{shader}.{ending}"), text);
     }
