@@ -5,6 +5,7 @@
 //! - [`mutation`]: Plans with one mistake each, and who notices.
 //! - [`random_pipelines`]: pipelines from a seed, and their meaning.
 //! - [`incidents`]: frames after what users of other graphs reported.
+//! - [`partial_passes`]: passes that leave texels out, by every means that there is.
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
@@ -24,6 +25,7 @@ pub mod mutation;
 pub mod optima;
 #[path = "../../graph/tests/suite/testing/parts.rs"]
 mod parts;
+pub mod partial_passes;
 pub mod random_pipelines;
 pub mod raycast;
 pub mod render;

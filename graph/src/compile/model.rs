@@ -274,6 +274,13 @@ pub(super) enum OpKind {
         /// Its own name, and why.
         draw: Box<InsertedDraw>,
     },
+    /// A fill of the frame again, of other depth with one sample; its only use is that depth.
+    FillAgain {
+        /// The pass of the frame.
+        pass: u32,
+        /// Why.
+        why: Box<Inserted>,
+    },
     /// An inserted full-screen draw that resolves depth or colour; its uses are source and target.
     ResolveDraw {
         /// How samples become one value.
@@ -321,7 +328,8 @@ impl OpKind {
             OpKind::Draw(pass)
             | OpKind::Pass(pass)
             | OpKind::ForwardDraw { pass, .. }
-            | OpKind::DepthOnly { pass, .. } => Some(*pass),
+            | OpKind::DepthOnly { pass, .. }
+            | OpKind::FillAgain { pass, .. } => Some(*pass),
             OpKind::ResolveDraw { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => None,
         }
     }
@@ -332,7 +340,7 @@ impl OpKind {
             OpKind::Draw(_) | OpKind::ForwardDraw { .. } | OpKind::DepthOnly { .. } | OpKind::ResolveDraw { .. } => {
                 true
             }
-            OpKind::Pass(_) | OpKind::Resolve { .. } | OpKind::Copy(_) => false,
+            OpKind::Pass(_) | OpKind::FillAgain { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => false,
         }
     }
 
@@ -341,7 +349,10 @@ impl OpKind {
         match self {
             OpKind::Draw(_) | OpKind::Pass(_) => None,
             OpKind::DepthOnly { draw, .. } | OpKind::ResolveDraw { draw, .. } => Some(&draw.why),
-            OpKind::ForwardDraw { why, .. } | OpKind::Resolve { why, .. } | OpKind::Copy(why) => Some(why),
+            OpKind::ForwardDraw { why, .. }
+            | OpKind::FillAgain { why, .. }
+            | OpKind::Resolve { why, .. }
+            | OpKind::Copy(why) => Some(why),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::outputs::outputs;
 use super::resources::Resources;
 use super::state::State;
 use super::{
-    casters, decided, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views,
+    casters, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, targets, views,
 };
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};
@@ -125,12 +125,13 @@ fn expand_so(
     let decided = decided::decided(&pipeline, &states, &outputs);
     let kept = precision::choose(inputs.facts().depth_range, &mut resources, &states, &outputs);
 
+    let mut passes = if errors.is_empty() { State::into_passes(states) } else { Vec::new() };
+    padding::keep(&resources, &mut passes);
     let Resources { images, buffers, .. } = resources;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
     match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
         (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(&document.settings, &values);
-            let passes = State::into_passes(states);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
             let remarks = [shared, views::remarks(&pipeline), kept].concat();

@@ -24,6 +24,7 @@ mod local;
 mod once;
 mod order;
 mod outputs;
+mod padding;
 mod params;
 mod parts;
 mod passes;

@@ -29,6 +29,7 @@ pub(super) fn lower(
         *shader = found.clone();
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
+    transfers::draw_part(resources, &mut lowered, errors);
     supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
@@ -152,7 +153,7 @@ fn transferred(resources: &Resources<'_>, pass: &language::Pass, lowered: &mut P
             language::Part::Buffer(_) => Subresources::WHOLE,
         };
         let frames_ago = part.previous().map_or(0, |previous| previous.value);
-        lowered.transfers.push(TransferUse { resource, range, frames_ago, span, write });
+        lowered.transfers.push(TransferUse { resource, range, frames_ago, span, write, keeps: false });
     }
 }
 
@@ -175,7 +176,8 @@ pub(super) fn stand_ins(
                 let format = resources.image(to.index).map(|image| image.image.format);
                 let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
-                let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true };
+                let transfer =
+                    TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
                 (Work::Fill { value: filled }, Some(transfer))
             }
         };

@@ -4,10 +4,10 @@ use super::fills;
 use super::parts::{self, Cells};
 use super::resources::Resources;
 use crate::base::Diagnostic;
-use crate::frame::{Image, Pass, TransferUse};
+use crate::frame::{Image, Pass, Resource, TransferUse, Work};
 use crate::language::{self, Fill, ImagePart, Part};
 use crate::ron::Spanned;
-use crate::vulkan::{Aspects, Filter};
+use crate::vulkan::{Aspects, Filter, Shape};
 
 /// One side of a transfer that is an image.
 struct Side<'a> {
@@ -233,11 +233,36 @@ pub(super) fn blit(
         let why = format!("`{}` holds {held} ({format})", one.image.name);
         errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
     }
-    if one.layers() != other.layers() || (one.extent[2] > 1) != (other.extent[2] > 1) {
+    // The last levels of a volume are one texel deep.
+    let volumes = [one.image, other.image].iter().all(|image| image.shape == Shape::D3);
+    if one.layers() != other.layers() || !volumes && (one.extent[2] > 1) != (other.extent[2] > 1) {
         let message = format!("`{}` can't be scaled into `{}`: their layers differ", one.image.name, other.image.name);
         let wrong = Diagnostic::new(other.part.image.span, message).remark(other.size());
         errors.push(wrong.label(one.part.image.span, one.size()));
     }
+}
+
+/// A linear filter mixes in texels beyond the part of an image that a frame uses, which nobody wrote: a blit clamps at the image's edge.
+/// A draw clamps at the part's.
+pub(super) fn draw_part(resources: &Resources<'_>, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
+    let (Work::Blit { filter: Filter::Linear }, [source, target]) = (&lowered.work, &lowered.transfers[..]) else {
+        return;
+    };
+    let (Resource::Image(from), Resource::Image(to)) = (source.resource, target.resource) else { return };
+    let (Some(one), Some(other)) = (resources.image(from), resources.image(to)) else { return };
+    let (one, other) = (&one.image, &other.image);
+    if one.allocated.is_none() {
+        return;
+    }
+    let why = format!("`{}` scales `{}`, of which a frame uses a part, with a linear filter", lowered.name, one.name);
+    if other.part(target.range) != other.whole() || other.layers > 1 || other.mips > 1 {
+        let message = format!("{why}, and a blit would mix in texels beyond that part");
+        let help = format!("draw it: `draw: FullScreen(\"copy\"), sample: {{\"source\": \"{}\"}}, color: […]`", one.name);
+        return errors.push(Diagnostic::new(target.span, message).label(source.span, one.name.to_string()).help(help));
+    }
+    lowered.work = Work::Forward { from, to, because: why.clone() };
+    lowered.transfers.clear();
+    lowered.inserted = Some(why.into());
 }
 
 /// Reports a fill whose value doesn't fit.

@@ -188,7 +188,7 @@ impl Access<'_> {
             (Access::Sampled(_) | Access::Color(_) | Access::Depth(_), None) => return,
             (Access::Storage(storage), _) => (storage.read, storage.write),
             (Access::Buffer(used), _) => (used.role.reads(), used.role.writes()),
-            (Access::Transfer(used), _) => (!used.write, used.write),
+            (Access::Transfer(used), _) => (!used.write || used.keeps, used.write),
             (Access::ForwardSource(..), _) => (true, false),
             (Access::ForwardTarget(..), _) => (false, true),
         };
@@ -245,7 +245,7 @@ mod tests {
         let (buffer, role) = (BufferIndex(4), BufferRole::Uniform);
         pass.buffers = vec![BufferUse { binding: None, buffer, frames_ago: 0, role, stages, span }];
         let resource = Resource::Image(image(5));
-        pass.transfers = vec![TransferUse { resource, range, frames_ago: 0, write: false, span }];
+        pass.transfers = vec![TransferUse { resource, range, frames_ago: 0, write: false, keeps: false, span }];
         let mut shown = Shown(Vec::new());
         pass.visit_accesses(&mut shown);
         let listed: Vec<String> = pass.accesses().map(|access| format!("{access:?}")).collect();

@@ -100,6 +100,7 @@ fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, multi
         frames_ago: 0,
         span: Span::NONE,
         write,
+        keeps: false,
     };
     let transfers = vec![
         side(capture.image_index, capture.range, false),

@@ -139,13 +139,17 @@ pub struct DepthTarget {
 
 impl DepthTarget {
     /// The planes of an image with the format `format` that it uses: each with whether the pass starts from a cleared
-    /// plane, and whether it writes it.
+    /// plane, and whether it writes it. A plane that is neither tested nor written is none of them, if the other one is.
     pub fn planes(&self, format: Format) -> impl Iterator<Item = (Aspects, bool, bool)> + use<> {
         let depth = (Aspects::DEPTH, self.clear.is_some(), self.write || self.clear.is_some());
-        let stencil = self.stencil.filter(|_| format.aspects().contains(Aspects::STENCIL)).map(|stencil| {
+        let uses_depth = depth.2 || self.test != CompareOp::Always;
+        let stencil = self.stencil.filter(|_| format.aspects().contains(Aspects::STENCIL));
+        let uses_stencil =
+            stencil.is_some_and(|it| it.clear.is_some() || it.test != CompareOp::Always || it.pass != StencilOp::Keep);
+        let stencil = stencil.filter(|_| uses_stencil || !uses_depth).map(|stencil| {
             (Aspects::STENCIL, stencil.clear.is_some(), stencil.clear.is_some() || stencil.pass != StencilOp::Keep)
         });
-        std::iter::once(depth).chain(stencil)
+        (uses_depth || !uses_stencil).then_some(depth).into_iter().chain(stencil)
     }
 }
 
@@ -212,6 +216,8 @@ pub struct TransferUse {
     pub frames_ago: u32,
     /// Where it was named.
     pub span: Span,
-    /// Whether it is written, and whole; else it is read.
+    /// Whether it is written; else it is read.
     pub write: bool,
+    /// Whether a write leaves a part of it as it was: a copy of texels into a buffer that has a few bytes more.
+    pub keeps: bool,
 }

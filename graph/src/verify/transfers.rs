@@ -40,6 +40,12 @@ impl<'p> Check<'_, 'p> {
         let filtered = transfer.filter == Some(Filter::Linear);
         let nearest = from.format.is_integer() || from.format.is_depth();
         self.demand(!(filtered && nearest), from.id, "has depth or integers, which can't be filtered");
+        // The outermost places that are looked up lie half a step of the target's from the edge of the source's part: nearer to
+        // the edge than the middle of its outermost texel if the source is enlarged.
+        let all = mip_extent(from, source.range.base_mip);
+        let made = from.allocated.map_or(all, |[width, height]| [width, height, all[2]]);
+        let mixes = (0..3).any(|axis| source.extent[axis] < made[axis] && target.extent[axis] > source.extent[axis]);
+        self.demand(!(filtered && mixes), from.id, "is enlarged, and texels beyond the part in use are mixed in");
     }
 
     pub(super) fn copy(&mut self, transfer: &'p Transfer) {

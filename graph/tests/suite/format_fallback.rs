@@ -209,7 +209,7 @@ fn a_copy_into_another_format_takes_texels_of_as_many_bytes_and_neither_format_f
     let mut frame = raster.output(screen);
     let side = |image, write| {
         let (resource, range) = (Resource::Image(image), Subresources::WHOLE);
-        TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write }
+        TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write, keeps: false }
     };
     let copy = Pass { transfers: vec![side(from, false), side(to, true)], ..Pass::new("copy", Work::Copy) };
     frame.passes.insert(1, copy);

@@ -215,7 +215,7 @@ fn one_plane_of_depth_with_stencil_is_copied_to_a_buffer() {
         frame.buffers.push(Buffer { name: "rows".into(), span: Span::NONE, bytes, lifetime });
         let side = |resource, aspects, write| {
             let range = Subresources { aspects, ..Subresources::WHOLE };
-            TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write }
+            TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write, keeps: false }
         };
         let [image, rows] = [Resource::Image(depth), Resource::Buffer(BufferIndex(0))];
         let fill = Work::Fill { value: FillValue::Depth(0.5, 1) };

@@ -81,7 +81,7 @@ fn used(buffer: BufferIndex, write: bool, stages: Stages) -> BufferUse {
 }
 
 pub(crate) fn transferred(resource: Resource, write: bool) -> TransferUse {
-    TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write }
+    TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write, keeps: false }
 }
 
 pub(crate) fn device(queues: Queues) -> Profile {

@@ -277,5 +277,5 @@ fn transfer(pipeline: &Pipeline, region: Region, write: bool) -> frame::Transfer
         Region::Image(part) => (Thing::Image(part.image), range(pipeline.images[part.image].format, part)),
         Region::Buffer(buffer) => (Thing::Buffer(buffer), Subresources::WHOLE),
     };
-    frame::TransferUse { resource: resource(thing), range, frames_ago: 0, span: Span::NONE, write }
+    frame::TransferUse { resource: resource(thing), range, frames_ago: 0, span: Span::NONE, write, keeps: false }
 }

@@ -6,6 +6,7 @@ mod hand_written_plans;
 mod happens_before;
 mod hostile_plans;
 mod mutation;
+mod partial_passes;
 mod platforms;
 mod programs;
 mod queues;

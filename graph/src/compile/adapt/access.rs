@@ -136,7 +136,7 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource
     };
     let made = if transfer.write { target(resource, range, stages) } else { source(resource, range, stages) };
     let layout = if let Resource::Buffer(_) = transfer.resource { Layout::Undefined } else { made.layout };
-    Use { entry, layout, ..made }
+    Use { entry, layout, reads: made.reads || transfer.keeps, ..made }
 }
 
 pub(super) fn source(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {

@@ -143,10 +143,10 @@ impl<'a> Adapter<'a> {
     #[inline(never)]
     fn note_writers(&mut self, uses: Range<usize>, draws: bool) {
         for at in uses {
-            let Use { resource, contents, role, writes, .. } = self.adapted.uses[at];
-            if writes {
-                self.versions[resource as usize].drawn = draws;
-                self.note_depth_writer(resource, contents, role, draws);
+            let used = self.adapted.uses[at];
+            if used.writes {
+                self.versions[used.resource as usize].drawn = draws;
+                self.note_depth_writer(&used, draws);
             }
         }
     }

@@ -1,14 +1,22 @@
-//! Depth-only passes: the draws of a version of multisampled depth are drawn again with one sample, and without colour. They
-//! neither read nor write the multisampled depth.
+//! Depth-only passes: the draws of a version of multisampled depth are drawn again with one sample, and without colour, onto a fill
+//! with the same value if they were drawn onto one. They neither read nor write the multisampled depth.
 
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role};
-use crate::frame::{Draw, ImageIndex, ViewIndex, Work};
+use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
+use crate::frame::{Draw, ImageIndex, Pass, ViewIndex, Work};
 use crate::plan::Inserted;
-use crate::vulkan::{Aspects, Subresources};
+use crate::vulkan::{Aspects, Stages, Subresources};
 use std::sync::Arc;
+
+/// A pass that made depth what it is, and can do so again.
+enum Again {
+    /// It is drawn, onto these contents.
+    Drawn(u32, InitialContents),
+    /// It fills.
+    Filled(u32),
+}
 
 /// Why depth can't be drawn again.
 struct Unavailable {
@@ -20,23 +28,14 @@ struct Unavailable {
 
 impl Adapter<'_> {
     /// Notes the operations that wrote the current version of multisampled depth.
-    pub(super) fn note_depth_writer(
-        &mut self,
-        resource: PhysicalIndex,
-        contents: InitialContents,
-        role: Role,
-        draws: bool,
-    ) {
-        if role == Role::Stencil || self.samples(resource) == 1 {
-            return;
-        }
-        if !self.adapted.resources[resource as usize].image().is_some_and(|image| image.format.is_depth()) {
+    pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
+        if self.samples(used.resource) == 1 || !self.adapted.range(used).aspects.contains(Aspects::DEPTH) {
             return;
         }
         let op = self.adapted.ops.len() as u32;
-        let writers = self.depth_writers.entry(resource).or_default();
+        let writers = self.depth_writers.entry(used.resource).or_default();
         // A clear or a draw that covers replaces earlier draws. Other operations replace them too, or can't be drawn again.
-        if contents != InitialContents::Keep || !draws {
+        if used.contents != InitialContents::Keep || !draws {
             writers.clear();
         }
         writers.push(op);
@@ -79,10 +78,18 @@ impl Adapter<'_> {
         let why = self.reason(format!("{because}; what drew it is drawn again with 1"), span);
         let target = self.second(image, "depth only", why.clone(), 1);
         let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
-        for (pass, contents) in passes {
-            let uses = [access::depth(Aspects::DEPTH, target, range, contents, true, declared.format)];
-            let draw = InsertedDraw { name: self.depth_only_name(pass), why: Inserted::clone(&why) };
-            self.push(OpKind::DepthOnly { pass, draw: Box::new(draw) }, &uses);
+        for again in passes {
+            match again {
+                Again::Drawn(pass, contents) => {
+                    let uses = [access::depth(Aspects::DEPTH, target, range, contents, true, declared.format)];
+                    let draw = InsertedDraw { name: self.depth_only_name(pass), why: Inserted::clone(&why) };
+                    self.push(OpKind::DepthOnly { pass, draw: Box::new(draw) }, &uses);
+                }
+                Again::Filled(pass) => {
+                    let uses = [access::target(target, range, Stages::CLEAR)];
+                    self.push(OpKind::FillAgain { pass, why: why.clone() }, &uses);
+                }
+            }
         }
         self.versions[source as usize].redrawn = Some(target);
         Some(target)
@@ -100,8 +107,8 @@ impl Adapter<'_> {
         .into()
     }
 
-    /// The passes that drew all of the current version, each with what it starts from.
-    fn redrawable(&self, resource: PhysicalIndex, layers: u32) -> Result<Vec<(u32, InitialContents)>, Unavailable> {
+    /// The passes that made all of the current version.
+    fn redrawable(&self, resource: PhysicalIndex, layers: u32) -> Result<Vec<Again>, Unavailable> {
         let Adapter { adapted, input, .. } = self;
         let writers = self.depth_writers.get(&resource).map_or(&[][..], Vec::as_slice);
         let mut passes = Vec::with_capacity(writers.len());
@@ -113,6 +120,10 @@ impl Adapter<'_> {
                 let at = pass.map_or(Span::NONE, |(_, pass)| pass.span);
                 Unavailable { what: format!("`{name}` {what}"), at }
             };
+            if let (OpKind::Pass(number), Some((_, Pass { work: Work::Fill { .. }, .. }))) = (kind, pass) {
+                passes.push(Again::Filled(*number));
+                continue;
+            }
             let (OpKind::Draw(number), Some((_, pass))) = (kind, pass) else {
                 return Err(unavailable("writes it and is no draw"));
             };
@@ -134,7 +145,7 @@ impl Adapter<'_> {
             if passes.is_empty() && contents == InitialContents::Keep {
                 return Err(unavailable("draws onto what was there before the frame"));
             }
-            passes.push((*number, contents));
+            passes.push(Again::Drawn(*number, contents));
         }
         match (passes.is_empty(), layers) {
             (true, _) => Err(Unavailable { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),

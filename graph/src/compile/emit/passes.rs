@@ -40,8 +40,10 @@ pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
 /// The side of a transfer without sides: validation refuses these.
 const NOTHING: Side = Side::Buffer { buffer: BufferId(0), bytes: 0 };
 
+/// The name of the pass that an operation is. What was inserted beside it has none.
 fn name(results: &StageResults<'_>, op: &Op) -> Option<Arc<str>> {
-    op.kind.pass().map(|pass| results.frame.passes[pass as usize].name.clone())
+    let OpKind::Pass(pass) = op.kind else { return None };
+    Some(results.frame.passes[pass as usize].name.clone())
 }
 
 fn transfer(results: &StageResults<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
@@ -223,10 +225,11 @@ fn weighted(mut pass: Pass) -> Pass {
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
+    let uses_plane = |role| uses.iter().any(|used| used.role == role);
     let depth = declared.depth.as_ref();
-    planned.depth = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
-    let has_stencil = uses.iter().any(|used| used.role == Role::Stencil);
-    planned.stencil = depth.and_then(|depth| depth.stencil).filter(|_| has_stencil);
+    let state = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
+    planned.depth = state.filter(|_| uses_plane(Role::Depth));
+    planned.stencil = depth.and_then(|depth| depth.stencil).filter(|_| uses_plane(Role::Stencil));
 }
 
 /// A pass without accesses.

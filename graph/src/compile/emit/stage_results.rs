@@ -1,6 +1,5 @@
 //! The results of all stages, from which the parts of a Plan are made.
 
-use crate::base::Place;
 use crate::compile::memory::Placed;
 use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::retain::LoadStoreOps;
@@ -9,7 +8,7 @@ use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
-use crate::plan::{BufferId, Cause, ImageId, Resource};
+use crate::plan::{BufferId, Cause, ImageId, Inserted, Resource};
 use crate::vulkan::{Aspects, Subresources};
 use std::sync::Arc;
 
@@ -107,10 +106,16 @@ pub(super) fn resource_id(resource: &PhysicalResource) -> Resource {
 
 /// Why an operation is in the Plan.
 pub(super) fn cause(results: &StageResults<'_>, op: &Op) -> Cause {
-    let place = |pass: u32| -> Option<Place> { results.frame.sources.place(results.frame.passes[pass as usize].span) };
-    match op.kind.inserted() {
-        Some(why) => Cause::Inserted(Box::new(why.clone())),
-        None => Cause::Written(op.kind.pass().and_then(place)),
+    if let Some(why) = op.kind.inserted() {
+        return Cause::Inserted(Box::new(why.clone()));
+    }
+    let Some(pass) = op.kind.pass().map(|pass| &results.frame.passes[pass as usize]) else {
+        return Cause::Written(None);
+    };
+    let at = results.frame.sources.place(pass.span);
+    match &pass.inserted {
+        Some(because) => Cause::Inserted(Box::new(Inserted { because: because.to_string(), at })),
+        None => Cause::Written(at),
     }
 }
 

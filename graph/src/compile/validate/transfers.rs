@@ -3,7 +3,7 @@
 use super::lifetimes::value_problem;
 use super::pass::Check;
 use crate::frame::{Image, Resource, TransferUse, Work};
-use crate::vulkan::Subresources;
+use crate::vulkan::{Filter, Subresources};
 
 impl Check<'_> {
     #[inline]
@@ -19,7 +19,9 @@ impl Check<'_> {
         let pass = self.pass;
         match (&pass.work, &pass.transfers[..]) {
             (Work::Copy, [source, target]) if !source.write && target.write => self.copy(source, target),
-            (Work::Blit { .. }, [source, target]) if !source.write && target.write => self.blit(source, target),
+            (Work::Blit { filter }, [source, target]) if !source.write && target.write => {
+                self.blit(source, target, *filter);
+            }
             (Work::Copy | Work::Blit { .. }, _) => self.wrong(pass.span, "needs one source and one target"),
             (Work::Fill { value }, [target]) if target.write => {
                 let format = match target.resource {
@@ -81,7 +83,7 @@ impl Check<'_> {
         self.apart(source, target);
     }
 
-    fn blit(&mut self, source: &TransferUse, target: &TransferUse) {
+    fn blit(&mut self, source: &TransferUse, target: &TransferUse, filter: Filter) {
         let from = self.level(source).map(|(part, _, image)| (part, image.format, image.samples));
         let to = self.level(target).map(|(part, _, image)| (part, image.format, image.samples));
         let fits = match (from, to) {
@@ -93,6 +95,13 @@ impl Check<'_> {
         };
         if !fits {
             self.wrong(self.pass.span, "blits between what is not two images of one kind with one sample");
+        }
+        if let Resource::Image(image) = source.resource
+            && filter == Filter::Linear
+            && self.frame.images[image.0 as usize].allocated.is_some()
+        {
+            let what = "scales an image of which a frame uses a part with a linear filter: texels beyond are mixed in";
+            self.wrong(source.span, what);
         }
         self.apart(source, target);
     }

@@ -16,6 +16,7 @@ mod eyes;
 mod fragments;
 mod helps;
 mod history;
+mod left_alone;
 mod library;
 mod many_changes;
 mod misuse;
