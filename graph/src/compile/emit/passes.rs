@@ -222,6 +222,8 @@ fn weighted(mut pass: Pass) -> Pass {
 /// Adds the state that only draws have.
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
+    planned.untouched.clone_from(&declared.untouched);
+    planned.covers = declared.covers;
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
     let depth = declared.depth.as_ref();
     planned.depth = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
@@ -240,6 +242,8 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         shader,
         redraws: None,
         discards: false,
+        untouched: None,
+        covers: false,
         alpha_to_coverage: false,
         blend: Vec::new(),
         depth: None,
