@@ -3,11 +3,12 @@
 use super::images::FrameImage;
 use super::resources::Resources;
 use super::shader::component_words;
-use super::{parts, transfers};
+use super::{coverage, parts, transfers};
 use crate::base::Diagnostic;
-use crate::frame::{Blend, TargetShape};
+use crate::frame::{Blend, Remark, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
-use crate::shader::ShaderInterface;
+use crate::ron::Name;
+use crate::shader::{ShaderInterface, Unset};
 use crate::vulkan::{Aspects, Component, Numeric, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
@@ -153,6 +154,25 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
             errors.push(wrong.label(first.part.image.span, layers(first.shape.layers)));
         }
     }
+}
+
+/// Every output that a target takes is set: one that some path leaves is a mistake, or told of where that isn't sure.
+pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) -> Vec<Remark> {
+    let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
+    let mut remarks = Vec::new();
+    for Unset { location, what, refused, place, .. } in coverage::unset(pass, interface) {
+        let target = location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
+        let at = coverage::at(place.as_deref());
+        let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
+        if *refused {
+            let help = "set it at the beginning of `main`; `discard` leaves texels as they were";
+            errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
+        } else {
+            let text = format!("{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`");
+            remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
+        }
+    }
+    remarks
 }
 
 /// Every colour target is fed by an output of the same type.
