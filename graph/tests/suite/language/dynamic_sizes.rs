@@ -144,3 +144,88 @@ fn what_changes_its_size_neither_leaves_the_frame_nor_is_stored_into() {
     assert!(said.contains("`toned` can't leave the frame: its size may change from frame to frame"), "{said}");
     assert!(said.contains("scale it into an image of a fixed size"), "{said}");
 }
+
+/// A blit clamps at the edge of the image, not of the part in use: a linear one that enlarges would mix in what nobody wrote.
+fn scaled(source: &str, target: &str, blit: &str) -> String {
+    format!(
+        r#"Pipeline(
+            version: 1,
+            settings: [(name: "scale", value: Number(default: 0.5, min: 0.1, max: 1.0))],
+            images: [
+                (name: "part", format: {source}, size: Dynamic(by: "scale", up_to: 1.0)),
+                (name: "whole", format: Like("part"), {target}),
+                (name: "less", format: Like("part"), size: Scaled(0.5, "part")),
+                (name: "screen", format: Output, size: Output),
+            ],
+            passes: [
+                (name: "draw", draw: FullScreen("plain"), color: ["part"]),
+                (name: "scale", blit: ({blit})),
+                (name: "show", draw: FullScreen("plain"), color: ["screen"]),
+            ],
+            outputs: ["whole", "screen"],
+        )"#
+    )
+}
+
+#[test]
+fn a_linear_blit_of_a_part_is_drawn_whatever_the_part_and_one_of_the_nearest_texels_is_none() {
+    let up = |filter: &str, scale: &str| {
+        let text = scaled("R16G16B16A16_SFLOAT", "size: Output", &format!(r#"from: "part", to: "whole"{filter}"#));
+        let chosen = set(&[("scale", scale)]);
+        planned(&right(&text, &Inputs { set: &chosen, output_extent: [64, 36], ..INPUTS }))
+    };
+    let steps = |plan: &Plan| {
+        let of = |step: &framewright_graph::plan::Step| match &step.work {
+            Work::Blit(_) => "blit",
+            Work::Render(_) => "render",
+            _ => "other",
+        };
+        plan.steps.iter().map(of).collect::<Vec<_>>()
+    };
+    for scale in ["0.1", "0.5", "1"] {
+        assert!(!steps(&up("", scale)).contains(&"blit"), "{scale}");
+        assert!(steps(&up(", filter: Nearest", scale)).contains(&"blit"), "{scale}");
+    }
+    let plan = up("", "0.5");
+    let reasons = plan.tree();
+    assert!(reasons.contains("of which a frame uses a part, with a linear filter"), "{reasons}");
+}
+
+#[test]
+fn a_linear_blit_of_a_part_into_one_level_is_refused() {
+    let text = scaled(
+        "R16G16B16A16_SFLOAT",
+        "size: Output, mips: 2, lifetime: Persistent",
+        r#"from: "part", to: (image: "whole", mip: 1)"#,
+    );
+    let answer = crate::testing::pipelines::wrong(&text, &Inputs { output_extent: [64, 36], ..INPUTS });
+    assert!(answer.contains("a blit would mix in texels beyond that part"), "{answer}");
+    assert!(answer.contains("draw: FullScreen(\"copy\")"), "{answer}");
+}
+
+/// The checker finds it out by itself.
+#[test]
+fn verify_finds_linear_blits_that_enlarge_a_part() {
+    let found = |filter, extent: [u32; 3], made: Option<[u32; 2]>| {
+        let text = scaled("R16G16B16A16_SFLOAT", "size: Output", r#"from: "part", to: "whole", filter: Nearest"#);
+        let mut plan = planned(&right(&text, &Inputs { output_extent: [64, 36], ..INPUTS }));
+        for image in plan.images.iter_mut().filter(|image| &*image.name == "part") {
+            image.allocated = made;
+        }
+        for step in &mut plan.steps {
+            let Work::Blit(transfer) = &mut step.work else { continue };
+            transfer.filter = Some(filter);
+            if let framewright_graph::plan::Side::Image { extent: whole, .. } = &mut transfer.target {
+                *whole = extent;
+            }
+        }
+        framewright_graph::verify::verify(&plan).iter().map(ToString::to_string).collect::<String>()
+    };
+    use framewright_graph::vulkan::Filter;
+    let says = "texels beyond the part in use are mixed in";
+    assert!(found(Filter::Linear, [64, 36, 1], Some([64, 36])).contains(says));
+    assert!(found(Filter::Linear, [32, 19, 1], Some([64, 36])).contains(says), "along one axis");
+    assert!(!found(Filter::Nearest, [64, 36, 1], Some([64, 36])).contains(says));
+    assert!(!found(Filter::Linear, [32, 18, 1], Some([64, 36])).contains(says), "it isn't enlarged");
+    assert!(!found(Filter::Linear, [64, 36, 1], None).contains(says), "all of it is used");
+}

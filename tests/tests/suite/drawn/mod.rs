@@ -27,6 +27,7 @@ mod fxaa;
 mod hdr10;
 mod image_quality;
 mod incidents;
+mod left_alone;
 mod library;
 mod light;
 mod limits;

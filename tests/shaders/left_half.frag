@@ -1,0 +1,8 @@
+#version 460
+
+layout(location = 0) out vec4 color;
+
+// Black.
+void main() {
+    color = vec4(0.0, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,4 @@
+#version 460
+
+// Nothing but what the rasteriser writes.
+void main() {}
