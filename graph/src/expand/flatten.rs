@@ -86,6 +86,7 @@ fn expand_so(
     let mut checked = shader::Checked::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
+    let mut alike = Vec::new();
     for pass in &pipeline.passes {
         let before = errors.len();
         targets::fit(&resources, pass, &mut errors);
@@ -105,7 +106,7 @@ fn expand_so(
                 let stand_ins = passes::stand_ins(&resources, pass, because, &mut errors);
                 State::Off { would, stand_ins, because: because.clone() }
             }
-            None => State::On(passes::lower(&resources, pass, &mut checked, &mut errors)),
+            None => State::On(passes::lower(&resources, pass, &mut checked, (&mut errors, &mut alike))),
         });
         said.once(&mut errors, before);
         if errors.len() >= MOST_KEPT {
@@ -133,7 +134,7 @@ fn expand_so(
             let passes = State::into_passes(states);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&pipeline), kept].concat();
+            let remarks = [shared, views::remarks(&pipeline), alike, kept].concat();
             Ok(Frame {
                 sources,
                 settings,

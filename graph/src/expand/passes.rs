@@ -3,10 +3,10 @@
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
-    fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
+    fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets, transfers, variant, work,
 };
 use crate::base::Diagnostic;
-use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Remark, Resource, TransferUse, Work};
 use crate::language::{self, StandIn, Work as Described};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
@@ -17,7 +17,7 @@ pub(super) fn lower(
     resources: &Resources<'_>,
     pass: &language::Pass,
     shaders: &mut Checked<'_>,
-    errors: &mut Vec<Diagnostic>,
+    (errors, remarks): (&mut Vec<Diagnostic>, &mut Vec<Remark>),
 ) -> Pass {
     let variant = variant::of(resources, pass);
     let path = shaders.find(pass, errors);
@@ -46,7 +46,9 @@ pub(super) fn lower(
         sampled::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(resources, pass, interface, errors);
+        targets::untaken(pass, interface, remarks);
         halves::check(resources, pass, interface, errors);
+        seen_alike::note(resources, pass, interface, remarks);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);
     }

@@ -1,7 +1,7 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
 use super::resources::Resources;
-use super::shader::{self, PARAMS, component_words, shape_words};
+use super::shader::{self, PARAMS, shape_words};
 use super::{arrays, parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
@@ -226,7 +226,7 @@ impl ImageCheck<'_> {
         }
         let holds = Component::of(image.format);
         if shape.component != holds {
-            let (wanted, held) = (component_words(shape.component), component_words(holds));
+            let (wanted, held) = (shape.component.words(), holds.words());
             let message = format!(
                 "shader `{shader}` takes `{name}` for {wanted}, but `{}` holds {held} ({})",
                 image.name, image.format

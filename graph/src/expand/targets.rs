@@ -2,10 +2,9 @@
 
 use super::images::FrameImage;
 use super::resources::Resources;
-use super::shader::component_words;
 use super::{parts, transfers};
 use crate::base::Diagnostic;
-use crate::frame::{Blend, TargetShape};
+use crate::frame::{Blend, Remark, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{Aspects, Component, Numeric, Shape};
@@ -155,6 +154,29 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
     }
 }
 
+/// Notes outputs of the shader that no target takes: they are allowed, and the validation layer warns of them.
+pub(super) fn untaken(pass: &language::Pass, interface: &ShaderInterface, remarks: &mut Vec<Remark>) {
+    let Some(shader) = pass.shader() else { return };
+    let untaken = interface.outputs.iter().filter(|output| output.location as usize >= pass.color.len());
+    let names: Vec<String> = untaken.map(|output| format!("`{}` (location {})", output.name, output.location)).collect();
+    // A pass that runs for each eye by itself is there twice.
+    let known = |remark: &Remark| remark.span == shader.span;
+    if names.is_empty() || remarks.iter().any(known) {
+        return;
+    }
+    let taken = match pass.color.len() {
+        0 => "the pass draws no colour".to_owned(),
+        1 => "the pass has one colour target".to_owned(),
+        count => format!("the pass has {count} colour targets"),
+    };
+    let text = format!(
+        "shader `{}` writes {}, which goes nowhere: {taken}; leave it out of the shader, or give it a target in `color`",
+        shader.text,
+        names.join(" and ")
+    );
+    remarks.push(Remark { subject: pass.name.text.clone(), span: shader.span, text, instead: false });
+}
+
 /// Every colour target is fed by an output of the same type.
 pub(super) fn fed(
     resources: &Resources<'_>,
@@ -192,7 +214,7 @@ pub(super) fn fed(
         };
         let holds = Component::of(format);
         if output.component != holds {
-            let (written, held) = (component_words(output.component), component_words(holds));
+            let (written, held) = (output.component.words(), holds.words());
             let message = format!(
                 "shader `{shader}` writes {written} to `{}`, but `{name}` holds {held} ({format})",
                 output.name
