@@ -177,7 +177,7 @@ pub(crate) enum Error {
     Csv(#[from] csv::Error),
     /// A picture that its kind of file can't hold.
     #[error(
-        "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
+        "`{}` is {format}, and OpenEXR files hold floating-point numbers and integers: write it to a .png file",
         text::escape(image)
     )]
     NotFloats { image: String, format: Format },

@@ -1,5 +1,6 @@
 //! Everything that can go wrong here, as data; the sentence is made where it is shown.
 
+use super::named;
 use ash::vk;
 use framewright_graph::base::{amount, escape};
 use framewright_graph::device::MemoryNeeds;
@@ -26,9 +27,10 @@ pub enum Error {
     NoDevice,
     /// The loader can't make an instance: a file that describes a driver or a layer is broken, or what it leads to is.
     #[error(
-        "the Vulkan loader can't make an instance{} ({result:?}): a file that it reads is broken, or leads to a \
+        "the Vulkan loader can't make an instance{} ({}): a file that it reads is broken, or leads to a \
          library that can't be loaded; VK_LOADER_DEBUG=all shows which; mend it with: {INSTALL}{}",
         if *validation { " with the validation layer" } else { "" },
+        named(result),
         loader_variables(", or mend what they lead to")
     )]
     NoInstance {
@@ -64,22 +66,35 @@ pub enum Error {
         missing: Vec<String>,
     },
     /// Validation was asked for and there is no validation layer.
-    #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}", looked(layer_path))]
+    #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}{}", looked(layer_path), disabled())]
     NoValidationLayer {
         /// `VK_LAYER_PATH`, if it is set.
         layer_path: Option<String>,
     },
     /// The validation layer didn't report a mistake that was made on purpose: its silence would prove nothing.
     #[error(
-        "the validation layer {} did not report {planted}, which was planted to test it: check \
-         VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt",
-        escape(layer)
+        "the validation layer {} did not report {planted}, which was planted to test it: its {checks} are switched off, or their \
+         messages are left out; {}",
+        escape(layer),
+        unset(settings)
     )]
     LayerIsBlind {
         /// The layer.
         layer: String,
         /// The planted mistake.
         planted: &'static str,
+        /// The checks that find it.
+        checks: &'static str,
+        /// The layer's settings, from the environment and its file.
+        settings: Vec<String>,
+    },
+    /// Settings keep the validation layer from reporting some mistakes: its silence would prove nothing.
+    #[error("the validation layer {} keeps mistakes to itself; {}", escape(layer), unset(settings))]
+    LayerIsMuted {
+        /// The layer.
+        layer: String,
+        /// The settings, from the environment and the layer's file.
+        settings: Vec<String>,
     },
     /// A file of this crate's own can't be written (the layer's manifest).
     #[error(
@@ -94,7 +109,7 @@ pub enum Error {
         reason: String,
     },
     /// A Vulkan call failed.
-    #[error("{doing} failed: {result:?}")]
+    #[error("{doing} failed: {}", named(result))]
     Vulkan {
         /// The operation that failed.
         doing: &'static str,
@@ -207,10 +222,12 @@ pub enum Error {
     },
     /// An image or buffer takes other memory here than the Plan assumes.
     #[error(
-        "`{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device",
+        "`{}` needs {} on {}, and the Plan, made for {}, gives it {}: compile it for this device",
         escape(resource),
+        in_memory(actual),
         escape(device),
-        escape(planned_for)
+        escape(planned_for),
+        in_memory(planned)
     )]
     OtherMemoryNeeds {
         /// The image or buffer.
@@ -231,6 +248,12 @@ pub enum Error {
         pass: String,
         /// The misuse, in words.
         what: String,
+    },
+    /// A frame was to be drawn before the program imported again what it had imported for the Plan before.
+    #[error("the Plan is another one: `{}` is to be imported again", escape(name))]
+    NotImported {
+        /// The image or buffer.
+        name: String,
     },
     /// The draw source gave up.
     #[error("{}", escape(what))]
@@ -263,6 +286,7 @@ impl Error {
             | Error::Lacking { .. }
             | Error::NoValidationLayer { .. }
             | Error::LayerIsBlind { .. }
+            | Error::LayerIsMuted { .. }
             | Error::CantWrite { .. }
             | Error::Vulkan { .. }
             | Error::DeviceLost { .. }
@@ -279,6 +303,7 @@ impl Error {
             | Error::DrawSource { .. } => Blame::Files,
             Error::BadPlan { .. }
             | Error::NotEnabled { .. }
+            | Error::NotImported { .. }
             | Error::Cancelled { .. }
             | Error::Violations { .. }
             | Error::OtherMemoryNeeds { .. }
@@ -334,8 +359,32 @@ fn loader_variables(after: &str) -> String {
     format!("; or: unset {} (now {}){after}", names.join(" "), values.join(", "))
 }
 
+/// Needs of memory.
+fn in_memory(needs: &MemoryNeeds) -> String {
+    let MemoryNeeds { bytes, alignment, type_bits } = *needs;
+    let types = (0..u32::BITS).filter(|ty| type_bits >> ty & 1 == 1).map(|ty| ty.to_string()).collect::<Vec<_>>();
+    format!("{bytes} bytes, aligned to {alignment}, of the memory types {}", types.join(", "))
+}
+
+/// What to do about settings of the validation layer.
+fn unset(settings: &[String]) -> String {
+    match settings {
+        [] => "check VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt".to_owned(),
+        settings => format!("take these settings back: {}", list(settings)),
+    }
+}
+
 fn looked(layer_path: &Option<String>) -> String {
     layer_path.as_ref().map_or_else(String::new, |path| format!(" in VK_LAYER_PATH={}", escape(path)))
+}
+
+/// The variable by which the loader hides layers, if it is set: there may be a layer that it doesn't show.
+fn disabled() -> String {
+    const HIDES: &str = "VK_LOADER_LAYERS_DISABLE";
+    let value = std::env::var_os(HIDES).filter(|value| !value.is_empty());
+    value.map_or_else(String::new, |value| {
+        format!("; or: unset {HIDES} (now {HIDES}={}), which hides layers", escape(&value.to_string_lossy()))
+    })
 }
 
 fn list(texts: &[String]) -> String {

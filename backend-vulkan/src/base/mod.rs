@@ -5,6 +5,7 @@ mod cancel;
 pub(crate) mod convert;
 mod error;
 mod kept_files;
+mod named;
 mod platform;
 
 pub use cache::{Cache, CachedFiles};
@@ -15,6 +16,7 @@ pub(crate) use cache::{identity_of, path_variable, read_file, replace_file};
 pub(crate) use cancel::{Cancel, SLICE};
 pub(crate) use convert::Clear;
 pub(crate) use kept_files::{bytes_in, digest, shrink, used_now};
+pub(crate) use named::{by, named, numbers};
 pub(crate) use platform::{
     apart_from_interrupts, in_words, limit_this_process, take_standard_output, with_usual_rights,
 };

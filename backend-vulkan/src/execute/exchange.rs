@@ -181,6 +181,7 @@ impl Executor {
         }
         self.frames.wait_for_all()?;
         self.owners.retain(|(of, _)| of != name);
+        self.missing.retain(|missing| missing != name);
         let descriptor = descriptor(self.plan.image(id));
         // SAFETY: the caller's promise.
         let images: Vec<_> = images.iter().map(|raw| unsafe { Image::foreign(&self.gpu, &descriptor, *raw) }).collect();
@@ -202,6 +203,7 @@ impl Executor {
         let plan = &self.plan.buffers[id.0 as usize];
         self.may_import(&plan.role, name)?;
         self.frames.wait_for_all()?;
+        self.missing.retain(|missing| missing != name);
         // SAFETY: the caller's promise.
         let buffer = unsafe { RawBuffer::foreign(&self.gpu, &buffer_descriptor(plan), buffer) };
         self.prepared.forget();

@@ -36,6 +36,8 @@ pub struct Executor {
     pub(crate) prepared: PreparedPlan,
     /// What imported images belong to, by the name of the image. Dropped after the frames, and the views of the images.
     pub(crate) owners: Vec<(String, Arc<dyn Any + Send + Sync>)>,
+    /// Images and buffers of the program's that the executors before this one had, and that this one wasn't given yet.
+    pub(super) missing: Vec<String>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -110,6 +112,7 @@ impl Executor {
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
             owners: Vec::new(),
+            missing: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             options: options.clone(),
@@ -136,8 +139,8 @@ impl Executor {
     /// for the oldest first.
     ///
     /// # Errors
-    /// The errors of `source`, [`Error::Recording`] if it misused its recorder or panicked, [`Error::OutOfMemory`], [`Error::DeviceLost`],
-    /// [`Error::Timeout`].
+    /// The errors of `source`, [`Error::Recording`] if it misused its recorder or panicked, [`Error::NotImported`],
+    /// [`Error::OutOfMemory`], [`Error::DeviceLost`], [`Error::Timeout`].
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
@@ -237,6 +240,9 @@ impl Executor {
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number among its own.
     fn next_frame(&mut self, images: &[(&str, usize)]) -> Result<u64, Error> {
+        if let Some(name) = self.not_imported() {
+            return Err(Error::NotImported { name: name.to_owned() });
+        }
         let of_window = self.owners.iter().find(|(name, _)| images.iter().all(|(chosen, _)| chosen != name));
         if let Some((name, _)) = of_window {
             let what = format!("`{name}` is shown in a window: `present` draws it, or another image is imported first");

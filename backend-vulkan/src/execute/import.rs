@@ -37,7 +37,7 @@ impl Import {
     }
 
     /// Whether the executor made it itself.
-    fn is_own(&self, physical: &PhysicalResources) -> bool {
+    pub(super) fn is_own(&self, physical: &PhysicalResources) -> bool {
         match self.resource {
             Resource::Image(image) => !physical.image(image, 0).is_foreign(),
             Resource::Buffer(buffer) => !physical.buffer(buffer, 0).is_foreign(),

@@ -23,7 +23,7 @@ impl Executor {
     /// Lets what persists go on from `before`, which executed another Plan on the same device and ends here: the same
     /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
     /// its contents, history as a whole; everything else begins with its initial value. Frames are counted on. Returns the names of
-    /// what went on.
+    /// what went on. What the program imported into `before` is to be imported again, or no frame is drawn.
     ///
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
@@ -38,6 +38,7 @@ impl Executor {
         }
         before.frames.wait_for_all()?;
         self.first_frame = before.frames();
+        self.missing = before.imported();
         if !before.initialised {
             return Ok(Vec::new());
         }
@@ -63,6 +64,24 @@ impl Executor {
         }
         self.prepared.forget();
         Ok(migrated.iter().map(|it| name_and_role(&self.plan, it.to).0.to_owned()).collect())
+    }
+
+    /// Names of the images and buffers of the program's that it has, or that executors before it had. Those that a window shows aren't
+    /// among them: presenting imports them.
+    fn imported(&self) -> Vec<String> {
+        let imported = self.imports.iter().filter(|it| !it.is_own(&self.prepared.physical));
+        let names = imported.map(|it| name_and_role(&self.plan, it.resource).0);
+        let names = names.filter(|name| self.owners.iter().all(|(shown, _)| shown != name));
+        names.map(str::to_owned).chain(self.missing.iter().cloned()).collect()
+    }
+
+    /// What the frame uses of the program's, and was not imported since the executor before this one had it.
+    pub(super) fn not_imported(&self) -> Option<&str> {
+        let uses_own = |name: &str| {
+            let mut own = self.imports.iter().filter(|it| it.is_own(&self.prepared.physical));
+            own.any(|it| name_and_role(&self.plan, it.resource).0 == name)
+        };
+        self.missing.iter().map(String::as_str).find(|name| uses_own(name))
     }
 
     /// Migrations of the images and buffers whose contents are carried over, cycle by cycle.

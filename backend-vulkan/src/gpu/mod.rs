@@ -15,6 +15,7 @@ mod portability;
 pub(crate) mod queues;
 mod summary;
 mod surface;
+pub(crate) mod switched_off;
 mod validation;
 mod words;
 

@@ -66,6 +66,12 @@ impl Message {
         self.at.as_ref().map_or_else(|| self.text.clone(), |at| format!("{at}: {}", self.text))
     }
 
+    /// Whether another message says the same of the same step: a layer says it of each draw, and with the handles at hand.
+    fn repeats(&self, other: &Message) -> bool {
+        (self.severity, self.kind, &self.id, &self.at) == (other.severity, other.kind, &other.id, &other.at)
+            && without_handles(&self.text).eq(without_handles(&other.text))
+    }
+
     /// Whether it is about the layer's settings, wherever they come from: this program, a file, the environment.
     fn is_about_settings(&self) -> bool {
         ["VALIDATION-SETTINGS", "WARNING-Setting-Limit-Adjusted"].contains(&&*self.id)
@@ -111,6 +117,20 @@ impl Messages {
         self.lock().messages.clone()
     }
 
+    /// Messages that say different things, each with how often it was said. One mistake is said of each draw, frame after frame.
+    #[must_use]
+    pub fn distinct(&self) -> Vec<(Message, usize)> {
+        let mut distinct: Vec<(Message, usize)> = Vec::new();
+        // Repetitions mostly come one after the other.
+        for message in &self.lock().messages {
+            match distinct.iter_mut().rev().find(|(known, _)| message.repeats(known)) {
+                Some((_, count)) => *count += 1,
+                None => distinct.push((message.clone(), 1)),
+            }
+        }
+        distinct
+    }
+
     /// The messages that this thread causes while `work` runs, kept apart from the others.
     pub(crate) fn apart<T>(&self, work: impl FnOnce() -> T) -> (T, Vec<Message>) {
         let thread = thread::current().id();
@@ -139,6 +159,14 @@ impl Messages {
             .pfn_user_callback(Some(receive))
             .user_data(self.as_user_data())
     }
+}
+
+/// The words of a text, without the numbers of handles.
+fn without_handles(text: &str) -> impl Iterator<Item = &str> {
+    text.split("0x").enumerate().map(|(at, part)| {
+        let digits = if at == 0 { 0 } else { part.bytes().take_while(u8::is_ascii_hexdigit).count() };
+        &part[digits..]
+    })
 }
 
 /// Vulkan's callback.
@@ -291,6 +319,23 @@ mod tests {
         let copied = after_a_fill("SYNC_COPY_TRANSFER_WRITE");
         let copied = Message { text: copied.text.replace("vkCmdFillBuffer", "vkCmdCopyBuffer2"), ..copied };
         assert!(copied.is_finding());
+    }
+
+    #[test]
+    fn what_is_said_of_each_draw_is_one_mistake() {
+        let said = |text: &str, at: &str| Message { at: Some(at.to_owned()), text: text.to_owned(), ..after_a_fill("x") };
+        let messages = Messages::default();
+        for (text, at) in [
+            ("of VkImage 0xab12[c], layer 0", "step 0"),
+            ("of VkImage 0x9[c], layer 0", "step 0"),
+            ("of VkImage 0x9[c], layer 1", "step 0"),
+            ("of VkImage 0x9[c], layer 0", "step 1"),
+            ("of VkImage 0x77[c], layer 0", "step 0"),
+        ] {
+            messages.lock().messages.push(said(text, at));
+        }
+        let counts: Vec<usize> = messages.distinct().into_iter().map(|(_, count)| count).collect();
+        assert_eq!(counts, [3, 1, 1]);
     }
 
     fn unknown_setting(text: &str) -> Message {

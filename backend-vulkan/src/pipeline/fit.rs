@@ -1,9 +1,10 @@
 //! Whether a shader fits what its pass and its draw source give it, and the device.
 
+use crate::base::by;
 use crate::gpu::{Gpu, VertexAttribute};
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, VertexInput};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind, VertexInput};
 use framewright_graph::vulkan::Component;
 
 /// The device must have the features that the shader needs.
@@ -38,9 +39,14 @@ fn array_words(name: &str, length: Option<u32>) -> String {
 
 /// What a draw source brings along.
 fn in_words(supplied: &Supplied) -> String {
+    let [one, many] = match supplied.kind {
+        SuppliedKind::UniformBlock => ["a uniform block", "uniform blocks"],
+        SuppliedKind::StorageBlock => ["a storage block", "storage blocks"],
+        SuppliedKind::SampledImage => ["a `sampler2D`", "elements of `sampler2D`"],
+    };
     match supplied.count {
-        1 => format!("a {:?}", supplied.kind),
-        count => format!("{count} of the kind {:?}", supplied.kind),
+        1 => one.to_owned(),
+        count => format!("{count} {many}"),
     }
 }
 
@@ -57,7 +63,7 @@ pub(crate) fn check_outputs(
         let image = plan.image(attachment.image);
         if output.component != Component::of(image.format) {
             let (name, format) = (&image.name, image.format);
-            return Err(format!("the shader writes {:?} to `{name}`, which is {format}", output.component));
+            return Err(format!("the shader writes {} to `{name}`, which is {format}", output.component.words()));
         }
     }
     Ok(())
@@ -143,5 +149,6 @@ pub(crate) fn check_workgroup(gpu: &Gpu, size: [u32; 3]) -> Result<(), String> {
     if fits {
         return Ok(());
     }
-    Err(format!("workgroups of {size:?} invocations are larger than this device allows"))
+    let (most, in_all) = (by(limits.max_compute_work_group_size), limits.max_compute_work_group_invocations);
+    Err(format!("workgroups of {} invocations: this device allows {most}, and {in_all} in all", by(size)))
 }

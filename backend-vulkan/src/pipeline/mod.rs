@@ -18,4 +18,3 @@ pub(crate) use fit::{
 pub(crate) use graphics::or_unused;
 pub(crate) use layouts::PARTS_STAGES;
 pub(crate) use limits::check_limits;
-pub(crate) use parameters::PARAMS;

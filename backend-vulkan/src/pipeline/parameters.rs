@@ -2,10 +2,8 @@
 
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan;
-use framewright_graph::shader::{Block, MatrixLayout, Member, ParamScalar, ParamType};
+use framewright_graph::shader::{Block, MatrixLayout, Member, PARAMS, ParamScalar, ParamType};
 
-/// Name of the block that holds a pass's parameters.
-pub(crate) const PARAMS: &str = "params";
 
 /// The bytes of a parameter block.
 ///
@@ -27,7 +25,7 @@ pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, Str
 /// Writes a value where its member lies in a block.
 fn write(bytes: &mut [u8], member: &Member, value: &ParamValue) -> Result<(), String> {
     let Member { name, ty, offset, matrix } = member;
-    let misfit = || format!("`{name}` is a {ty}, and {value:?} is none");
+    let misfit = || format!("`{name}` is a {ty}, and {value} is none");
     let known = ParamType::of(ty).ok_or_else(misfit)?;
     let MatrixLayout { stride, row_major } = matrix.unwrap_or(MatrixLayout { stride: 16, row_major: false });
     for (column, components) in (0_u32..).zip(known.columns_of(value).ok_or_else(misfit)?) {

@@ -3,14 +3,14 @@
 use super::check_steps::{bad, executable};
 use super::descriptions::{buffer_descriptor, cycle, descriptor};
 use super::textures::file_of;
-use crate::base::Error;
+use crate::base::{Error, by};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{BufferUsage, Layout, Usage};
+use framewright_graph::vulkan::{BufferUsage, Layout, Usage, name_of};
 
 /// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +47,15 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
 fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<(), Error> {
     let (name, descriptor) = (&image.name, descriptor(image));
     if !gpu.can_make(&descriptor) {
-        return bad(format!("{} has no images like `{name}`: {descriptor:?}", gpu.summary.name));
+        let ImageDescriptor { format, shape, extent, mips, layers, samples, usage, .. } = descriptor;
+        return bad(format!(
+            "{} has no images like `{name}`: {format}, {} texels ({}), {mips} mip levels, {layers} layers, {samples} samples, \
+             used as {}",
+            gpu.summary.name,
+            by(extent),
+            name_of(&shape),
+            name_of(&usage)
+        ));
     }
     match &image.role {
         Role::Transient(place) => {
@@ -83,12 +91,18 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
 fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
     let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
     let limits = &gpu.limits;
-    let too_large = |usage, most: u32| buffer.usage.contains(usage) && buffer.bytes > u64::from(most);
-    if !gpu.can_make_buffer(&descriptor)
-        || too_large(BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range)
-        || too_large(BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range)
-    {
-        return bad(format!("{} has no buffers like `{name}`: {descriptor:?}", gpu.summary.name));
+    for (usage, most, kind, limit) in [
+        (BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range, "uniform", "maxUniformBufferRange"),
+        (BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range, "storage", "maxStorageBufferRange"),
+    ] {
+        if buffer.usage.contains(usage) && buffer.bytes > u64::from(most) {
+            let (device, bytes) = (&gpu.summary.name, buffer.bytes);
+            return bad(format!("`{name}` has {bytes} bytes, and a {kind} block of {device} at most {most} ({limit})"));
+        }
+    }
+    if !gpu.can_make_buffer(&descriptor) {
+        let (device, bytes, usage) = (&gpu.summary.name, buffer.bytes, name_of(&buffer.usage));
+        return bad(format!("{device} has no buffers like `{name}`: {bytes} bytes, used as {usage}"));
     }
     match &buffer.role {
         Role::Transient(place) => {

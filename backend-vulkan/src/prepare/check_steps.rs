@@ -1,13 +1,13 @@
 //! Whether a device can do what a step does.
 
-use crate::base::{Error, convert};
+use crate::base::{Error, convert, named};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::frame::{Blend, EyeForm, Stereo};
 use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
-use framewright_graph::vulkan::{Aspects, Filter};
+use framewright_graph::vulkan::{Aspects, Filter, name_of};
 
 /// A Plan that can't be executed.
 pub(super) fn bad(what: String) -> Result<(), Error> {
@@ -29,7 +29,8 @@ pub(crate) fn executable(gpu: &Gpu, plan: &Plan, step: &Step) -> Result<(), Erro
     };
     let family = gpu.queues.families.family(step.queue);
     if !family.flags.contains(needed) {
-        let what = format!("a step needs {needed:?}, and its {:?} queue on {} lacks it", step.queue, gpu.summary.name);
+        let (queue, device) = (name_of(&step.queue), &gpu.summary.name);
+        let what = format!("a step needs {}, and the queue for {queue} on {device} lacks it", named(needed));
         return bad(what);
     }
     match &step.work {
@@ -105,7 +106,8 @@ fn resolvable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
         let Some(resolve) = attachment.as_ref().and_then(|it| it.resolve.as_ref()) else { continue };
         if !supported.contains(convert::resolve(resolve.mode)) {
             let target = &plan.image(resolve.image).name;
-            return bad(format!("{} can't resolve {plane} into `{target}` by {:?}", gpu.summary.name, resolve.mode));
+            let mode = name_of(&resolve.mode);
+            return bad(format!("{} can't resolve {plane} into `{target}` by {mode}", gpu.summary.name));
         }
     }
     let mode =

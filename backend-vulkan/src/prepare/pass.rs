@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::pass_set::PassSets;
 use super::supplied::SuppliedSets;
 use super::variant::{scope_formats, variant};
-use crate::base::Error;
+use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
 use crate::pipeline::{
     brought_attributes, check_brought, check_features, check_limits, check_outputs, check_supplied, check_workgroup,
@@ -138,7 +138,7 @@ impl PreparedDispatch {
         };
         let most = gpu.limits.max_compute_work_group_count;
         if count.iter().zip(most).any(|(count, most)| *count > most) {
-            return Err(mismatch(format!("{count:?} workgroups are more than the {most:?} of this device")));
+            return Err(mismatch(format!("{} workgroups are more than the {} of this device", by(count), by(most))));
         }
         Ok(WorkgroupCount::Direct(count))
     }

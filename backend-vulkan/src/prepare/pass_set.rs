@@ -6,12 +6,12 @@ use super::rings::RingCache;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
-use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS, parameters};
+use crate::pipeline::{DescriptorSet, DescriptorTarget, parameters};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource};
-use framewright_graph::shader::{self, Block, PASS_SET};
-use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources};
+use framewright_graph::shader::{self, Block, PARAMS, PASS_SET};
+use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources, name_of};
 use std::sync::Arc;
 
 /// A pass's own descriptor sets with their bindings. Each frame's set points to the images and buffers of that frame.
@@ -198,11 +198,11 @@ fn block(
 
 /// The Plan's barriers wait for the stages that it names, and for no others.
 fn in_stages(wanted: &shader::Binding, planned: Stages) -> Result<(), String> {
-    if planned.contains(wanted.stages) {
+    if planned.contains(wanted.stages) || planned.contains(Stages::ALL_COMMANDS) {
         return Ok(());
     }
-    let (name, stages) = (&wanted.name, wanted.stages);
-    Err(format!("the shader uses `{name}` in {stages:?}, and the Plan has it used in {planned:?}"))
+    let (name, stages, planned) = (&wanted.name, name_of(&wanted.stages), name_of(&planned));
+    Err(format!("the shader uses `{name}` in {stages}, and the Plan has it used in {planned}"))
 }
 
 /// A shader that may write what the Plan takes to be only read would race with others.
@@ -260,7 +260,7 @@ fn image(
         if wanted == component {
             return Ok(());
         }
-        Err(format!("the shader reads {wanted:?} from `{name}`, which is {}", image.format))
+        Err(format!("the shader reads {} from `{name}`, which is {}", wanted.words(), image.format))
     };
     let samples = |multisampled: bool| {
         if multisampled == (image.samples > 1) {
@@ -301,7 +301,14 @@ fn image(
             Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
         }
         (shader::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
-        (wanted, kind) => Err(format!("`{name}` is bound as {kind:?}, and the shader declares {wanted:?}")),
+        (wanted, kind) => {
+            let bound = match kind {
+                BindingKind::Sampled(_) => "a sampled image",
+                BindingKind::Storage => "a storage image",
+                BindingKind::InputAttachment => "an input attachment",
+            };
+            Err(format!("`{name}` is bound as {bound}, and the shader declares {}", wanted.words()))
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::form::{COLOR_SPACE, SwapchainForm};
 use super::surface::{SurfaceHandle, presenting};
-use crate::base::{Error, convert};
+use crate::base::{Error, convert, named};
 use crate::commands::Timeline;
 use crate::gpu::Gpu;
 use ash::{khr, vk};
@@ -96,7 +96,7 @@ impl SwapchainHandle {
         }
         if !form.usage.contains(wanted) {
             let lacking = wanted & !form.usage;
-            return Some(format!("it is used as {lacking:?}, and those of the window can't be"));
+            return Some(format!("it is used as {}, and those of the window can't be", named(lacking)));
         }
         None
     }

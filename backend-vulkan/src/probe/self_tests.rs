@@ -9,7 +9,7 @@ use crate::gpu::Device;
 use crate::probe::{multiview, sample_resolve};
 use crate::process::{DeviceName, Helper, NoAnswer, SampleResolve};
 use framewright_graph::device::Profile;
-use framewright_graph::vulkan::ResolveMode;
+use framewright_graph::vulkan::{ResolveMode, name_of};
 use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -71,7 +71,7 @@ impl SelfTests {
     /// Features that the device claims and is used without, and why. `multiview`: the device claims to draw several views.
     pub(crate) fn used_without(&self, multiview: bool) -> Vec<String> {
         let resolves = |of: &str, unused: &[ResolveMode]| {
-            let modes: Vec<String> = unused.iter().map(|mode| format!("{mode:?}")).collect();
+            let modes: Vec<String> = unused.iter().map(name_of).collect();
             (!modes.is_empty()).then(|| {
                 let why = self.sample_resolve_unknown.as_deref().unwrap_or("it resolves to other values");
                 format!("{of} by {}: {why}", modes.join(", "))

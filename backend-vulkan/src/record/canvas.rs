@@ -1,6 +1,7 @@
 //! What a pass draws into: viewport and scissor of an eye's picture, and the draws that it takes to draw for both eyes at once.
 
 use super::state::{CommandState, CullMode, FrontFace};
+use crate::base::numbers;
 use crate::gpu::Gpu;
 use crate::prepare::{DrawTarget, scissor, viewport};
 use ash::vk;
@@ -143,7 +144,7 @@ impl<'f> Canvas<'f> {
     ) -> Result<(), String> {
         let count = instances.end.saturating_sub(instances.start);
         let twice = |number: u32| number.checked_mul(2);
-        let too_many = || format!("instances {instances:?} for both eyes");
+        let too_many = || format!("instances {} for both eyes", numbers(&instances));
         match self.target.eyes {
             None | Some((Stereo::Off | Stereo::MultiPass | Stereo::Multiview, _)) => {
                 draw(&self.gpu.raw, self.commands, instances.start, count);

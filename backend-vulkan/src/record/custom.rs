@@ -1,6 +1,6 @@
 //! How custom passes are recorded.
 
-use super::custom_image::{CustomImage, extent};
+use super::custom_image::{CustomImage, extent, named_buffer};
 use crate::base::convert;
 use crate::commands::{TransferSide, barriers, copy_between, fill};
 use crate::gpu::Gpu;
@@ -127,11 +127,7 @@ impl<'f> CustomRecorder<'f> {
     /// A buffer of the pass, by the Plan's name or the shader's, for commands of the program's own.
     #[must_use]
     pub fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        let is_named = |it: &&BufferAccess| {
-            *self.frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
-        };
-        let access = self.pass.buffers.iter().find(is_named)?;
-        Some(self.frame.buffer(access.buffer).raw)
+        named_buffer(self.frame, self.pass, name)
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:

@@ -1,9 +1,9 @@
-//! Images of a pass, for commands of the program's own.
+//! Images and buffers of a pass, for commands of the program's own.
 
 use crate::base::convert;
 use crate::prepare::{Frame, part};
 use ash::vk;
-use framewright_graph::plan::{self, Access, Plan};
+use framewright_graph::plan::{self, Access, BufferAccess, Plan};
 use framewright_graph::vulkan::{Accesses, Rotation, Subresources};
 
 /// An image of a pass, for commands of the program's own.
@@ -20,7 +20,7 @@ pub struct CustomImage {
     pub rotation: Rotation,
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
-    /// Allowed accesses of the pass.
+    /// The accesses that the pipeline declares. The barriers wait for all that are possible in the layout.
     pub accesses: Accesses,
 }
 
@@ -38,9 +38,18 @@ impl CustomImage {
             extent: extent(plan, access),
             rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
-            accesses: access.accesses,
+            accesses: access.accesses - Accesses::MEMORY_READ - Accesses::MEMORY_WRITE,
         })
     }
+}
+
+/// The buffer that a pass accesses, by the Plan's name or the shader's.
+pub(super) fn named_buffer(frame: &Frame<'_>, pass: &plan::Pass, name: &str) -> Option<vk::Buffer> {
+    let is_named = |it: &&BufferAccess| {
+        *frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
+    };
+    let access = pass.buffers.iter().find(is_named)?;
+    Some(frame.buffer(access.buffer).raw)
 }
 
 /// Extent of the first mip level of what is accessed.

@@ -1,10 +1,11 @@
 //! How a draw source records its draws.
 
 use super::canvas::Canvas;
-use super::custom_image::CustomImage;
+use super::custom_image::{CustomImage, named_buffer};
 use super::held::HeldResources;
 use super::state::{CullMode, FrontFace};
 use super::supplied::BoundSets;
+use crate::base::numbers;
 use crate::gpu::ScopeFormats;
 use crate::prepare::{Frame, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
@@ -104,6 +105,13 @@ impl<'f> Recorder<'f> {
     #[must_use]
     pub fn image(&self, name: &str) -> Option<CustomImage> {
         CustomImage::of(self.frame, self.plan, name)
+    }
+
+    /// A buffer that the pass reads or writes, by the Plan's name or the shader's, for commands of the program's own. In a
+    /// [custom pass](framewright_graph::frame::Draw::Custom) any command may read it: the barriers for the pass wait for all of them.
+    #[must_use]
+    pub fn buffer(&self, name: &str) -> Option<vk::Buffer> {
+        named_buffer(self.frame, self.plan, name)
     }
 
     /// A parameter that the pipeline gives the pass.
@@ -224,7 +232,7 @@ impl<'f> Recorder<'f> {
         let stride = u64::from(self.pass.vertex_stride);
         let reach = u64::from(vertices.end) * stride;
         if stride > 0 && self.vertices.is_some_and(|bytes| bytes < reach) {
-            return self.misused(|| format!("vertices {vertices:?} lie beyond the vertex buffer"));
+            return self.misused(|| format!("vertices {} lie beyond the vertex buffer", numbers(&vertices)));
         }
         if self.may_draw() {
             let count = vertices.end.saturating_sub(vertices.start);
@@ -257,7 +265,7 @@ impl<'f> Recorder<'f> {
         let held = self.indices;
         self.misused(|| match held {
             None => "an indexed draw without index buffer".to_owned(),
-            Some(held) => format!("indices {indices:?} lie beyond the index buffer, which holds {held}"),
+            Some(held) => format!("indices {} lie beyond the index buffer, which holds {held}", numbers(indices)),
         });
     }
 

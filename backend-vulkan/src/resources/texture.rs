@@ -69,14 +69,15 @@ impl Texture {
 /// [`Error::BadResource`] if they are more than a block of the device can hold.
 pub(super) fn flags_of(gpu: &Gpu, usage: BufferUsage, bytes: u64) -> Result<vk::BufferUsageFlags, Error> {
     let limits = &gpu.limits;
-    let (flags, most) = match usage {
-        BufferUsage::Vertex => (vk::BufferUsageFlags::VERTEX_BUFFER, u64::MAX),
-        BufferUsage::Index => (vk::BufferUsageFlags::INDEX_BUFFER, u64::MAX),
-        BufferUsage::Uniform => (vk::BufferUsageFlags::UNIFORM_BUFFER, u64::from(limits.max_uniform_buffer_range)),
-        BufferUsage::Storage => (vk::BufferUsageFlags::STORAGE_BUFFER, u64::from(limits.max_storage_buffer_range)),
+    use vk::BufferUsageFlags as Flags;
+    let (flags, kind, most) = match usage {
+        BufferUsage::Vertex => (Flags::VERTEX_BUFFER, "vertex", u64::MAX),
+        BufferUsage::Index => (Flags::INDEX_BUFFER, "index", u64::MAX),
+        BufferUsage::Uniform => (Flags::UNIFORM_BUFFER, "uniform", u64::from(limits.max_uniform_buffer_range)),
+        BufferUsage::Storage => (Flags::STORAGE_BUFFER, "storage", u64::from(limits.max_storage_buffer_range)),
     };
     if bytes > most {
-        let what = format!("{usage:?} buffer of {bytes} bytes: {} takes at most {most}", gpu.summary.name);
+        let what = format!("a {kind} buffer of {bytes} bytes: {} takes at most {most}", gpu.summary.name);
         return Err(Error::BadResource { what });
     }
     Ok(flags)

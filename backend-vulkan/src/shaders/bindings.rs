@@ -2,6 +2,7 @@
 
 use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
+use crate::base::named;
 use crate::process::ShaderStage;
 use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
@@ -123,7 +124,7 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
             let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
             BindingKind::StorageBlock { readable, writable }
         }
-        (opcode, _) => other(&format!("an {opcode:?} of SPIR-V"), "declare an image or a block"),
+        (opcode, _) => other(&format!("an {} of SPIR-V", named(opcode)), "declare an image or a block"),
     }
 }
 
@@ -207,7 +208,9 @@ fn texel_format(operand: Option<&Operand>) -> Result<Option<Format>, String> {
         ImageFormat::Rgba32i => Format::R32G32B32A32_SINT,
         ImageFormat::Rgba32f => Format::R32G32B32A32_SFLOAT,
         ImageFormat::R11fG11fB10f => Format::B10G11R11_UFLOAT_PACK32,
-        other => return Err(format!("a storage image of the format `{other:?}`, which no image of a pipeline has")),
+        other => {
+            return Err(format!("a storage image of the format `{}`, which no image of a pipeline has", named(other)));
+        }
     };
     Ok(Some(format))
 }

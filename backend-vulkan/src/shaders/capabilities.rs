@@ -2,6 +2,7 @@
 
 use super::module::IndexedModule;
 use super::text::Refused;
+use crate::base::named;
 use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
@@ -160,7 +161,7 @@ pub(super) fn check_capabilities(
     let Some(capability) = needed.filter(|it| !allowed(it)).max_by_key(|it| *it != Capability::GroupNonUniform) else {
         return Ok(features);
     };
-    let needs = |what: &str| format!("it needs SPIR-V's capability {capability:?}, which isn't supported{what}");
+    let needs = |what: &str| format!("it needs SPIR-V's capability {}, which isn't supported{what}", named(capability));
     Err(match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {
         Some((_, words, what)) => Refused::beginning(words, needs(&format!(": {what}"))),
         None => needs("").into(),

@@ -5,6 +5,7 @@
 
 use super::eyes::EYE;
 use super::module::{IndexedModule, id, number, storage_class};
+use crate::base::named;
 use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Function, Instruction, Operand};
 use rspirv::spirv::{Dim, ImageFormat, Op, StorageClass};
@@ -243,7 +244,7 @@ impl Layers {
                 made.push(Instruction::new(Op::VectorShuffle, flat, result, parts.into()));
             }
             Op::ImageQueryLevels | Op::ImageQuerySamples | Op::ImageQueryLod => made.push(it),
-            opcode => return Err(format!("Op{opcode:?} of an image that both eyes have of their own")),
+            opcode => return Err(format!("Op{} of an image that both eyes have of their own", named(opcode))),
         }
         Ok(())
     }
@@ -258,7 +259,7 @@ impl Layers {
     ) -> Result<(), String> {
         let flat = self.builder.type_vector(component, 2);
         let [with_depth, with_more] = [3, 4].map(|length| self.builder.type_vector(component, length));
-        let unusual = || format!("Op{:?} with an unusual coordinate", it.class.opcode);
+        let unusual = || format!("Op{} with an unusual coordinate", named(it.class.opcode));
         let given = id(it, 1).ok_or_else(unusual)?;
         let coordinate = match self.type_of(given, types) {
             Some(ty) if ty == flat => given,

@@ -264,6 +264,9 @@ impl ShaderLibrary {
         let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
         let by_eye = |spirv: Vec<u32>| layers::by_eye(&spirv, &names).map_err(|what| unsupported(what.into()));
         let spirv = if names.is_empty() { spirv } else { by_eye(spirv)? };
+        if mentioned.eye {
+            reflected.interface.sees_alike.clear();
+        }
         for binding in &mut reflected.interface.bindings {
             if let BindingKind::Other(Unbindable { place, .. }) = &mut binding.kind {
                 *place = text::place(files, found, |word| word == binding.name);

@@ -8,7 +8,7 @@ use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
 use super::{indexing, rotation};
 use crate::process::ShaderStage;
-use framewright_graph::shader::{FragmentOutput, ShaderInterface, VertexInput};
+use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
@@ -99,6 +99,7 @@ pub(super) fn reflect(
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
+        sees_alike: if stage == ShaderStage::Vertex { matrices(&module, &used) } else { Vec::new() },
         features,
     };
     let input_attachments = module
@@ -109,6 +110,34 @@ pub(super) fn reflect(
         })
         .collect();
     Ok(StageInterface { interface, inputs, outputs, input_attachments })
+}
+
+/// The pass's blocks with matrices, the parameters left out; none if the stage knows which view the device draws.
+fn matrices(module: &IndexedModule<'_>, used: &HashSet<u32>) -> Vec<String> {
+    if built_in_used(module, used, &[BuiltIn::ViewIndex]) {
+        return Vec::new();
+    }
+    let of_pass = |variable: u32| module.decoration_number(variable, Decoration::DescriptorSet) == Some(PASS_SET);
+    let blocks = module.variables().filter(|(variable, _)| used.contains(variable) && of_pass(*variable));
+    let named = blocks.filter_map(|(variable, it)| {
+        let ty = module.pointee(it).filter(|ty| holds_matrix(module, ty))?;
+        let own = module.name(variable);
+        Some(if own.is_empty() { module.name(ty.result_id?) } else { own }.to_owned())
+    });
+    named.filter(|name| name != PARAMS).collect()
+}
+
+/// Whether a type holds a matrix. Types hold only types that were declared before them.
+fn holds_matrix(module: &IndexedModule<'_>, ty: &rspirv::dr::Instruction) -> bool {
+    let within = |operand: &Operand| {
+        operand.id_ref_any().and_then(|ty| module.global(ty)).is_some_and(|ty| holds_matrix(module, ty))
+    };
+    match ty.class.opcode {
+        Op::TypeMatrix => true,
+        Op::TypeArray | Op::TypeRuntimeArray => ty.operands.first().is_some_and(within),
+        Op::TypeStruct => ty.operands.iter().any(within),
+        _ => false,
+    }
 }
 
 /// That what has a location, used or not, ends below location `most`.

@@ -273,3 +273,48 @@ fn what_is_not_the_program_s_own_can_not_be_handed_in() {
         assert_eq!(refused.to_string(), "the Plan has no image `shade`");
     });
 }
+
+/// A frame with another executor, such as one at another size, would be drawn into an image of that executor's own, and the program's
+/// would keep the last picture.
+#[test]
+fn no_frame_is_drawn_before_the_program_s_own_is_handed_in_again() {
+    on_each_driver(|device| {
+        let (image, memory) = own_image(device);
+        let (buffer, buffer_memory) = own_buffer(device);
+        let [mut drawn, mut increases] = [drawn_into(), increased()].map(|frame| executor(device, &frame));
+        // SAFETY: each is made as the Plans say and outlives the executors; nothing else touches it.
+        unsafe {
+            drawn.import_image("shared", image).expect("it is external");
+            increases.import_buffer("own", buffer).expect("it is external");
+        }
+        increases.write_buffer("own", &to_bytes(&[1, 10, 100])).expect("it fits");
+        frame(&mut drawn);
+        frame(&mut increases);
+        // A Plan without the image comes between: the program's image is missing nevertheless.
+        let mut between = executor(device, &increased());
+        between.migrate_from(drawn).expect("they are of one device");
+        frame(&mut between);
+        let mut again = executor(device, &drawn_into());
+        again.migrate_from(between).expect("they are of one device");
+        let refused = |executor: &mut Executor| executor.frame(&mut Nothing).expect_err("it isn't imported").to_string();
+        assert_eq!(refused(&mut again), "the Plan is another one: `shared` is to be imported again");
+        let mut more = executor(device, &increased());
+        more.migrate_from(increases).expect("they are of one device");
+        assert_eq!(refused(&mut more), "the Plan is another one: `own` is to be imported again");
+        // SAFETY: as above.
+        unsafe {
+            again.import_image("shared", image).expect("it is external");
+            more.import_buffer("own", buffer).expect("it is external");
+        }
+        frame(&mut again);
+        assert_eq!(texels(&mut again, "shared", 0), [0, 1, 10, 11]);
+        frame(&mut more);
+        assert_eq!(words(&mut more, "own"), [3, 12, 102]);
+        drop((again, more));
+        // SAFETY: the executors were dropped.
+        unsafe {
+            destroy_image(device, (image, memory));
+            destroy_buffer(device, (buffer, buffer_memory));
+        }
+    });
+}

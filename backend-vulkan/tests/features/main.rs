@@ -24,6 +24,7 @@ mod imports;
 mod local_reads;
 mod outlasting;
 mod overlays;
+mod own_commands;
 mod own_pipelines;
 mod presenting;
 mod queues;

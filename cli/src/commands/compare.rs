@@ -39,6 +39,12 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     outputs::prepare(heat_map.into_iter(), &read)?;
     let reference = inputs::picture(&arguments.reference, &read)?;
     let test = inputs::picture(&arguments.picture, &read)?;
+    for (path, picture) in [(&arguments.reference, &reference), (&arguments.picture, &test)] {
+        if !picture.left_out.is_empty() {
+            let what = text::escape(&picture.left_out.join(", "));
+            text::say(&format!("note: not compared of `{}`: {what}", text::path(path)));
+        }
+    }
     if reference.extent != test.extent {
         return Err(Error::Sizes {
             reference: (arguments.reference.clone(), reference.extent),

@@ -4,17 +4,17 @@
 //! the frames are drawn anew for each.
 
 use super::Prepared;
-use super::pictures::{layers, side_by_side};
+use super::pictures::side_by_side;
 use crate::error::Error;
 use crate::inspection::Thumbnail;
 use crate::picture::{FileFormat, Picture};
 use crate::planning::Loaded;
-use crate::system::interrupt;
+use crate::system::{interrupt, text};
 use framewright_graph::compile::Options;
 use framewright_graph::dataflow::Dataflow;
-use framewright_graph::frame::{Capture, Frame};
+use framewright_graph::frame::{Capture, Captures, Frame, capture_name};
 use framewright_graph::plan::Plan;
-use framewright_graph::vulkan::Format;
+use framewright_graph::vulkan::{Aspects, Format};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, Texels};
 use std::collections::HashSet;
@@ -39,7 +39,7 @@ pub(crate) struct Drawing<'a> {
     pub(crate) frames: u32,
 }
 
-/// What a pass left in an image. Layers stand side by side; of slices there is the first.
+/// What a pass left in an image. Layers and slices stand side by side.
 pub(crate) struct Captured {
     /// Its number, counted over all captures.
     pub(crate) number: usize,
@@ -54,15 +54,19 @@ impl Captured {
     /// The part of the image in words; empty for its first level and layers.
     fn part(&self) -> String {
         let range = &self.capture.range;
+        let stencil = (range.aspects == Aspects::STENCIL).then(|| "stencil".to_owned());
         let mip = (range.base_mip > 0).then(|| format!("mip level {}", range.base_mip));
         let layer = (range.base_layer > 0).then(|| format!("layer {}", range.base_layer));
-        mip.into_iter().chain(layer).collect::<Vec<_>>().join(", ")
+        stencil.into_iter().chain(mip).chain(layer).collect::<Vec<_>>().join(", ")
     }
 
     /// A name for files: the number, the pass, the image, and the part if it isn't all.
     pub(crate) fn name(&self) -> String {
         let Capture { pass, image, range, .. } = &self.capture;
         let mut name = format!("{:03}-{pass}-{image}", self.number);
+        if range.aspects == Aspects::STENCIL {
+            name += "-stencil";
+        }
         if range.base_mip > 0 {
             name += &format!("-mip{}", range.base_mip);
         }
@@ -111,12 +115,14 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
     let Drawing { device, pipeline, made: (plan, frame), scene, options, executor, frames } = drawing;
     let flow = Dataflow::of(plan);
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
-    let captures = frame.captures(|pass| runs.contains(pass));
+    let Captures { of_passes, left_out } = frame.captures(|pass| runs.contains(pass));
+    for why in left_out {
+        text::say(&format!("note: not captured: {}", text::escape(&why)));
+    }
     let mut done = 0;
-    for batch in batches(&captures) {
+    for batch in batches(&of_passes) {
         let frame = frame.with_captures(batch);
         let plan = pipeline.compile(&frame, &device.profile(), &mut device.memory(), &options)?;
-        let first = plan.outputs.len() - batch.len();
         let assets = &mut pipeline.assets;
         let mut prepared = Prepared::new(device, (&plan, Some(&frame)), assets, scene, &executor)?;
         for drawn in 0..frames {
@@ -126,8 +132,11 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
             prepared.draw()?;
         }
         for (at, capture) in batch.iter().enumerate() {
-            let texels = prepared.executor.read(first + at)?;
-            let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(layers(texels));
+            let plane = capture.range.aspects;
+            let texels = prepared.executor.read_image(&capture_name(at), plane, 0)?;
+            let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(vec![texels]);
+            // Stencil is read as bytes.
+            let format = if plane == Aspects::STENCIL { Format::R8_UINT } else { format };
             let captured = Captured { number: done, capture: capture.clone(), format, extent: [width, height], bytes };
             take(captured)?;
             done += 1;
@@ -171,7 +180,7 @@ mod tests {
                 ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace };
             frame.passes.push(Pass { color: vec![target], ..Pass::new(&format!("p{}", image.0), work) });
         }
-        let captures = frame.captures(|_| true);
+        let captures = frame.captures(|_| true).of_passes;
         let sizes: Vec<usize> = batches(&captures).map(<[Capture]>::len).collect();
         assert_eq!(sizes, [1, 1, 1, 2], "9000 × 9000 texels take more than a batch");
         assert!(batches(&captures).flatten().eq(&captures));

@@ -5,9 +5,8 @@ use crate::command_line::values::OutputFile;
 use crate::error::Error;
 use crate::picture::{self, FileFormat};
 use crate::system::text;
-use framewright_graph::frame::{Eye, EyeForm, Frame};
+use framewright_graph::frame::{Eye, Frame};
 use framewright_graph::plan::{Output, Plan, Resource};
-use framewright_graph::vulkan::Format;
 use framewright_vulkan::{Executor, Texels};
 use std::path::{Path, PathBuf};
 
@@ -21,8 +20,6 @@ pub(crate) struct EncodedPicture {
 pub(crate) struct PictureRequest<'a> {
     /// The output's number, or those of both eyes.
     outputs: Vec<usize>,
-    /// Whether the image has a layer for each eye.
-    in_layers: bool,
     /// The image's name.
     name: &'a str,
     /// The file to write.
@@ -36,32 +33,40 @@ impl PictureRequest<'_> {
         self.name
     }
 
-    /// Reads the outputs back and encodes them, and says what the picture loses.
+    /// Reads the outputs back and encodes them, and says what the picture leaves out or changes.
     ///
     /// # Errors
     /// Those of the device, and of the encoder.
     pub(crate) fn encode(&self, executor: &mut Executor, plan: &Plan) -> Result<EncodedPicture, Error> {
-        let (contents, format) = self.encoded(executor, plan)?;
-        if let Some(loss) = self.file_format.loss(format) {
-            text::say(&format!("note: `{}` is {format}: in its picture {loss}", text::escape(self.name)));
-        }
+        let (first, texels) = (self.outputs[0], self.outputs.iter().map(|output| executor.read(*output)));
+        let texels = texels.collect::<Result<Vec<_>, _>>()?;
+        let contents = encoded(self.file_format, plan, first, texels)?;
         Ok(EncodedPicture { path: self.path.to_owned(), contents })
     }
+}
 
-    /// Reads the outputs back and encodes them. Returns the file's contents, and the format of the image.
-    ///
-    /// # Errors
-    /// Those of the device, and of the encoder.
-    pub(crate) fn encoded(&self, executor: &mut Executor, plan: &Plan) -> Result<(Vec<u8>, Format), Error> {
-        let texels = self.outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
-        let eyes = texels.into_iter().flat_map(|texels| if self.in_layers { layers(texels) } else { vec![texels] });
-        let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes.collect());
-        let encoding = plan.outputs.get(self.outputs[0]).and_then(|output| output.encoding);
-        let picture = picture::Picture { format, encoding, extent: [width, height], bytes: &bytes };
-        let encoded = self.file_format.encode(&picture);
-        let contents = encoded.map_err(|problem| Error::Picture { image: self.name.to_owned(), problem })?;
-        Ok((contents, format))
+/// The file of an output that was read back, of both eyes one after the other. Says once what the picture leaves out or changes.
+///
+/// # Errors
+/// [`Error::Picture`].
+pub(crate) fn encoded(
+    file_format: FileFormat,
+    plan: &Plan,
+    output: usize,
+    texels: Vec<Texels>,
+) -> Result<Vec<u8>, Error> {
+    let Output { name, resource, encoding, .. } = &plan.outputs[output];
+    let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(texels);
+    let picture = picture::Picture { format, encoding: *encoding, extent: [width, height], bytes: &bytes };
+    let mut losses: Vec<String> = file_format.losses(&picture).into_iter().map(str::to_owned).collect();
+    let mips = if let Resource::Image(image) = *resource { plan.image(image).mips } else { 1 };
+    if mips > 1 {
+        losses.push(format!("of {mips} mip levels there is the first"));
     }
+    if !losses.is_empty() {
+        text::say_once(&format!("note: `{}` is {format}: in its picture {}", text::escape(name), losses.join(", and ")));
+    }
+    file_format.encode(&picture).map_err(|problem| Error::Picture { image: name.to_string(), problem })
 }
 
 /// The pictures that the command line asks for. `frame` is the one that the Plan was made of, if there is one: it knows images
@@ -81,8 +86,7 @@ pub(crate) fn requests<'a>(
         if !file_format.holds(image.format) {
             return Err(Error::NotFloats { image: name.to_string(), format: image.format });
         }
-        let in_layers = image.eyes == Some(EyeForm::Layers);
-        Ok(PictureRequest { outputs, in_layers, name, path, file_format })
+        Ok(PictureRequest { outputs, name, path, file_format })
     };
     let no_output = |name: &str| Error::NoOutput {
         name: name.to_owned(),
@@ -115,8 +119,7 @@ pub(crate) fn of_first_output(plan: &Plan) -> Option<PictureRequest<'_>> {
         true => (FileFormat::OpenExr, "picture.exr"),
         false => (FileFormat::Png, "picture.png"),
     };
-    let in_layers = image.eyes == Some(EyeForm::Layers);
-    Some(PictureRequest { outputs: of_both_eyes(plan, 0), in_layers, name, path: Path::new(path), file_format })
+    Some(PictureRequest { outputs: of_both_eyes(plan, 0), name, path: Path::new(path), file_format })
 }
 
 /// PNG files of all images that leave the frame, those of both eyes side by side.
@@ -127,15 +130,8 @@ pub(crate) fn of_all_outputs(plan: &Plan) -> Vec<PictureRequest<'_>> {
         let outputs = of_both_eyes(plan, next);
         let Output { name, resource, .. } = &plan.outputs[next];
         next += outputs.len();
-        if let Resource::Image(image) = resource {
-            let in_layers = plan.image(*image).eyes == Some(EyeForm::Layers);
-            requests.push(PictureRequest {
-                outputs,
-                in_layers,
-                name,
-                path: Path::new(""),
-                file_format: FileFormat::Png,
-            });
+        if let Resource::Image(_) = resource {
+            requests.push(PictureRequest { outputs, name, path: Path::new(""), file_format: FileFormat::Png });
         }
     }
     requests
@@ -167,21 +163,25 @@ fn alike(plan: &Plan, mut outputs: Vec<usize>) -> Vec<usize> {
     outputs
 }
 
-/// The layers of an image by themselves.
-pub(super) fn layers(texels: Texels) -> Vec<Texels> {
-    let bytes = texels.bytes.len() / texels.layers.max(1) as usize;
-    let layer = |bytes: &[u8]| Texels { layers: 1, bytes: bytes.to_vec(), ..texels };
-    texels.bytes.chunks(bytes.max(1)).map(layer).collect()
-}
-
-/// Pictures of the same size and format beside each other, the first one on the left.
-pub(super) fn side_by_side(mut eyes: Vec<Texels>) -> Texels {
-    let mut all = eyes.swap_remove(0);
-    for other in eyes {
-        let row = |texels: &Texels| texels.bytes.len() / texels.extent[1].max(1) as usize;
-        let rows = all.bytes.chunks(row(&all)).zip(other.bytes.chunks(row(&other)));
-        all.bytes = rows.flat_map(|(left, right)| [left, right].concat()).collect();
-        all.extent[0] += other.extent[0];
+/// All layers and slices of some images of the same size and format in one row, the first one on the left.
+pub(crate) fn side_by_side(images: Vec<Texels>) -> Texels {
+    let parts = |it: &Texels| it.layers.max(1) as usize * it.extent[2].max(1) as usize;
+    let count = images.iter().map(parts).sum::<usize>();
+    let rows = images[0].extent[1].max(1) as usize;
+    let mut all = Texels { bytes: Vec::new(), ..images[0] };
+    if count == 1 {
+        all.bytes.clone_from(&images[0].bytes);
+        return all;
     }
+    let flat = images.iter().flat_map(|it| it.bytes.chunks((it.bytes.len() / parts(it)).max(1)));
+    let flat: Vec<&[u8]> = flat.collect();
+    for row in 0..rows {
+        for part in &flat {
+            let bytes = part.len() / rows;
+            all.bytes.extend_from_slice(&part[row * bytes..(row + 1) * bytes]);
+        }
+    }
+    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    (all.extent, all.layers) = ([all.extent[0].saturating_mul(count), all.extent[1], 1], 1);
     all
 }

@@ -136,7 +136,7 @@ impl Sum {
     fn mean(&self) -> Light {
         #[allow(clippy::cast_possible_truncation, reason = "light is kept with as many bits as shaders have")]
         let texels = self.light.iter().map(|sum| sum.map(|sum| (sum / self.frames) as f32)).collect();
-        Light { extent: self.extent, texels, is_light: self.is_light }
+        Light { extent: self.extent, texels, is_light: self.is_light, left_out: Vec::new() }
     }
 }
 

@@ -96,7 +96,7 @@ mod tests {
     fn greys(values: [f64; 3]) -> Light {
         #[allow(clippy::cast_possible_truncation, reason = "light is kept with as many bits as shaders have")]
         let texels = values.map(|value| [srgb::decode(value) as f32; 3]);
-        Light { extent: [3, 1], texels: texels.into(), is_light: false }
+        Light { extent: [3, 1], texels: texels.into(), is_light: false, left_out: Vec::new() }
     }
 
     fn flicker(frames: &[[[f64; 3]; 2]]) -> Flicker {

@@ -12,9 +12,9 @@ pub(crate) enum EncodingError {
     /// An encoding of shares of 1 in a format of something else.
     #[error("its format doesn't hold shares from 0 to 1")]
     NotShares,
-    /// OpenEXR holds floating-point numbers.
-    #[error("its format isn't floating-point")]
-    NotFloats,
+    /// OpenEXR holds floating-point numbers and integers.
+    #[error("its format holds shares of 1")]
+    IsShares,
     /// The PNG encoder's words.
     #[error(transparent)]
     Png(#[from] png::EncodingError),
@@ -33,7 +33,6 @@ pub(crate) struct Picture<'t> {
     /// Width and height in texels.
     pub(crate) extent: [u32; 2],
     /// Rows from the top without padding, in the machine's byte order. Of depth-stencil formats they hold the depth alone.
-    /// Rows of further layers and slices are left out.
     pub(crate) bytes: &'t [u8],
 }
 

@@ -1,8 +1,8 @@
 //! The formats of picture files.
 
 use super::data::{EncodingError, Picture};
-use super::{exr, png};
-use framewright_graph::vulkan::{Encoding, Format, Numeric};
+use super::{exr, png, texel, values};
+use framewright_graph::vulkan::{Aspects, Encoding, Format, Numeric};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -43,18 +43,34 @@ impl FileFormat {
         }
     }
 
-    /// How the file changes the values of an image of the format, in words; `None` if it keeps them.
+    /// What the file changes in an image or leaves out of it, in words, one after the other.
     #[must_use]
-    pub(crate) fn loss(self, format: Format) -> Option<&'static str> {
-        match format.numeric() {
-            _ if self == FileFormat::OpenExr => None,
+    pub(crate) fn losses(self, picture: &Picture<'_>) -> Vec<&'static str> {
+        let format = picture.format;
+        let mut losses = Vec::new();
+        losses.extend(match format.numeric() {
+            _ if self == FileFormat::OpenExr => {
+                exr::wraps(format, picture.bytes).then_some("negative integers are 2³² more")
+            }
             _ if format.is_depth() => Some("the nearest texel is white"),
             Numeric::Sfloat | Numeric::Ufloat => Some("values outside 0…1 are clamped"),
             Numeric::Uint => Some("values above 255 are clamped"),
             Numeric::Sint => Some("values below 0 and above 255 are clamped"),
             Numeric::Snorm => Some("values below 0 are clamped"),
             _ => None,
+        });
+        if format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL) {
+            losses.push("the stencil is left out");
         }
+        let see_through = |texel: &[u8]| values::values(format, texel)[3] != 1.0;
+        if self == FileFormat::Png
+            && values::components(format) == 4
+            && picture.bytes.chunks_exact(texel::bytes(format)).any(see_through)
+        {
+            let is_integer = format.is_integer();
+            losses.push(if is_integer { "the fourth component is left out" } else { "alpha is left out, which isn't 1" });
+        }
+        losses
     }
 }
 
@@ -72,7 +88,6 @@ pub(crate) fn steps(format: Format, encoding: Option<Encoding>) -> Option<u16> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::texel;
     use super::*;
     use framewright_graph::vulkan::Format::*;
 

@@ -21,6 +21,8 @@ pub(crate) struct Light {
     pub(crate) texels: Vec<[f32; 3]>,
     /// Whether light isn't limited to what a display shows, from 0 to 1.
     pub(crate) is_light: bool,
+    /// What else the file holds, in words.
+    pub(crate) left_out: Vec<String>,
 }
 
 /// Why a file isn't a picture to compare.
@@ -47,7 +49,7 @@ pub(crate) enum DecodingError {
 }
 
 impl Light {
-    /// Reads a file's contents. Alpha is left out, since what lies on a screen is opaque.
+    /// Reads a file's contents. Alpha is left out, since what lies on a screen is opaque; that is noted where it isn't 1.
     ///
     /// # Errors
     /// If it is no PNG or OpenEXR file, is damaged, or is too large.
@@ -97,12 +99,15 @@ fn of_png(file: &[u8]) -> Result<Light, DecodingError> {
         _ => bytes.iter().map(|sample| light(f64::from(*sample) / 255.0)).collect(),
     };
     let texels = values.chunks_exact(channels).map(|it| if grey { [it[0]; 3] } else { [it[0], it[1], it[2]] });
-    Ok(Light { extent, texels: texels.take(extent[0] * extent[1]).collect(), is_light: false })
+    let opaque = || values.chunks_exact(channels).all(|it| it[channels - 1] == 1.0);
+    let left_out = if matches!(channels, 2 | 4) && !opaque() { vec!["alpha".to_owned()] } else { Vec::new() };
+    Ok(Light { extent, texels: texels.take(extent[0] * extent[1]).collect(), is_light: false, left_out })
 }
 
 /// An OpenEXR file holds linear light. Of several layers the first one counts.
 fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
-    for header in MetaData::read_from_buffered(Cursor::new(file), false)?.headers {
+    let headers = MetaData::read_from_buffered(Cursor::new(file), false)?.headers;
+    for header in &headers {
         sized(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
     }
     let layers = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
@@ -110,15 +115,31 @@ fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
     let Layer { size, channel_data: AnyChannels { list }, .. } = image.layer_data;
     let channel = |name: &str| list.iter().find(|it| it.name.eq(name)).map(|it| &it.sample_data);
     let values = |samples: &FlatSamples| samples.values_as_f32().collect::<Vec<f32>>();
-    let texels = match (["R", "G", "B"].map(channel), channel("Y")) {
-        ([Some(red), Some(green), Some(blue)], _) => {
-            let [red, green, blue] = [red, green, blue].map(values);
-            red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+    let (texels, seen): (Vec<[f32; 3]>, &[&str]) = match (["R", "G", "B"].map(channel), channel("Y")) {
+        ([Some(red), Some(green), blue], _) => {
+            let (red, green) = (values(red).into_iter(), values(green));
+            // An image of two components has no blue.
+            let blue = blue.map_or_else(|| vec![0.0; green.len()], values);
+            (red.zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect(), &["R", "G", "B"])
         }
-        (_, Some(grey)) => values(grey).into_iter().map(|grey| [grey; 3]).collect(),
+        (_, Some(grey)) => (values(grey).into_iter().map(|grey| [grey; 3]).collect(), &["Y"]),
         _ => return Err(DecodingError::NoColors),
     };
-    Ok(Light { extent: [size.width(), size.height()], texels, is_light: true })
+    let is_one = |samples: &FlatSamples| samples.values_as_f32().all(|value| value == 1.0);
+    let others = list.iter().filter(|it| seen.iter().all(|name| !it.name.eq(name)));
+    let others = others.filter(|it| !(it.name.eq("A") && is_one(&it.sample_data)));
+    let mut left_out: Vec<String> = others.map(|it| format!("channel {}", it.name)).collect();
+    let rounded = |it: &exr::prelude::AnyChannel<FlatSamples>| match &it.sample_data {
+        FlatSamples::U32(values) => values.iter().any(|value| *value > 1 << 24),
+        _ => false,
+    };
+    if list.iter().any(rounded) {
+        left_out.push("the last bits of integers above 16,777,216".to_owned());
+    }
+    if headers.len() > 1 {
+        left_out.push(format!("{} of {} layers", headers.len() - 1, headers.len()));
+    }
+    Ok(Light { extent: [size.width(), size.height()], texels, is_light: true, left_out })
 }
 
 fn sized(width: u64, height: u64) -> Result<[usize; 2], DecodingError> {
@@ -148,7 +169,7 @@ mod tests {
         let floats = [0.5_f32, -2.0, f32::INFINITY, 1.0].map(f32::to_ne_bytes).concat();
         let file = written(FileFormat::OpenExr, Format::R32G32B32A32_SFLOAT, [1, 1], &floats);
         let light = Light::decode(&file).expect("a picture");
-        assert_eq!(light, Light { extent: [1, 1], texels: vec![[0.5, -2.0, f32::INFINITY]], is_light: true });
+        assert_eq!(light, Light { extent: [1, 1], texels: vec![[0.5, -2.0, f32::INFINITY]], is_light: true, left_out: Vec::new() });
         let grey = written(FileFormat::OpenExr, Format::R32_SFLOAT, [1, 1], &0.25_f32.to_ne_bytes());
         assert_eq!(Light::decode(&grey).expect("a picture").texels, [[0.25; 3]]);
         let grey = written(FileFormat::Png, Format::R8_UNORM, [1, 1], &[255]);
@@ -159,7 +180,7 @@ mod tests {
     fn light_is_rounded_to_the_nearest_step() {
         let steps = |light: f64| srgb::decode(light / 255.0) as f32;
         let texels = vec![[steps(10.4), steps(10.6), steps(254.6)], [0.0, 1.0, f32::NAN]];
-        let rounded = Light { extent: [2, 1], texels, is_light: false }.in_steps(255).texels;
+        let rounded = Light { extent: [2, 1], texels, is_light: false, left_out: Vec::new() }.in_steps(255).texels;
         assert_eq!(rounded[0], [steps(10.0), steps(11.0), steps(255.0)]);
         assert!(rounded[1][..2] == [0.0, 1.0] && rounded[1][2].is_nan(), "{rounded:?}");
         // A file holds what was rounded as it is.

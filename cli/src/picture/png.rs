@@ -13,7 +13,7 @@ const HDR10: [u8; 4] = [9, 16, 0, 1];
 pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, EncodingError> {
     let format = picture.format;
     let encoding = picture.encoding.or_else(|| Encoding::of(format));
-    let grey = format.is_depth() || format.components() < 3;
+    let grey = format.is_depth() || format.components() == 1;
     let channels = if grey { 1 } else { 3 };
     let (depth, samples) = match encoding {
         Some(Encoding::Srgb | Encoding::Unorm | Encoding::Hdr10) => stored(picture, channels)?,

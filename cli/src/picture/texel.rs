@@ -22,9 +22,11 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]],
         F::B8G8R8A8_UNORM => [texel[2], texel[1], texel[0]].map(unorm).map(encode),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(|shift| encode(bits(word(0), shift, 10))),
-        F::R16_SFLOAT | F::R16G16_SFLOAT => [half(0), 0.0, 0.0].map(encode),
+        F::R16_SFLOAT => [half(0), 0.0, 0.0].map(encode),
+        F::R16G16_SFLOAT => [half(0), half(2), 0.0].map(encode),
         F::R16G16B16A16_SFLOAT => [half(0), half(2), half(4)].map(encode),
-        F::R32_SFLOAT | F::R32G32_SFLOAT => [float(0), 0.0, 0.0].map(encode),
+        F::R32_SFLOAT => [float(0), 0.0, 0.0].map(encode),
+        F::R32G32_SFLOAT => [float(0), float(4), 0.0].map(encode),
         F::R32G32B32A32_SFLOAT => [float(0), float(4), float(8)].map(encode),
         F::B10G11R11_UFLOAT_PACK32 => [(0, 11), (11, 11), (22, 10)]
             .map(|(shift, count)| encode(f16::from_bits(cut(word(0), shift, count)).to_f32())),
@@ -34,8 +36,8 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         // All others have components of one size, in order.
         _ => {
             let shown = if format.is_integer() { integer } else { encode };
-            let colors = if format.components() >= 3 { 3 } else { 1 };
-            std::array::from_fn(|at| if at < colors { shown(component(format, texel, at)) } else { 0 })
+            let components = format.components() as usize;
+            std::array::from_fn(|at| if at < components { shown(component(format, texel, at)) } else { 0 })
         }
     }
 }
@@ -43,9 +45,21 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
 /// A component of one texel of a format whose components have one size, in order, and are fixed-point numbers or integers.
 #[allow(clippy::cast_precision_loss, reason = "a picture shows no more")]
 pub(super) fn component(format: Format, texel: &[u8], number: usize) -> f32 {
+    let value = whole(format, texel, number);
+    let bytes = texel.len() / format.components() as usize;
+    let bits = 8 * u32::try_from(bytes).unwrap_or(4);
+    match format.numeric() {
+        Numeric::Unorm => value as f32 / ((1_i64 << bits) - 1) as f32,
+        Numeric::Snorm => (value as f32 / ((1_i64 << (bits - 1)) - 1) as f32).max(-1.0),
+        _ => value as f32,
+    }
+}
+
+/// The bits of a component of such a format as a whole number.
+pub(super) fn whole(format: Format, texel: &[u8], number: usize) -> i64 {
     let bytes = texel.len() / format.components() as usize;
     let signed = matches!(format.numeric(), Numeric::Snorm | Numeric::Sint);
-    let value = match (texel.get(number * bytes..(number + 1) * bytes).unwrap_or_default(), signed) {
+    match (texel.get(number * bytes..(number + 1) * bytes).unwrap_or_default(), signed) {
         (&[a], false) => i64::from(a),
         (&[a], true) => i64::from(a.cast_signed()),
         (&[a, b], false) => i64::from(u16::from_ne_bytes([a, b])),
@@ -53,12 +67,6 @@ pub(super) fn component(format: Format, texel: &[u8], number: usize) -> f32 {
         (&[a, b, c, d], false) => i64::from(u32::from_ne_bytes([a, b, c, d])),
         (&[a, b, c, d], true) => i64::from(i32::from_ne_bytes([a, b, c, d])),
         _ => 0,
-    };
-    let bits = 8 * u32::try_from(bytes).unwrap_or(4);
-    match format.numeric() {
-        Numeric::Unorm => value as f32 / ((1_i64 << bits) - 1) as f32,
-        Numeric::Snorm => (value as f32 / ((1_i64 << (bits - 1)) - 1) as f32).max(-1.0),
-        _ => value as f32,
     }
 }
 
@@ -102,11 +110,13 @@ pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
         u16::try_from((((word >> shift) & 1023) * 65535 + 511) / 1023).unwrap_or(u16::MAX)
     };
     Some(match format {
-        F::R8_UNORM | F::R8G8_UNORM => [byte(texel[0]), 0, 0],
+        F::R8_UNORM => [byte(texel[0]), 0, 0],
+        F::R8G8_UNORM => [byte(texel[0]), byte(texel[1]), 0],
         F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]].map(byte),
         F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]].map(byte),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(ten),
-        F::R16_UNORM | F::R16G16_UNORM => [short(0), 0, 0],
+        F::R16_UNORM => [short(0), 0, 0],
+        F::R16G16_UNORM => [short(0), short(2), 0],
         F::R16G16B16A16_UNORM => [0, 2, 4].map(short),
         _ => return None,
     })

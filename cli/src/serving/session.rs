@@ -290,8 +290,8 @@ fn output_pictures(
     }
     let requests = pictures::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
-        let (png, _) = request.encoded(&mut prepared.executor, &planned.plan)?;
-        Ok((request.name().to_owned(), png))
+        let picture = request.encode(&mut prepared.executor, &planned.plan)?;
+        Ok((request.name().to_owned(), picture.contents))
     });
     encoded.collect()
 }

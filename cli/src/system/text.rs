@@ -3,8 +3,10 @@
 pub(crate) use framewright_graph::base::amount::bytes;
 pub(crate) use framewright_graph::base::escape;
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 /// Several lines of text: as [`escape`], but line breaks stay.
 #[must_use]
@@ -52,6 +54,14 @@ pub(crate) fn print(text: &str) -> std::io::Result<()> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
+    }
+}
+
+/// Writes a line to standard error, unless it was written this way before: what is true of each frame is said of the first.
+pub(crate) fn say_once(line: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(line.to_owned()) {
+        say(line);
     }
 }
 

@@ -75,8 +75,8 @@ fn no_window(error: impl std::fmt::Display) -> Error {
 
 /// Says what the validation layer found. Returns whether there was anything.
 fn report(messages: &Messages) -> bool {
-    let messages = messages.list();
-    let findings: Vec<_> = messages.iter().filter(|message| message.is_finding()).collect();
+    let messages = messages.distinct();
+    let findings: Vec<_> = messages.iter().map(|(message, _)| message).filter(|message| message.is_finding()).collect();
     for finding in &findings {
         text::say(&format!("finding: {}: {}", text::escape(&finding.id), text::escape(&finding.located())));
     }

@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::files::outputs;
-use crate::picture::{FileFormat, Picture};
+use crate::drawing::pictures;
+use crate::picture::FileFormat;
 use crate::system::text;
 use framewright::Renderer;
 use std::path::{Path, PathBuf};
@@ -13,12 +14,10 @@ use std::path::{Path, PathBuf};
 /// Those of the device; [`Error::Picture`].
 pub(super) fn encoded(renderer: &mut Renderer, frame: u64) -> Result<Option<Vec<u8>>, Error> {
     let Some(output) = renderer.plan().and_then(|plan| plan.outputs.first()) else { return Ok(None) };
-    let (name, encoding) = (output.name.to_string(), output.encoding);
+    let name = output.name.to_string();
     let texels = renderer.read_back(frame, &name)?;
-    let [width, height, _] = texels.extent;
-    let picture = Picture { format: texels.format, encoding, extent: [width, height], bytes: &texels.bytes };
-    let encoded = FileFormat::Png.encode(&picture);
-    encoded.map(Some).map_err(|problem| Error::Picture { image: name, problem })
+    let Some(plan) = renderer.plan() else { return Ok(None) };
+    pictures::encoded(FileFormat::Png, plan, 0, vec![texels]).map(Some)
 }
 
 /// Writes a picture by a name that is free, beside where the command was called, and says the name or what is wrong with it.

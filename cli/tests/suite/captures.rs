@@ -112,3 +112,91 @@ fn thumbnails_on_the_page_are_the_dumped_images() {
         .mentions("add `--format html`");
     place.run(&["inspect", "forward", "--capture"]).exits(2);
 }
+
+const FACE: &str = "#version 460
+layout(set = 0, binding = 0) uniform Params { vec4 v; } params;
+layout(location = 0) out vec4 c;
+void main() { c = params.v; }";
+
+const LOOK: &str = "#version 460
+layout(set = 0, binding = 0) uniform samplerCube c;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 o;
+void main() { o = texture(c, vec3(uv - 0.5, 0.5)); }";
+
+/// What is drawn and was refused by each tool that captures, with the captures that there are.
+fn odd_pipelines() -> [(&'static str, &'static str, &'static [&'static str], Option<&'static str>); 4] {
+    let cube = r#"Pipeline(version: 1,
+        images: [(name: "c", format: R16G16B16A16_SFLOAT, size: Fixed(16, 16), shape: Cube), (name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "face", repeat: ("i", 6), draw: FullScreen("face"), params: {"v": ("i / 6", 0.5, 0.0, 1.0)}, color: [(image: "c", layer: "i")]),
+            (name: "show", draw: FullScreen("look"), sample: {"c": "c"}, color: ["screen"]),
+        ], outputs: ["screen"])"#;
+    let depth_alone = r#"Pipeline(version: 1,
+        images: [(name: "c", format: Color(hdr: true), size: Output), (name: "d", format: DepthStencil, size: Output), (name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "o", draw: Objects(Opaque), shader: "lit", color: [(image: "c", clear: (0.0, 0.0, 0.0, 1.0))], depth: (image: "d", clear: 0.0)),
+            (name: "show", draw: FullScreen("reinhard"), sample: {"source": "c"}, color: ["screen"]),
+        ], outputs: ["screen"])"#;
+    let samples = r#"Pipeline(version: 1,
+        images: [(name: "c", format: Color(hdr: true), size: Output, samples: 4), (name: "d", format: DepthStencil, size: Output, samples: 4), (name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "o", draw: Objects(Opaque), shader: "lit", color: [(image: "c", clear: (0.0, 0.0, 0.0, 1.0))], depth: (image: "d", clear: 0.0, stencil: (clear: 0, reference: 1, pass: Replace))),
+            (name: "show", draw: FullScreen("reinhard"), sample: {"source": "c"}, color: ["screen"]),
+        ], outputs: ["screen"])"#;
+    let stencil = r#"Pipeline(version: 1,
+        images: [(name: "c", format: Color(hdr: true), size: Output), (name: "d", format: DepthStencil, size: Output), (name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "o", draw: Objects(Opaque), shader: "lit", color: [(image: "c", clear: (0.0, 0.0, 0.0, 1.0))], depth: (image: "d", clear: 0.0, stencil: (clear: 0, reference: 7, pass: Replace))),
+            (name: "show", draw: FullScreen("reinhard"), sample: {"source": "c"}, color: ["screen"]),
+        ], outputs: ["screen"])"#;
+    [
+        ("cube", cube, &["face_0_-c", "face_1_-c-layer1", "face_5_-c-layer5", "show-screen"], None),
+        ("depth_alone", depth_alone, &["o-c", "o-d", "show-screen"], None),
+        ("samples", samples, &["o-c", "o-d", "show-screen"], Some("`d`: it has several samples, and stencil can't be resolved")),
+        ("stencil", stencil, &["o-c", "o-d", "o-d-stencil", "show-screen"], None),
+    ]
+}
+
+#[test]
+fn whatever_is_drawn_is_captured_and_what_is_left_out_is_said() {
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    for (name, text, captured, left_out) in odd_pipelines() {
+        let place = Place::new();
+        place.file("p.ron", text);
+        place.file("face.frag", FACE);
+        place.file("look.frag", LOOK);
+        let run = |more: &[&str]| place.run_with(&variables, &[more, &SMALL].concat()).exits(0);
+        let dumped = run(&["run", "p.ron", "--dump-all", "all", "-o", "beside.png", "--validate"]);
+        assert!(dumped.out.contains("validation: silent; "), "{name}: {}", dumped.out);
+        let files: Vec<String> = listed(&place, "all").iter().map(|one| one["file"].as_str().expect("a file").to_owned()).collect();
+        for wanted in captured {
+            let is_it = |file: &&String| file.rsplit_once('.').is_some_and(|(stem, _)| stem[4..] == **wanted);
+            assert_eq!(files.iter().filter(is_it).count(), 1, "{name}: {wanted} in {files:?}");
+        }
+        let said = |err: &str| err.lines().filter(|line| line.contains("not captured")).map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(said(&dumped.err), Vec::from_iter(left_out.map(|why| format!("note: not captured: {why}"))), "{name}");
+        // A capture changes no picture.
+        run(&["run", "p.ron", "-o", "alone.png"]);
+        let read = |file: &str| std::fs::read(place.path(file)).expect("written");
+        assert!(read("alone.png") == read("beside.png"), "{name}");
+        run(&["run", "p.ron", "--bisect", "no-alias"]);
+        run(&["inspect", "p.ron", "--format", "html", "--capture", "-o", "page.html"]);
+    }
+}
+
+/// Stencil is a capture of its own: the bytes that the pass left.
+#[test]
+fn captured_stencil_is_what_the_pass_left() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    place.file("p.ron", odd_pipelines()[3].1);
+    place.run_with(&variables, &[&["run", "p.ron", "--dump-all", "all"][..], &SMALL].concat()).exits(0);
+    let images = listed(&place, "all");
+    let stencil = images.iter().find(|one| one["file"].as_str().is_some_and(|file| file.contains("stencil"))).expect("captured");
+    let file = place.path("all").join(stencil["file"].as_str().expect("a file"));
+    let image = exr::prelude::read_first_flat_layer_from_file(file).expect("an OpenEXR file");
+    let exr::prelude::FlatSamples::U32(words) = &image.layer_data.channel_data.list[0].sample_data else { panic!("integers") };
+    let [marked, others] = [7, 0].map(|value| words.iter().filter(|word| **word == value).count());
+    assert!(marked > 100 && others > 100 && marked + others == words.len(), "{marked} and {others} of {}", words.len());
+}

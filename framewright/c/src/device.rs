@@ -86,7 +86,7 @@ pub unsafe extern "C" fn framewright_device_name(device: *const FramewrightDevic
     unsafe { device.as_ref() }.map_or(ptr::null(), |device| device.name.as_ptr())
 }
 
-/// Tells each finding of the validation layer so far: none without `FramewrightDeviceOptions::validation`.
+/// Tells each finding of the validation layer so far, once however often the layer said it: none without `FramewrightDeviceOptions::validation`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_device_findings(
     device: *const FramewrightDevice,
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn framewright_device_findings(
         // SAFETY: the caller's word.
         let device = unsafe { reference(device, "device")? };
         let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
-        for message in device.device.messages().list().iter().filter(|message| message.is_finding()) {
+        for (message, _) in device.device.messages().distinct().iter().filter(|(message, _)| message.is_finding()) {
             let message = text(&message.located());
             // SAFETY: the caller's word: it takes a text and what is given with it.
             unsafe { tell(context, message.as_ptr()) };

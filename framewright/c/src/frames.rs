@@ -109,7 +109,7 @@ fn no_scene(pass: &str) -> Error {
 impl State {
     /// Plans the next frame, has the scene follow the Plan, and keeps what changed until the program asks.
     pub(crate) fn prepare(&mut self) -> Result<(), Problem> {
-        let State { renderer, scene, planned_scene, objects, unreported, imported, gone, .. } = self;
+        let State { renderer, scene, planned_scene, objects, unreported, .. } = self;
         let device = renderer.device().clone();
         let prepared = renderer.prepare().map(|prepared| match prepared.change {
             Change::Nothing => FramewrightChange::Nothing,
@@ -127,9 +127,6 @@ impl State {
         }
         let plan = renderer.prepare()?.plan;
         *unreported = change.max(*unreported);
-        if change == FramewrightChange::Plan {
-            gone.append(imported);
-        }
         let kept = match (objects.take(), change) {
             (_, FramewrightChange::Plan) | (None, _) => None,
             (Some(objects), FramewrightChange::Nothing) => Some(objects),
@@ -156,16 +153,6 @@ impl State {
         self.objects = None;
         self.planned_scene.clone_from(&self.scene);
         self.unreported = FramewrightChange::Plan;
-        self.gone.append(&mut self.imported);
-    }
-
-    /// Makes sure that no image of the program's is missing, which an executor before had.
-    fn has_imports(&self) -> Result<(), Problem> {
-        let executor = self.renderer.executor();
-        let gone = self.gone.iter().find(|name| executor.is_some_and(|it| it.image_info(name).is_some()));
-        gone.map_or(Ok(()), |name| {
-            Err(Problem::Misuse(format!("the Plan is another one: the images of `{name}` are to be imported again")))
-        })
     }
 
     /// Has the executor draw the scene, and returns the frame's number.
@@ -174,7 +161,6 @@ impl State {
         draw: impl FnOnce(&mut Executor, &mut dyn DrawSource) -> Result<u64, Error>,
     ) -> Result<u64, Problem> {
         self.prepare()?;
-        self.has_imports()?;
         let State { renderer, objects, callback, .. } = self;
         let mut source = Source { scene: objects.as_mut(), callback: *callback };
         Ok(draw(renderer.executor_mut()?, &mut source)?)

@@ -85,10 +85,7 @@ pub unsafe extern "C" fn framewright_renderer_import_images(
             if images.contains(&vk::Image::null()) {
                 return Err(Problem::Misuse("one of the `images` is NULL".to_owned()));
             }
-            state.executor()?.import_images(name, images)?;
-            state.gone.remove(name);
-            state.imported.insert(name.to_owned());
-            Ok(())
+            Ok(state.executor()?.import_images(name, images)?)
         })
     }
 }

@@ -8,7 +8,6 @@ use crate::scene::FramewrightScene;
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
 use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
-use std::collections::BTreeSet;
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
 
@@ -39,10 +38,6 @@ pub(crate) struct State {
     pub(crate) callback: Option<Callback>,
     /// The most that changed since the program asked.
     pub(crate) unreported: FramewrightChange,
-    /// Names of external images that the executor has from the program.
-    pub(crate) imported: BTreeSet<String>,
-    /// Those that an executor before had, and that weren't imported again.
-    pub(crate) gone: BTreeSet<String>,
     /// What was read last.
     pub(crate) texels: Option<Texels>,
 }
@@ -211,8 +206,6 @@ pub unsafe extern "C" fn framewright_renderer_open(
             objects: None,
             callback: None,
             unreported: FramewrightChange::Nothing,
-            imported: BTreeSet::new(),
-            gone: BTreeSet::new(),
             texels: None,
         })))
     };

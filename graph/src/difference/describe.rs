@@ -7,7 +7,7 @@ use crate::base::amount::bytes;
 use crate::frame::{Allowances, EyeForm, Stereo};
 use crate::plan::names::Shown;
 use crate::plan::{Buffer, Cause, Image, Initial, Moved, Output, Plan, Role, StepId, View};
-use crate::vulkan::{Shape, Sharing, State, name_of};
+use crate::vulkan::{Shape, Sharing, State, in_plan, name_of};
 
 /// An entry of one Plan.
 pub(super) struct Description {
@@ -160,7 +160,7 @@ fn memory(plan: &Plan, role: &Role) -> String {
             let lazy = plan.heaps.get(placement.heap as usize).is_some_and(|heap| heap.lazily_allocated);
             format!("transient, {}{}", bytes(placement.bytes), if lazy { ", lazily allocated" } else { "" })
         }
-        Role::Persistent { initial: Initial::Value(value), .. } => format!("persistent, at first {value:?}"),
+        Role::Persistent { initial: Initial::Value(value), .. } => format!("persistent, at first {}", in_plan(value)),
         Role::Persistent { initial: Initial::File(file), .. } => {
             format!("persistent, of the file {}", code(&file.path))
         }

@@ -9,7 +9,7 @@ use crate::plan::{
     Access, Attachment, BindingKind, Fill, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
     RenderScope, Resource, Side, Step, StepId, Transfer, Work,
 };
-use crate::vulkan::{Sampler, Subresources, name_of};
+use crate::vulkan::{Sampler, Subresources, in_plan, name_of};
 
 /// A step that is described.
 #[derive(Clone, Copy)]
@@ -83,7 +83,7 @@ impl Described<'_> {
         let image = self.part(attachment.image, attachment.range);
         let mut fields = vec![("load", name_of(&attachment.load)), ("store", name_of(&attachment.store))];
         if let Some(clear) = attachment.clear {
-            fields.push(("clear value", format!("{clear:?}")));
+            fields.push(("clear value", in_plan(&clear)));
         }
         fields.push(("layout", name_of(&attachment.layout)));
         let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
@@ -97,9 +97,9 @@ impl Described<'_> {
         if self.step.queue != Queue::Graphics {
             fields.push(("queue", name_of(&self.step.queue)));
         }
-        fields.extend(pass.draw.iter().map(|draw| ("draw", format!("{draw:?}"))));
-        fields.extend(pass.groups.iter().map(|groups| ("workgroups", format!("{groups:?}"))));
-        fields.extend(pass.stencil.iter().map(|stencil| ("stencil", format!("{stencil:?}"))));
+        fields.extend(pass.draw.iter().map(|draw| ("draw", in_plan(draw))));
+        fields.extend(pass.groups.iter().map(|groups| ("workgroups", in_plan(groups))));
+        fields.extend(pass.stencil.iter().map(|stencil| ("stencil", in_plan(stencil))));
         fields.extend(pass.redraws.iter().map(|redrawn| ("draws the depth again of", code(redrawn))));
         let view = pass.view.and_then(|view| self.plan.views.get(view.0 as usize));
         fields.extend(view.iter().map(|view| ("view", code(&view.name))));

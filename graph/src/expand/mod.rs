@@ -33,6 +33,7 @@ mod precision;
 mod resources;
 mod rotation;
 mod sampled;
+mod seen_alike;
 mod settings;
 mod shader;
 mod shapes;

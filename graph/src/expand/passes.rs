@@ -3,7 +3,8 @@
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
-    coverage, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
+    coverage, fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets,
+    transfers, variant, work,
 };
 use crate::base::Diagnostic;
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
@@ -48,7 +49,9 @@ pub(super) fn lower(
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(resources, pass, interface, errors);
         shaders.remarks.extend(targets::set(pass, interface, errors));
+        targets::untaken(pass, interface, &mut shaders.remarks);
         halves::check(resources, pass, interface, errors);
+        seen_alike::note(resources, pass, interface, &mut shaders.remarks);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);
     }
@@ -179,8 +182,7 @@ pub(super) fn stand_ins(
                 let format = resources.image(to.index).map(|image| image.image.format);
                 let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
-                let transfer =
-                    TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
+                let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
                 (Work::Fill { value: filled }, Some(transfer))
             }
         };

@@ -3,7 +3,7 @@
 use super::images::FrameImage;
 use super::parts::{self, Cells};
 use super::resources::Resources;
-use super::shader::{self, component_words, shape_words};
+use super::shader::{self, shape_words};
 use super::{arrays, compared, storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
@@ -222,7 +222,7 @@ impl Check<'_> {
         let stencil = self.cells.planes == Aspects::STENCIL;
         let holds = if stencil { Component::Uint } else { Component::of(image.format) };
         if self.declared.shape.component != holds {
-            let (wanted, held) = (component_words(self.declared.shape.component), component_words(holds));
+            let (wanted, held) = (self.declared.shape.component.words(), holds.words());
             let shader = self.shader;
             let message = format!(
                 "shader `{shader}` reads {wanted} from `{name}`, but `{}` holds {held} ({})",

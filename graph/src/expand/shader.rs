@@ -9,12 +9,11 @@ use crate::shader::{
     Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
     Variant,
 };
-use crate::vulkan::{Component, Dimension, ImageShape};
+use crate::vulkan::{Dimension, ImageShape};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// The name of the block that a pass's parameters go to.
-pub(super) const PARAMS: &str = "params";
+pub(super) use crate::shader::PARAMS;
 
 /// The most bindings that are searched one by one; among more, a name is looked up.
 const MANY_GIVEN: usize = 16;
@@ -230,15 +229,6 @@ pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Opt
     }
     let (kind, thing, field) = given_in(binding)?;
     Some(Some(format!("`{name}` is {kind} in the shader: give it {thing} in `{field}`")))
-}
-
-/// The component type in words.
-pub(super) fn component_words(component: Component) -> &'static str {
-    match component {
-        Component::Float => "floating point",
-        Component::Int => "signed integers",
-        Component::Uint => "unsigned integers",
-    }
 }
 
 /// The image type in words.

@@ -1,9 +1,9 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
-use super::resources::Resources;
-use super::shader::{self, PARAMS, component_words, shape_words};
 use super::coverage::Kept;
 use super::parts::Cells;
+use super::resources::Resources;
+use super::shader::{self, PARAMS, component_words, shape_words};
 use super::{accesses, arrays, parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
@@ -261,7 +261,7 @@ impl ImageCheck<'_> {
         }
         let holds = Component::of(image.format);
         if shape.component != holds {
-            let (wanted, held) = (component_words(shape.component), component_words(holds));
+            let (wanted, held) = (shape.component.words(), holds.words());
             let message = format!(
                 "shader `{shader}` takes `{name}` for {wanted}, but `{}` holds {held} ({})",
                 image.name, image.format

@@ -161,18 +161,45 @@ pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &m
     let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
     let mut remarks = Vec::new();
     for Unset { location, what, refused, place, .. } in coverage::unset(pass, interface) {
-        let target = location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
+        let target =
+            location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
         let at = coverage::at(place.as_deref());
         let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
         if *refused {
             let help = "set it at the beginning of `main`; `discard` leaves texels as they were";
             errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
         } else {
-            let text = format!("{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`");
+            let text = format!(
+                "{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`"
+            );
             remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
         }
     }
     remarks
+}
+
+/// Notes outputs of the shader that no target takes: they are allowed, and the validation layer warns of them.
+pub(super) fn untaken(pass: &language::Pass, interface: &ShaderInterface, remarks: &mut Vec<Remark>) {
+    let Some(shader) = pass.shader() else { return };
+    let untaken = interface.outputs.iter().filter(|output| output.location as usize >= pass.color.len());
+    let names: Vec<String> =
+        untaken.map(|output| format!("`{}` (location {})", output.name, output.location)).collect();
+    // A pass that runs for each eye by itself is there twice.
+    let known = |remark: &Remark| remark.span == shader.span;
+    if names.is_empty() || remarks.iter().any(known) {
+        return;
+    }
+    let taken = match pass.color.len() {
+        0 => "the pass draws no colour".to_owned(),
+        1 => "the pass has one colour target".to_owned(),
+        count => format!("the pass has {count} colour targets"),
+    };
+    let text = format!(
+        "shader `{}` writes {}, which goes nowhere: {taken}; leave it out of the shader, or give it a target in `color`",
+        shader.text,
+        names.join(" and ")
+    );
+    remarks.push(Remark { subject: pass.name.text.clone(), span: shader.span, text, instead: false });
 }
 
 /// Every colour target is fed by an output of the same type.
@@ -212,7 +239,7 @@ pub(super) fn fed(
         };
         let holds = Component::of(format);
         if output.component != holds {
-            let (written, held) = (component_words(output.component), component_words(holds));
+            let (written, held) = (output.component.words(), holds.words());
             let message = format!(
                 "shader `{shader}` writes {written} to `{}`, but `{name}` holds {held} ({format})",
                 output.name

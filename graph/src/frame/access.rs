@@ -1,7 +1,7 @@
 //! Accesses of a pass: its images and buffers, which part of each, and whether that part is read and written.
 
 use super::{
-    BufferRole, BufferUse, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
+    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
     Work,
 };
 use crate::base::Span;
@@ -81,6 +81,11 @@ impl Pass {
             (Access::Transfer(_), Work::Copy) => self.transfers.iter().any(is_buffer) || converts(),
             _ => false,
         }
+    }
+
+    /// Whether the embedding program records it, with commands that only the program knows.
+    pub(crate) fn is_custom(&self) -> bool {
+        matches!(self.work, Work::Custom { .. } | Work::Draw { draw: Draw::Custom, .. })
     }
 
     /// Two images, if the pass copies, scales or forwards the first into the second.

@@ -5,10 +5,10 @@
 
 use super::{Frame, Image, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse, Work};
 use crate::base::Span;
-use crate::vulkan::Subresources;
+use crate::vulkan::{Aspects, FillValue, Shape, Subresources};
 use std::sync::Arc;
 
-/// A copy of what a pass left in an image.
+/// A copy of what a pass left in an image: one mip level, and of depth and stencil one plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capture {
     /// The pass.
@@ -23,44 +23,56 @@ pub struct Capture {
     image_index: ImageIndex,
 }
 
+/// What can be captured of a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Captures {
+    /// The images that each pass writes, in the order of the passes.
+    pub of_passes: Vec<Capture>,
+    /// What is left out, and why, once for each image.
+    pub left_out: Vec<String>,
+}
+
 impl Frame {
     /// What can be captured: the images that each pass of `runs` writes, in the order of the passes.
     ///
-    /// Left out are images of which less than a whole picture is in use, since those may change from frame to frame, and parts of
-    /// multisampled images.
+    /// Left out are images of which less than a whole picture is in use, since those may change from frame to frame, and what can't be
+    /// resolved of multisampled images: parts of them, several layers of depth or integers, and stencil.
     #[must_use]
-    pub fn captures(&self, runs: impl Fn(&str) -> bool) -> Vec<Capture> {
-        let passes = self.passes.iter().enumerate().filter(|(_, pass)| runs(&pass.name));
-        let of_pass = |(pass_index, pass)| {
-            let written = writes(pass);
-            written.into_iter().filter_map(move |(image_index, range)| self.capture(pass_index, image_index, range))
-        };
-        let mut captures: Vec<Capture> = Vec::new();
-        for capture in passes.flat_map(of_pass) {
-            let same = |other: &Capture| {
-                (other.pass_index, other.image_index, other.range)
-                    == (capture.pass_index, capture.image_index, capture.range)
-            };
-            if !captures.iter().rev().take_while(|other| other.pass_index == capture.pass_index).any(same) {
-                captures.push(capture);
+    pub fn captures(&self, runs: impl Fn(&str) -> bool) -> Captures {
+        let mut all = Captures::default();
+        for (pass_index, pass) in self.passes.iter().enumerate().filter(|(_, pass)| runs(&pass.name)) {
+            let first = all.of_passes.len();
+            for (image_index, range) in writes(pass, &self.images) {
+                let image = &self.images[image_index.0 as usize];
+                for range in range.aspects.iter().map(|plane| Subresources { aspects: plane, ..range }) {
+                    if let Some(why) = no_capture(image, range) {
+                        let said = format!("`{}`: {why}", image.name);
+                        if !all.left_out.contains(&said) {
+                            all.left_out.push(said);
+                        }
+                        continue;
+                    }
+                    for mip in 0..range.mips {
+                        let range = Subresources { base_mip: range.base_mip + mip, mips: 1, ..range };
+                        let capture = self.capture(pass_index, image_index, range);
+                        if !all.of_passes[first..].contains(&capture) {
+                            all.of_passes.push(capture);
+                        }
+                    }
+                }
             }
         }
-        captures
+        all
     }
 
-    fn capture(&self, pass_index: usize, image_index: ImageIndex, range: Subresources) -> Option<Capture> {
-        let image = self.images.get(image_index.0 as usize)?;
-        let range = image.part(range);
-        let range = Subresources { mips: range.mips.min(1), aspects: image.format.aspects(), ..range };
-        if image.allocated.is_some() || image.samples > 1 && range != image.whole() {
-            return None;
-        }
+    fn capture(&self, pass_index: usize, image_index: ImageIndex, range: Subresources) -> Capture {
+        let image = &self.images[image_index.0 as usize];
         let (pass, name) = (self.passes[pass_index].name.clone(), image.name.clone());
         let copy = copy_of(image, range, "");
         let [width, height, depth] = copy.made();
         let texels = u64::from(width) * u64::from(height) * u64::from(depth) * u64::from(copy.made_layers());
         let bytes = texels.saturating_mul(image.format.texel_bytes());
-        Some(Capture { pass, image: name, range, bytes, pass_index, image_index })
+        Capture { pass, image: name, range, bytes, pass_index, image_index }
     }
 
     /// The frame with these captures: each is an output behind those that the frame has, in their order.
@@ -72,11 +84,10 @@ impl Frame {
             frame.passes.push(pass.clone());
             while let Some((number, capture)) = left.next_if(|(_, capture)| capture.pass_index == at) {
                 let Some(image) = self.images.get(capture.image_index.0 as usize) else { continue };
-                // No pipeline's names hold blanks.
-                let name = format!("capture {number}");
+                let name = capture_name(number);
                 let target = ImageIndex(u32::try_from(frame.images.len()).unwrap_or(u32::MAX));
                 frame.images.push(copy_of(image, capture.range, &name));
-                frame.passes.push(copying(&name, pass, capture, target, image.samples > 1));
+                frame.passes.extend(copying(&name, pass, capture, target, image));
                 frame.outputs.push(Output::from(Resource::Image(target)));
             }
         }
@@ -84,15 +95,38 @@ impl Frame {
     }
 }
 
-/// The pass that copies: multisampled images are resolved on the way.
-fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, multisampled: bool) -> Pass {
-    if multisampled {
+/// The name of the output that holds the capture with this number: no pipeline's names hold blanks.
+#[must_use]
+pub fn capture_name(number: usize) -> String {
+    format!("capture {number}")
+}
+
+/// Why a part of an image can't be captured, if it can't.
+fn no_capture(image: &Image, range: Subresources) -> Option<&'static str> {
+    let all = Subresources { aspects: range.aspects, ..image.whole() };
+    match () {
+        () if image.allocated.is_some() => Some("its size changes from frame to frame"),
+        () if image.samples == 1 => None,
+        () if range.aspects.contains(Aspects::STENCIL) => Some("it has several samples, and stencil can't be resolved"),
+        () if range != all => Some("it has several samples, and a part of it can't be resolved"),
+        () if image.layers > 1 && (image.format.is_depth() || image.format.is_integer()) => {
+            Some("it has several samples and several layers, which can't be resolved")
+        }
+        () => None,
+    }
+}
+
+/// The passes that copy: multisampled images are resolved on the way. The other plane of a copy of one is filled: all of it leaves the
+/// frame.
+fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, image: &Image) -> Vec<Pass> {
+    let planes = image.format.aspects();
+    if image.samples > 1 && planes == capture.range.aspects {
         let because = "it is captured".to_owned();
-        return Pass {
+        return vec![Pass {
             view: pass.view,
             inserted: Some(because.as_str().into()),
             ..Pass::new(name, Work::Forward { from: capture.image_index, to: target, because })
-        };
+        }];
     }
     let side = |image, range, write| TransferUse {
         resource: Resource::Image(image),
@@ -102,19 +136,25 @@ fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, multi
         write,
         keeps: false,
     };
-    let transfers = vec![
-        side(capture.image_index, capture.range, false),
-        side(target, Subresources { base_mip: 0, base_layer: 0, ..capture.range }, true),
-    ];
-    Pass { view: pass.view, transfers, ..Pass::new(name, Work::Copy) }
+    let copied = Subresources { base_mip: 0, base_layer: 0, ..capture.range };
+    let transfers = vec![side(capture.image_index, capture.range, false), side(target, copied, true)];
+    let copy = Pass { view: pass.view, transfers, ..Pass::new(name, Work::Copy) };
+    let other = planes.difference(capture.range.aspects);
+    if other.is_empty() {
+        return vec![copy];
+    }
+    let value = FillValue::Depth(0.0, 0);
+    let transfers = vec![side(target, Subresources { aspects: other, ..copied }, true)];
+    vec![Pass { view: pass.view, transfers, ..Pass::new(&format!("{name}, the rest"), Work::Fill { value }) }, copy]
 }
 
-/// An image that holds a part of another one, with one sample.
+/// An image that holds a part of another one, with one sample. Faces of a cube become layers: there may be fewer than six.
 fn copy_of(image: &Image, range: Subresources, name: &str) -> Image {
     Image {
         name: name.into(),
         span: Span::NONE,
         extent: image.extent_at(range.base_mip),
+        shape: if image.shape == Shape::Cube { Shape::D2 } else { image.shape },
         mips: 1,
         layers: range.layers,
         samples: 1,
@@ -124,19 +164,18 @@ fn copy_of(image: &Image, range: Subresources, name: &str) -> Image {
     }
 }
 
-/// The images that a pass writes, with their parts.
-fn writes(pass: &Pass) -> Vec<(ImageIndex, Subresources)> {
-    let color = pass.color.iter().map(|target| (target.image, target.range));
-    let depth = pass.depth.iter().filter(|target| target.write || target.clear.is_some() || target.stencil.is_some());
-    let depth = depth.map(|target| (target.image, target.range));
-    let storage = pass.storage.iter().filter(|used| used.write).map(|used| (used.image, used.range));
-    let transfers = pass.transfers.iter().filter(|side| side.write).filter_map(|side| match side.resource {
-        Resource::Image(image) => Some((image, side.range)),
-        Resource::Buffer(_) => None,
-    });
-    let forward = match pass.work {
-        Work::Forward { to, .. } => Some((to, Subresources::WHOLE)),
-        _ => None,
-    };
-    color.chain(depth).chain(storage).chain(transfers).chain(forward).collect()
+/// The images that a pass writes, with their parts: planes that it doesn't write aren't among them.
+fn writes(pass: &Pass, images: &[Image]) -> Vec<(ImageIndex, Subresources)> {
+    let mut all = Vec::new();
+    for access in pass.accesses() {
+        let image = access.image_index().and_then(|index| Some((index, images.get(index.0 as usize)?)));
+        if let Some((index, image)) = image {
+            access.for_each_effect(pass, Some(image), |effect| {
+                if effect.writes {
+                    all.push((index, image.part(effect.range)));
+                }
+            });
+        }
+    }
+    all
 }

@@ -21,7 +21,7 @@ mod uses;
 mod view;
 
 pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
-pub use capture::Capture;
+pub use capture::{Capture, Captures, capture_name};
 pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};

@@ -56,6 +56,9 @@ pub struct ShaderInterface {
     pub unturned: Vec<Unturned>,
     /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
+    /// The pass's blocks with matrices by which the vertex stage may place vertices, if no stage asks which eye it draws for: both
+    /// eyes then see the same.
+    pub sees_alike: Vec<String>,
     /// The features beyond the minimum that a device must have for it, by Vulkan's names.
     pub features: Vec<&'static str>,
 }
@@ -78,6 +81,9 @@ pub enum Unturned {
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
 /// Sets from 1 on belong to the draw source.
 pub const PASS_SET: u32 = 0;
+
+/// The name of the uniform block whose members are a pass's parameters.
+pub const PARAMS: &str = "params";
 
 /// Bindings are numbered below this: drivers make tables as long as the largest number.
 pub const BINDINGS: u32 = 256;
@@ -138,6 +144,22 @@ pub enum BindingKind {
     /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
     /// supported.
     Other(Unbindable),
+}
+
+impl BindingKind {
+    /// The kind in words.
+    #[must_use]
+    pub fn words(&self) -> &str {
+        match self {
+            BindingKind::SampledImage(_) => "a sampled image",
+            BindingKind::ComparedDepth(_) => "a sampled image that is compared",
+            BindingKind::StorageImage { .. } => "a storage image",
+            BindingKind::UniformBlock(_) => "a uniform block",
+            BindingKind::StorageBlock { .. } => "a storage block",
+            BindingKind::InputAttachment { .. } => "an input attachment",
+            BindingKind::Other(other) => &other.what,
+        }
+    }
 }
 
 /// A resource that no pass can give.

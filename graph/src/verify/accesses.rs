@@ -281,6 +281,9 @@ fn buffer_usage(accesses: Accesses) -> BufferUsage {
         (Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER),
         (Accesses::TRANSFER_READ, BufferUsage::TRANSFER_SRC),
         (Accesses::TRANSFER_WRITE, BufferUsage::TRANSFER_DST),
+        // Whatever a program records with it.
+        (Accesses::MEMORY_READ, BufferUsage::all().difference(BufferUsage::TRANSFER_DST)),
+        (Accesses::MEMORY_WRITE, BufferUsage::STORAGE_BUFFER.union(BufferUsage::TRANSFER_DST)),
     ]
     .into_iter()
     .filter(|(those, _)| accesses.intersects(*those))

@@ -18,7 +18,40 @@ const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_S
 const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
 const TRANSFER: Accesses = Accesses::TRANSFER_READ.union(Accesses::TRANSFER_WRITE);
 const SHADERS: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER);
+const MEMORY: Accesses = Accesses::MEMORY_READ.union(Accesses::MEMORY_WRITE);
 const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
+
+const NOT_WAITED: &str = "is used by commands that only the program knows, and not waited for in all stages and accesses";
+
+/// Who records the commands of a pass.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum By {
+    /// The backend, as the Plan says.
+    Plan,
+    /// The program: it may use any command for what the pass reads and writes.
+    Program,
+}
+
+impl By {
+    /// The stages that an access may name, if `stages` are those of the Plan's own commands; and the access without what stands for
+    /// any command.
+    fn known(self, stages: Stages, accesses: Accesses) -> (Stages, Accesses) {
+        match self {
+            By::Plan => (stages, accesses),
+            By::Program => (Stages::ALL_COMMANDS, accesses - MEMORY),
+        }
+    }
+
+    /// Whether an access waits, and is waited for, as widely as its commands may need.
+    fn waits(self, stages: Stages, accesses: Accesses) -> bool {
+        let made = accesses - MEMORY;
+        let holds = |any: Accesses, some: bool| accesses.contains(any) == some;
+        self == By::Plan
+            || stages == Stages::ALL_COMMANDS
+                && holds(Accesses::MEMORY_READ, made != made.writes())
+                && holds(Accesses::MEMORY_WRITE, !made.writes().is_empty())
+    }
+}
 
 impl<'p> Check<'_, 'p> {
     pub(super) fn draw(&mut self, scope: &RenderScope, pass: &'p Pass) {
@@ -58,8 +91,9 @@ impl<'p> Check<'_, 'p> {
         self.stencil(scope, pass);
         let tests = if scope.depth.is_some() || scope.stencil.is_some() { TESTS } else { Stages::empty() };
         let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
+        let by = if pass.draw == Some(Draw::Custom) { By::Program } else { By::Plan };
         for access in &pass.accesses {
-            self.access(access, graphics, ATTACHMENT | SHADER);
+            self.access(access, by, graphics, ATTACHMENT | SHADER);
             let attached = attachments(scope).any(|(attachment, _)| {
                 (attachment.image, attachment.range, attachment.layout) == (access.image, access.range, access.layout)
             });
@@ -73,7 +107,7 @@ impl<'p> Check<'_, 'p> {
         if pass.draw == Some(Draw::Indirect) {
             self.holds(pass, BufferRole::Indirect, if indexed { 20 } else { 16 });
         }
-        self.buffers(pass, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
+        self.buffers(pass, by, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
     }
 
     fn depth(&mut self, scope: &RenderScope, pass: &Pass) {
@@ -134,9 +168,9 @@ impl<'p> Check<'_, 'p> {
             Some(Groups::Count(_) | Groups::Invocations(_)) => {}
         }
         for access in &pass.accesses {
-            self.access(access, Stages::COMPUTE_SHADER, STORAGE | Accesses::SHADER_SAMPLED_READ);
+            self.access(access, By::Plan, Stages::COMPUTE_SHADER, STORAGE | Accesses::SHADER_SAMPLED_READ);
         }
-        self.buffers(pass, Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT);
+        self.buffers(pass, By::Plan, Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT);
     }
 
     pub(super) fn custom(&mut self, pass: &'p Pass) {
@@ -144,12 +178,11 @@ impl<'p> Check<'_, 'p> {
         if pass.groups.is_some() {
             self.wrong_pass(pass, "is recorded by the program and has workgroups");
         }
-        let transfers = Stages::COPY | Stages::RESOLVE | Stages::BLIT | Stages::CLEAR | Stages::ALL_COMMANDS;
-        let possible = possible(self.queue) & (SHADERS | Stages::COMPUTE_SHADER | transfers);
+        let possible = possible(self.queue) & Stages::ALL_COMMANDS;
         for access in &pass.accesses {
-            self.access(access, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
+            self.access(access, By::Program, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
         }
-        self.buffers(pass, possible | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
+        self.buffers(pass, By::Program, possible);
     }
 
     /// A pass outside of rendering scopes.
@@ -163,24 +196,29 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
-    fn access(&mut self, access: &Access, stages: Stages, accesses: Accesses) {
+    fn access(&mut self, access: &Access, by: By, stages: Stages, accesses: Accesses) {
         self.stages_and_accesses(Some(access.image.0), access.stages, access.accesses);
-        if access.stages.is_empty() || access.accesses.is_empty() || !stages.contains(access.stages) {
+        let attached = access.accesses.intersects(ATTACHMENT);
+        let local = access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ);
+        let by = if attached || local { By::Plan } else { by };
+        let (stages, made) = by.known(stages, access.accesses);
+        if access.stages.is_empty() || made.is_empty() || !stages.contains(access.stages) {
             self.wrong(access.image, format!("is accessed in {}", name_of(&access.stages)));
         }
-        self.demand(accesses.contains(access.accesses), access.image, "is accessed as a pass can't");
-        let read_only = access.accesses.writes().is_empty();
+        self.demand(accesses.contains(made), access.image, "is accessed as a pass can't");
+        self.demand(by.waits(access.stages, access.accesses), access.image, NOT_WAITED);
+        let read_only = made.writes().is_empty();
         let sampled = Accesses::SHADER_SAMPLED_READ | Accesses::INPUT_ATTACHMENT_READ;
         let fits = match access.layout {
             Layout::General => true,
             layout if is_read_only(layout) => {
-                (Accesses::DEPTH_STENCIL_ATTACHMENT_READ | sampled).contains(access.accesses)
+                (Accesses::DEPTH_STENCIL_ATTACHMENT_READ | sampled).contains(made)
             }
-            layout if is_written(layout) => ATTACHMENT.contains(access.accesses),
-            Layout::RenderingLocalReadKhr => (ATTACHMENT | Accesses::INPUT_ATTACHMENT_READ).contains(access.accesses),
-            Layout::ShaderReadOnlyOptimal => sampled.contains(access.accesses),
-            Layout::TransferSrcOptimal => access.accesses == Accesses::TRANSFER_READ,
-            Layout::TransferDstOptimal => access.accesses == Accesses::TRANSFER_WRITE,
+            layout if is_written(layout) => ATTACHMENT.contains(made),
+            Layout::RenderingLocalReadKhr => (ATTACHMENT | Accesses::INPUT_ATTACHMENT_READ).contains(made),
+            Layout::ShaderReadOnlyOptimal => sampled.contains(made),
+            Layout::TransferSrcOptimal => made == Accesses::TRANSFER_READ,
+            Layout::TransferDstOptimal => made == Accesses::TRANSFER_WRITE,
             _ => false,
         };
         let planes = planes(access.layout, self.plan.image(access.image).format.aspects());
@@ -248,13 +286,13 @@ impl<'p> Check<'_, 'p> {
         sampled && shape && texture.multisampled == (image.samples > 1) && texture.component == component
     }
 
-    fn buffers(&mut self, pass: &Pass, stages: Stages) {
+    fn buffers(&mut self, pass: &Pass, by: By, stages: Stages) {
         for access in &pass.buffers {
-            self.buffer(access, stages);
+            self.buffer(access, by, stages);
         }
     }
 
-    fn buffer(&mut self, access: &BufferAccess, possible: Stages) {
+    fn buffer(&mut self, access: &BufferAccess, by: By, possible: Stages) {
         let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
         self.stages_and_accesses(resource, access.stages, access.accesses);
         let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
@@ -269,13 +307,17 @@ impl<'p> Check<'_, 'p> {
             Some(BufferRole::Indirect) => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
             None => (Stages::all(), access.accesses & TRANSFER),
         };
-        if access.stages.is_empty() || !(stages & possible).contains(access.stages) {
+        let (possible, made) = by.known(stages & possible, access.accesses);
+        if access.stages.is_empty() || !possible.contains(access.stages) {
             let what = format!("is accessed in {}", name_of(&access.stages));
             self.found.structure(Some(self.id), resource, what);
         }
-        if access.accesses.is_empty() || access.accesses != accesses {
+        if made.is_empty() || made != accesses {
             let what = format!("is accessed by {}, which isn't what it is for", name_of(&access.accesses));
             self.found.structure(Some(self.id), resource, what);
+        }
+        if !by.waits(access.stages, access.accesses) {
+            self.found.structure(Some(self.id), resource, NOT_WAITED);
         }
         let named = matches!(access.role, Some(BufferRole::Uniform | BufferRole::Storage { .. }));
         if named != access.binding.is_some() {

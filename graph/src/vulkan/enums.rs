@@ -171,6 +171,13 @@ bitflags! {
     }
 }
 
+impl BufferUsage {
+    /// Every usage by which commands read a buffer.
+    pub(crate) const READ: BufferUsage = BufferUsage::all().difference(BufferUsage::TRANSFER_DST);
+    /// Every usage by which commands write a buffer.
+    pub(crate) const WRITTEN: BufferUsage = BufferUsage::TRANSFER_DST.union(BufferUsage::STORAGE_BUFFER);
+}
+
 bitflags! {
     /// Planes of an image (`VkImageAspectFlagBits`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]

@@ -62,6 +62,16 @@ impl Component {
             Numeric::Sfloat | Numeric::Ufloat | Numeric::Unorm | Numeric::Snorm | Numeric::Srgb => Component::Float,
         }
     }
+
+    /// The type in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Component::Float => "floating point",
+            Component::Int => "signed integers",
+            Component::Uint => "unsigned integers",
+        }
+    }
 }
 
 impl ImageShape {

@@ -18,5 +18,6 @@ pub(crate) use foreign_formats::vulkans_name;
 pub use format::{Format, Numeric};
 pub(crate) use image_shape::extent_at;
 pub use image_shape::{Component, Dimension, ImageShape};
-pub(crate) use name::name_of;
+pub(crate) use name::in_plan;
+pub use name::name_of;
 pub use rotation::Rotation;

@@ -6,6 +6,7 @@ mod both_eyes;
 mod chosen_formats;
 mod compile_graphs;
 mod compile_raster;
+mod custom_passes;
 mod decided;
 mod demotion;
 mod depth_ladder;

@@ -1,9 +1,11 @@
 //! Random pipelines: what is made, what it means, and that software drivers agree with it bit for bit.
 
 use framewright_graph::compile::{Order, compile};
+use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
-use framewright_graph::plan;
-use framewright_graph::vulkan::{Format, ResolveMode, Shape};
+use framewright_graph::verify::verify;
+use framewright_graph::vulkan::{Aspects, Format, ResolveMode, Shape};
+use framewright_graph::{frame, plan};
 use framewright_tests::drivers::Driver;
 use framewright_tests::frames::device;
 use framewright_tests::random_pipelines::allowed::{Allowed, NOT_YET};
@@ -79,6 +81,29 @@ fn each_rung_of_the_depth_ladder_turns_up() {
         }
     }
     panic!("only {rungs:?}");
+}
+
+/// Tools that show what each pass leaves plan the frame with copies of it: what can be drawn can be looked at.
+#[test]
+fn what_every_pass_leaves_can_be_captured() {
+    let device = device();
+    let (mut parts, mut planes) = (0, 0);
+    for (seed, pipeline) in (0..).zip(many().take(120)) {
+        let frame = to_frame(&pipeline);
+        let planned = |frame: &frame::Frame| compile(frame, &device, &mut Estimated(&device), &options(Order::Default, 1));
+        let plan = planned(&frame).expect("it is valid");
+        let flow = Dataflow::of(&plan);
+        let runs: BTreeSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
+        let captures = frame.captures(|pass| runs.contains(pass)).of_passes;
+        parts += captures.iter().filter(|it| it.range.base_layer > 0 || it.range.base_mip > 0).count();
+        planes += captures.iter().filter(|it| it.range.aspects == Aspects::STENCIL).count();
+        for batch in captures.chunks(64) {
+            let plan = planned(&frame.with_captures(batch));
+            let plan = plan.unwrap_or_else(|errors| panic!("seed {seed}: {errors:?}\n{pipeline}"));
+            assert_eq!(verify(&plan), [], "seed {seed}");
+        }
+    }
+    assert!(parts > 20 && planes > 5, "{parts} parts, {planes} of stencil");
 }
 
 #[test]

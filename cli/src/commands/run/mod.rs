@@ -111,7 +111,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     // The layer may have something to say about the device's end too.
     let messages = device.messages();
     drop(device);
-    report.validation = canary.map(|canary| Validation::new(canary, &messages.list()));
+    report.validation = canary.map(|canary| Validation::new(canary, &messages.distinct()));
 
     let mut texts = Vec::new();
     if let Some(file) = arguments.report.as_deref() {

@@ -91,9 +91,9 @@ pub(crate) struct Validation {
     pub(crate) sees_attachments: bool,
     /// The rules' names in the messages about the planted mistakes.
     pub(crate) canary: Vec<String>,
-    /// Number of messages that say that something is wrong.
+    /// Number of messages that say that something is wrong, each counted once however often it was said.
     pub(crate) findings: usize,
-    /// Every message.
+    /// Every message that says something else.
     pub(crate) messages: Vec<ValidationMessage>,
 }
 
@@ -106,6 +106,8 @@ pub(crate) struct ValidationMessage {
     pub(crate) kind: &'static str,
     /// Whether it says that something is wrong.
     pub(crate) finding: bool,
+    /// How often it was said: of each draw, for example.
+    pub(crate) times: usize,
     /// The rule's name.
     pub(crate) id: String,
     /// The layer's words.
@@ -154,7 +156,7 @@ impl From<&Totals> for Barriers {
 impl Validation {
     /// The layer's messages besides those about the canary.
     #[must_use]
-    pub(crate) fn new(canary: Canary, messages: &[Message]) -> Validation {
+    pub(crate) fn new(canary: Canary, messages: &[(Message, usize)]) -> Validation {
         let messages: Vec<ValidationMessage> = messages.iter().map(ValidationMessage::from).collect();
         Validation {
             layer: canary.layer,
@@ -166,8 +168,8 @@ impl Validation {
     }
 }
 
-impl From<&Message> for ValidationMessage {
-    fn from(message: &Message) -> ValidationMessage {
+impl From<&(Message, usize)> for ValidationMessage {
+    fn from((message, times): &(Message, usize)) -> ValidationMessage {
         ValidationMessage {
             severity: match message.severity {
                 Severity::Error => "error",
@@ -179,6 +181,7 @@ impl From<&Message> for ValidationMessage {
                 MessageKind::General => "general",
             },
             finding: message.is_finding(),
+            times: *times,
             id: message.id.clone(),
             text: message.text.clone(),
             at: message.at.clone(),
@@ -257,7 +260,8 @@ impl Validation {
         for message in &self.messages {
             let word = if message.finding { message.severity } else { "note" };
             let (id, said) = (text::escape(&message.id), text::escape(&message.located));
-            shown += &format!("{word} ({}): {id}: {said}\n", message.kind);
+            let times = if message.times > 1 { format!(", {} times", message.times) } else { String::new() };
+            shown += &format!("{word} ({}{times}): {id}: {said}\n", message.kind);
         }
         shown
     }

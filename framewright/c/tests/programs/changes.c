@@ -70,7 +70,7 @@ int main(void) {
     HOLDS(again == image);
     check(framewright_renderer_set(renderer, "msaa", "1"));
     HOLDS(framewright_renderer_frame(renderer, NULL) == FRAMEWRIGHT_STATUS_MISUSE);
-    HOLDS(strstr(framewright_last_error(), "`screen` are to be imported again") != NULL);
+    HOLDS(strstr(framewright_last_error(), "`screen` is to be imported again") != NULL);
     HOLDS(changed(renderer) == FRAMEWRIGHT_CHANGE_PLAN);
     check(framewright_renderer_import_images(renderer, "screen", &image, 1));
     check(framewright_renderer_frame(renderer, NULL));

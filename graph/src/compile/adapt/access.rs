@@ -139,6 +139,17 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource
     Use { entry, layout, reads: made.reads || transfer.keeps, ..made }
 }
 
+/// Widens a use by a pass that the program records. The pass says what it reads and writes, not by which commands: indirect draws,
+/// builds of acceleration structures, mesh shaders. So all of them wait, and are waited for.
+pub(super) fn widen_for_program(used: &mut Use) {
+    if used.role.is_attachment() {
+        return;
+    }
+    used.stages = Stages::ALL_COMMANDS;
+    used.accesses.set(Accesses::MEMORY_READ, used.reads);
+    used.accesses.set(Accesses::MEMORY_WRITE, used.writes);
+}
+
 pub(super) fn source(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {
     Use {
         layout: Layout::TransferSrcOptimal,

@@ -108,6 +108,11 @@ impl<'a> Adapter<'a> {
         if self.held_uses.is_empty() { &self.adapted.uses[self.first_use..] } else { &self.held_uses }
     }
 
+    /// The same, to be changed.
+    pub(super) fn uses_of_pass_mut(&mut self) -> &mut [Use] {
+        if self.held_uses.is_empty() { &mut self.adapted.uses[self.first_use..] } else { &mut self.held_uses }
+    }
+
     /// Adds the current pass as an operation.
     pub(super) fn push_pass(&mut self, kind: OpKind, side_effect: bool) {
         self.adapted.uses.append(&mut self.held_uses);

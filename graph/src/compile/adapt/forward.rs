@@ -37,7 +37,7 @@ impl Adapter<'_> {
         );
         let source = if resolves {
             let why = format!("{why}; `{}` has {count} samples", source_image.name);
-            match self.resolved_as_it_is(from, why, pass.span) {
+            match self.resolved_as_it_is((from, source_image.format.aspects()), why, pass.span) {
                 Some(source) => source,
                 None => return,
             }

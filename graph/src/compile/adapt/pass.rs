@@ -82,6 +82,9 @@ impl Adapter<'_> {
                 self.add_use(access::transfer(&pass.work, used, entry, resource, range));
             }
         }
+        if pass.is_custom() {
+            self.uses_of_pass_mut().iter_mut().for_each(access::widen_for_program);
+        }
         if pass.alpha_to_coverage && !access::has_samples(&self.adapted, self.uses_of_pass()) {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
             self.note(&pass.name, text, pass.span);

@@ -36,10 +36,10 @@ impl Adapter<'_> {
     }
 
     /// The same for a copy, texel for texel, and for an output. Depth without a `resolve` is resolved to sample zero: the
-    /// copy takes the contents, not what drawing them again would give.
+    /// copy takes the contents, not what drawing them again would give. `planes` are those that are read.
     pub(super) fn resolved_as_it_is(
         &mut self,
-        image: ImageIndex,
+        (image, planes): (ImageIndex, Aspects),
         because: String,
         span: Span,
     ) -> Option<PhysicalIndex> {
@@ -47,7 +47,7 @@ impl Adapter<'_> {
         if !declared.format.is_depth() {
             return self.color(image, because, span);
         }
-        if declared.format.aspects().contains(Aspects::STENCIL) {
+        if planes.contains(Aspects::STENCIL) {
             self.refuse_stencil(image, &because, span);
             return None;
         }

@@ -257,7 +257,8 @@ impl Adapter<'_> {
             return Some((self.current(image), range));
         }
         let because = format!("`{}` transfers from `{}` and it has {count} samples", pass.name, declared.name);
-        Some((self.resolved_as_it_is(image, because, used.span)?, range))
+        let planes = declared.part(used.range).aspects;
+        Some((self.resolved_as_it_is((image, planes), because, used.span)?, range))
     }
 
     pub(super) fn output(&mut self, output: &Output) {
@@ -274,7 +275,7 @@ impl Adapter<'_> {
             self.current(image)
         } else {
             let because = format!("`{}` is an output and has {count} samples", declared.name);
-            match self.resolved_as_it_is(image, because, output.span) {
+            match self.resolved_as_it_is((image, declared.format.aspects()), because, output.span) {
                 Some(resolved) => resolved,
                 None => return,
             }

@@ -7,7 +7,7 @@ use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
 use super::trace::{Trace, Ways};
 use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
-use crate::frame::{Draw, Frame, Work};
+use crate::frame::Frame;
 use crate::plan::{Note, Stage};
 
 pub(super) struct Builder<'a> {
@@ -237,5 +237,5 @@ impl<'a> Builder<'a> {
 /// Whether the program records what an operation draws.
 fn is_custom(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
-    matches!(frame.passes[pass as usize].work, Work::Draw { draw: Draw::Custom, .. })
+    frame.passes[pass as usize].is_custom()
 }

@@ -55,6 +55,7 @@ pub(super) fn read_locally(uses: &mut [Use], local: &[u32]) {
         let used = &mut uses[*index as usize];
         used.role = Role::Input;
         used.layout = Layout::RenderingLocalReadKhr;
+        used.stages = Stages::FRAGMENT_SHADER;
         used.accesses = Accesses::INPUT_ATTACHMENT_READ;
     }
 }

@@ -225,12 +225,16 @@ fn join_layouts(a: Layout, b: Layout) -> Layout {
 
 /// The usage that a use needs, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`.
 fn usage_bits(used: &Use) -> u32 {
-    if used.role != Role::Buffer {
+    // Buffers have no layout.
+    if used.layout != Layout::Undefined {
         return used.role.usage().bits();
     }
     let usage = |access, usage| if used.accesses.intersects(access) { usage } else { BufferUsage::empty() };
     let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
-    let all = usage(Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER)
+    let all = BufferUsage::from_bits_truncate(used.role.usage().bits())
+        | usage(Accesses::MEMORY_READ, BufferUsage::READ)
+        | usage(Accesses::MEMORY_WRITE, BufferUsage::WRITTEN)
+        | usage(Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER)
         | usage(storage, BufferUsage::STORAGE_BUFFER)
         | usage(Accesses::VERTEX_ATTRIBUTE_READ, BufferUsage::VERTEX_BUFFER)
         | usage(Accesses::INDEX_READ, BufferUsage::INDEX_BUFFER)

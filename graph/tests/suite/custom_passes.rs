@@ -1,0 +1,136 @@
+//! What the program records may use any command for what its pass reads and writes: the Plan waits for all of them.
+
+use crate::testing::parts::device;
+use framewright_graph::base::Span;
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::Estimated;
+use framewright_graph::frame::{
+    Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass,
+    Resource, Sampled, TransferUse, Work,
+};
+use framewright_graph::plan::{self, Plan};
+use framewright_graph::verify::verify;
+use framewright_graph::vulkan::{Accesses, BufferUsage, FillValue, Format, Stages, Subresources};
+
+fn buffer(name: &str, lifetime: Lifetime) -> Buffer {
+    Buffer { name: name.into(), span: Span::NONE, bytes: 256, lifetime }
+}
+
+fn transfer(buffer: u32, write: bool) -> TransferUse {
+    let resource = Resource::Buffer(BufferIndex(buffer));
+    TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write }
+}
+
+fn block(name: &str, buffer: u32, read: bool, stages: Stages) -> BufferUse {
+    BufferUse {
+        binding: Some(name.into()),
+        buffer: BufferIndex(buffer),
+        frames_ago: 0,
+        span: Span::NONE,
+        role: BufferRole::Storage { read, write: !read },
+        stages,
+    }
+}
+
+fn target(image: u32) -> ColorTarget {
+    let (range, span) = (Subresources::WHOLE, Span::NONE);
+    ColorTarget { image: ImageIndex(image), range, span, clear: Some([0.0; 4]), blend: Default::default() }
+}
+
+/// A compute pass and a fill write what two custom passes read, and a compute pass reads what one of them writes.
+fn frame() -> Frame {
+    let mut frame = Frame::default();
+    frame.images = ["picture", "seen"].map(|name| Image::new(name, Format::R8G8B8A8_UNORM, 16, 16)).into();
+    frame.buffers = ["counts", "filled", "moved", "last"].map(|name| buffer(name, Lifetime::Transient)).into();
+    let make = Work::Dispatch { shader: "make".into(), groups: Groups::Count([1; 3]) };
+    let draw = |draw| Work::Draw { draw, shader: "own".into(), discards: false, per_sample: false };
+    frame.passes = vec![
+        Pass { buffers: vec![block("counts", 0, false, Stages::COMPUTE_SHADER)], ..Pass::new("make", make.clone()) },
+        Pass { transfers: vec![transfer(1, true)], ..Pass::new("fill", Work::Fill { value: FillValue::Bits([1; 4]) }) },
+        Pass { color: vec![target(1)], ..Pass::new("paint", draw(Draw::FullScreen)) },
+        Pass {
+            color: vec![target(0)],
+            buffers: vec![block("counts", 0, true, Stages::FRAGMENT_SHADER)],
+            sampled: vec![Sampled::new("seen", ImageIndex(1), Stages::FRAGMENT_SHADER)],
+            ..Pass::new("meshes", draw(Draw::Custom))
+        },
+        Pass {
+            transfers: vec![transfer(1, false), transfer(2, true)],
+            ..Pass::new("build", Work::Custom { callback: "build".into() })
+        },
+        Pass {
+            buffers: vec![
+                block("counts", 2, true, Stages::COMPUTE_SHADER),
+                block("last", 3, false, Stages::COMPUTE_SHADER),
+            ],
+            ..Pass::new("after", make)
+        },
+    ];
+    frame.outputs = vec![Resource::Image(ImageIndex(0)).into(), Resource::Buffer(BufferIndex(3)).into()];
+    frame
+}
+
+fn planned() -> Plan {
+    let device = device();
+    let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
+    plan.unwrap_or_else(|errors| panic!("{errors:?}"))
+}
+
+fn step<'p>(plan: &'p Plan, pass: &str) -> &'p plan::Step {
+    let has = |step: &&plan::Step| match &step.work {
+        plan::Work::Render(scope) => scope.passes.iter().any(|it| *it.name == *pass),
+        plan::Work::Dispatch(it) | plan::Work::Custom(it) => *it.name == *pass,
+        _ => false,
+    };
+    plan.steps.iter().find(has).unwrap_or_else(|| panic!("no `{pass}`: {}", plan.tree()))
+}
+
+#[test]
+fn a_custom_pass_waits_with_all_that_it_may_record_and_is_waited_for_by_all_of_it() {
+    let plan = planned();
+    assert_eq!(verify(&plan), []);
+    let (any, all) = (Stages::ALL_COMMANDS, Accesses::MEMORY_READ);
+    // One call serves both, before the first of them.
+    let barriers = &step(&plan, "meshes").memory_barriers;
+    for writer in [Accesses::SHADER_STORAGE_WRITE, Accesses::TRANSFER_WRITE] {
+        let waits = |it: &&plan::MemoryBarrier| it.src_accesses.contains(writer) && it.dst_accesses.contains(all);
+        let barrier = barriers.iter().find(waits).unwrap_or_else(|| panic!("{writer:?}: {}", plan.tree()));
+        assert!(barrier.dst_stages.contains(any), "{writer:?}: {barrier:?}");
+    }
+    let sampled = &step(&plan, "meshes").image_barriers;
+    assert!(sampled.iter().any(|it| it.dst_stages.contains(any) && it.dst_accesses.contains(all)), "{sampled:?}");
+    // Whatever wrote there is waited for.
+    let after = &step(&plan, "after").memory_barriers;
+    let written = |it: &&plan::MemoryBarrier| it.src_accesses.contains(Accesses::MEMORY_WRITE);
+    assert!(after.iter().find(written).is_some_and(|it| it.src_stages.contains(any)), "{after:?}");
+    // The buffers are made for whatever reads them.
+    let usage = |name: &str| plan.buffers.iter().find(|it| *it.name == *name).expect("it is used").usage;
+    let read = BufferUsage::INDIRECT_BUFFER | BufferUsage::VERTEX_BUFFER | BufferUsage::INDEX_BUFFER;
+    assert!(usage("counts").contains(read) && usage("filled").contains(read), "{:?}", usage("filled"));
+    assert!(!usage("last").intersects(read));
+}
+
+#[test]
+fn a_custom_pass_that_waits_only_for_what_it_declares_is_refused() {
+    let narrow: [fn(&mut Stages, &mut Accesses); 2] = [
+        |stages, _| *stages = Stages::COPY | Stages::FRAGMENT_SHADER,
+        |_, accesses| *accesses -= Accesses::MEMORY_READ | Accesses::MEMORY_WRITE,
+    ];
+    for narrow in narrow {
+        let mut plan = planned();
+        let passes = plan.steps.iter_mut().flat_map(|step| match &mut step.work {
+            plan::Work::Render(scope) => scope.passes.iter_mut().collect::<Vec<_>>(),
+            plan::Work::Custom(pass) => vec![pass],
+            _ => Vec::new(),
+        });
+        for pass in passes.filter(|pass| ["meshes", "build"].contains(&&*pass.name)) {
+            pass.buffers.iter_mut().for_each(|it| narrow(&mut it.stages, &mut it.accesses));
+        }
+        let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        for name in ["counts", "filled", "moved"] {
+            let wanted = "is used by commands that only the program knows";
+            let told = said.iter().any(|said| said.contains(&format!("`{name}`")) && said.contains(wanted));
+            assert!(told, "{name}: {said:#?}");
+        }
+    }
+}
