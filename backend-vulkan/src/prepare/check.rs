@@ -7,7 +7,7 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
-use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
+use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, Usage};
@@ -82,13 +82,19 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
 
 fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
     let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
-    let limits = &gpu.limits;
-    let too_large = |usage, most: u32| buffer.usage.contains(usage) && buffer.bytes > u64::from(most);
-    if !gpu.can_make_buffer(&descriptor)
-        || too_large(BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range)
-        || too_large(BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range)
-    {
-        return bad(format!("{} has no buffers like `{name}`: {descriptor:?}", gpu.summary.name));
+    let limits = gpu.shader_limits();
+    let allowed = [
+        (true, Limit::BufferBytes),
+        (buffer.usage.contains(BufferUsage::UNIFORM_BUFFER), Limit::UniformBytes),
+        (buffer.usage.contains(BufferUsage::STORAGE_BUFFER), Limit::StorageBytes),
+    ];
+    let exceeded = allowed.into_iter().find(|(used, limit)| *used && buffer.bytes > limits.of(*limit));
+    if let Some((_, limit)) = exceeded {
+        let (device, most) = (&gpu.summary.name, limits.of(limit));
+        return bad(format!("`{name}` has {} bytes; {device} allows {most} ({})", buffer.bytes, limit.name()));
+    }
+    if !gpu.can_make_buffer(&descriptor) {
+        return bad(format!("{} can't make the buffer `{name}` of {} bytes", gpu.summary.name, buffer.bytes));
     }
     match &buffer.role {
         Role::Transient(place) => {

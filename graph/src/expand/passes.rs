@@ -32,6 +32,7 @@ pub(super) fn lower(
     supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
+        lowered.needs = supplied::needs(shaders, pass, interface);
         supplied::check(shaders, pass, (path, interface), errors);
         let before = errors.len();
         let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
@@ -74,6 +75,7 @@ pub(super) fn draft(
         alpha_to_coverage: pass.alpha_to_coverage.is_some(),
         no_depth_only: None,
         no_rotation: None,
+        needs: Vec::new(),
         inserted: None,
         buffers: Vec::new(),
         transfers: Vec::new(),

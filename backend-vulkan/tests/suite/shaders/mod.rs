@@ -2,6 +2,7 @@
 
 mod files;
 mod refusals;
+mod validity;
 
 use framewright_graph::base::Root;
 use framewright_graph::frame::{Draw, DrawList};
