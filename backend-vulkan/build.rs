@@ -1,36 +1,24 @@
-//! What the feature `shader-compiler` links. Debian's `libshaderc_combined.a` holds shaderc alone: where the distribution's glslang
-//! and SPIRV-Tools archives lie beside it they are linked too. Elsewhere the `shaderc` crate finds or builds its own.
+//! What is linked beside Rust's own code: the archives that the feature `shader-compiler` needs, and the validator of the feature
+//! `spirv-validator`, which is compiled here.
 
-use std::path::Path;
+use std::env::var_os;
 
-const FOLDER: &str = "/usr/lib/x86_64-linux-gnu";
-
-/// In the order in which each needs those behind it.
-const ARCHIVES: [&str; 9] = [
-    "glslang",
-    "MachineIndependent",
-    "GenericCodeGen",
-    "OSDependent",
-    "OGLCompiler",
-    "HLSL",
-    "SPIRV",
-    "SPIRV-Tools-opt",
-    "SPIRV-Tools",
-];
+mod build {
+    pub(crate) mod glsl_compiler;
+    #[cfg(feature = "spirv-validator")]
+    pub(crate) mod validator;
+}
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    let variable = |name: &str| std::env::var_os(name);
-    // The folder is this machine's, and only the compiler needs what lies there.
-    if variable("CARGO_FEATURE_SHADER_COMPILER").is_none() || variable("HOST") != variable("TARGET") {
+    println!("cargo:rerun-if-changed=build");
+    println!("cargo:rustc-check-cfg=cfg(spirv_validator)");
+    // Both are of this machine's system: cross builds have neither Debian's archives nor the validator.
+    if var_os("HOST") != var_os("TARGET") {
         return;
     }
-    let present = |archive: &str| Path::new(FOLDER).join(format!("lib{archive}.a")).exists();
-    if present("shaderc_combined") && ARCHIVES.into_iter().all(present) {
-        println!("cargo:rustc-link-search=native={FOLDER}");
-        for archive in ARCHIVES {
-            println!("cargo:rustc-link-lib=static={archive}");
-        }
-        println!("cargo:rustc-link-lib=stdc++");
-    }
+    #[cfg(feature = "shader-compiler")]
+    build::glsl_compiler::link();
+    #[cfg(feature = "spirv-validator")]
+    build::validator::build();
 }

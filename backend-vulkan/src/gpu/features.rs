@@ -19,11 +19,14 @@ pub fn minimum_features() -> impl Iterator<Item = &'static str> {
 
 /// The features that are used where a device has them, by Vulkan's names, and what each is for.
 pub fn optional_features() -> impl Iterator<Item = (&'static str, &'static str)> {
-    OPTIONAL_FEATURES.iter().map(|(name, purpose, _)| (*name, *purpose))
+    OPTIONAL_FEATURES.iter().chain(&NEEDED_FEATURES).map(|(name, purpose, _)| (*name, *purpose))
 }
 
 /// Reaches one feature's flag.
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
+
+/// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
+type Optional = (&'static str, &'static str, Flag);
 
 /// The minimum device, feature by feature: Vulkan's name, the flag. All of these are switched on.
 const MINIMUM_FEATURES: [(&str, Flag); 12] = [
@@ -53,12 +56,16 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 ];
 
 /// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
-const OPTIONAL_FEATURES: [(&str, &str, Flag); 9] = [
-    ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
+const OPTIONAL_FEATURES: [Optional; 4] = [
     ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
+];
+
+/// The same that pipelines can need by their shaders and draws: profiles tell of these.
+const NEEDED_FEATURES: [Optional; 9] = [
+    ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
         "elements of arrays of sampled images, by a number that changes",
@@ -79,6 +86,16 @@ const OPTIONAL_FEATURES: [(&str, &str, Flag); 9] = [
         "elements of arrays of storage images, by a number that differs within a draw",
         |it| &mut it.v1_2.shader_storage_image_array_non_uniform_indexing,
     ),
+    ("drawIndirectFirstInstance", "draws whose counts, in a buffer, have a first instance that isn't 0", |it| {
+        &mut it.core.draw_indirect_first_instance
+    }),
+    ("scalarBlockLayout", "blocks in scalar layout", |it| &mut it.v1_2.scalar_block_layout),
+    ("uniformBufferStandardLayout", "uniform blocks in the layout of storage blocks, std430", |it| {
+        &mut it.v1_2.uniform_buffer_standard_layout
+    }),
+    ("shaderZeroInitializeWorkgroupMemory", "shared variables that begin with 0", |it| {
+        &mut it.v1_3.shader_zero_initialize_workgroup_memory
+    }),
 ];
 
 impl Features {
@@ -110,7 +127,7 @@ impl Features {
         for (_, flag) in MINIMUM_FEATURES {
             *flag(&mut features) = vk::TRUE;
         }
-        for (_, _, flag) in OPTIONAL_FEATURES {
+        for (_, _, flag) in OPTIONAL_FEATURES.into_iter().chain(NEEDED_FEATURES) {
             *flag(&mut features) = *flag(has);
         }
         features.local_read.dynamic_rendering_local_read = local_read.into();
@@ -147,6 +164,8 @@ impl Features {
                     on.v1_2.host_query_reset = it.host_query_reset;
                     on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
                     on.v1_2.shader_output_layer = it.shader_output_layer;
+                    on.v1_2.scalar_block_layout = it.scalar_block_layout;
+                    on.v1_2.uniform_buffer_standard_layout = it.uniform_buffer_standard_layout;
                     on.v1_2.shader_sampled_image_array_non_uniform_indexing =
                         it.shader_sampled_image_array_non_uniform_indexing;
                     on.v1_2.shader_storage_image_array_non_uniform_indexing =
@@ -158,6 +177,17 @@ impl Features {
                         it.shader_sampled_image_array_non_uniform_indexing;
                     on.v1_2.shader_storage_image_array_non_uniform_indexing =
                         it.shader_storage_image_array_non_uniform_indexing;
+                }
+                Is::PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES => {
+                    on.v1_2.scalar_block_layout = read!(PhysicalDeviceScalarBlockLayoutFeatures).scalar_block_layout;
+                }
+                Is::PHYSICAL_DEVICE_UNIFORM_BUFFER_STANDARD_LAYOUT_FEATURES => {
+                    let it = read!(PhysicalDeviceUniformBufferStandardLayoutFeatures);
+                    on.v1_2.uniform_buffer_standard_layout = it.uniform_buffer_standard_layout;
+                }
+                Is::PHYSICAL_DEVICE_ZERO_INITIALIZE_WORKGROUP_MEMORY_FEATURES => {
+                    let it = read!(PhysicalDeviceZeroInitializeWorkgroupMemoryFeatures);
+                    on.v1_3.shader_zero_initialize_workgroup_memory = it.shader_zero_initialize_workgroup_memory;
                 }
                 Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
                     on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
@@ -174,6 +204,7 @@ impl Features {
                     on.v1_3.dynamic_rendering = it.dynamic_rendering;
                     on.v1_3.synchronization2 = it.synchronization2;
                     on.v1_3.maintenance4 = it.maintenance4;
+                    on.v1_3.shader_zero_initialize_workgroup_memory = it.shader_zero_initialize_workgroup_memory;
                     on.v1_3.shader_demote_to_helper_invocation = it.shader_demote_to_helper_invocation;
                     on.v1_3.shader_terminate_invocation = it.shader_terminate_invocation;
                 }
@@ -210,10 +241,16 @@ impl Features {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
     }
 
-    /// Whether the optional feature of this name, Vulkan's, is switched on.
+    /// Whether the feature of this name, Vulkan's, is switched on, of those that pipelines can need.
     pub(crate) fn has(&self, name: &str) -> bool {
-        let mut all = Features { core: self.core, v1_1: self.v1_1, v1_2: self.v1_2, ..Features::default() };
-        OPTIONAL_FEATURES.iter().any(|(known, _, flag)| *known == name && *flag(&mut all) == vk::TRUE)
+        self.needed().any(|known| known == name)
+    }
+
+    /// The features that are switched on, of those that pipelines can need, by Vulkan's names.
+    pub(crate) fn needed(&self) -> impl Iterator<Item = &'static str> {
+        let Features { core, v1_1, v1_2, v1_3, local_read } = *self;
+        let mut all = Features { core, v1_1, v1_2, v1_3, local_read };
+        NEEDED_FEATURES.into_iter().filter_map(move |(name, _, flag)| (*flag(&mut all) == vk::TRUE).then_some(name))
     }
 
     /// Whether fragment shaders can read what their rendering scope drew.

@@ -8,6 +8,7 @@ mod handle;
 mod instance;
 mod labels;
 pub mod layer;
+mod limits;
 mod minimum;
 mod object_cache;
 mod pipeline_cache;

@@ -6,7 +6,7 @@ use crate::probe::{multiview, sample_resolve};
 use crate::process::{
     self, ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, Request, SelfTest,
 };
-use crate::shaders::compile;
+use crate::shaders::{Compiled, compile};
 use std::fs::File;
 use std::sync::mpsc;
 use std::sync::mpsc::Receiver;
@@ -56,9 +56,9 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
     while let Ok(frame) = requests.recv() {
         match process::parse(&frame)? {
             Request::Compile(job) => match compiled(&job, requests, &output) {
-                Ok(words) => {
-                    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-                    process::write(&mut output, &Answer::Spirv)?;
+                Ok(Compiled { spirv, verdict }) => {
+                    let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+                    process::write(&mut output, &Answer::Spirv(verdict))?;
                     process::write_frame(&mut output, &bytes)?;
                 }
                 Err(failure) => process::write(&mut output, &Answer::CompileFailure(failure))?,
@@ -71,7 +71,7 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
 }
 
 /// Compiles, and asks the program for what is included.
-fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Vec<u32>, CompileFailure> {
+fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Compiled, CompileFailure> {
     let ask = |from: &str, name: &str| -> io::Result<Result<IncludedFile, String>> {
         let (from, name) = (from.to_owned(), name.to_owned());
         process::write(&mut &*output, &Answer::Include { from, name })?;

@@ -107,11 +107,7 @@ impl Gpu {
 
     /// Whether the device can make a buffer of this description.
     pub(crate) fn can_make_buffer(&self, descriptor: &BufferDescriptor) -> bool {
-        let mut v1_3 = vk::PhysicalDeviceVulkan13Properties::default();
-        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut v1_3);
-        // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
-        unsafe { self.instance.raw.get_physical_device_properties2(self.physical, &mut all) };
-        (1..=v1_3.max_buffer_size.saturating_sub(3)).contains(&descriptor.bytes) && !descriptor.usage.is_empty()
+        (1..=self.max_buffer_size().saturating_sub(3)).contains(&descriptor.bytes) && !descriptor.usage.is_empty()
     }
 
     /// Memory requirements of an image of this description.

@@ -1,19 +1,10 @@
-//! Whether a shader fits what its pass and its draw source give it, and the device.
+//! Whether a shader fits what its pass and its draw source give it.
 
-use crate::base::by;
-use crate::gpu::{Gpu, VertexAttribute};
+use crate::gpu::VertexAttribute;
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind, VertexInput};
 use framewright_graph::vulkan::Component;
-
-/// The device must have the features that the shader needs.
-pub(crate) fn check_features(gpu: &Gpu, shader: &ShaderInterface) -> Result<(), String> {
-    match shader.features.iter().find(|name| !gpu.features.has(name)) {
-        None => Ok(()),
-        Some(name) => Err(format!("its shader needs the feature {name}, which this device doesn't have")),
-    }
-}
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.
 pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
@@ -138,17 +129,4 @@ fn attribute_format(kind: char, components: u32) -> vk::Format {
         _ => [F::R32_SFLOAT, F::R32G32_SFLOAT, F::R32G32B32_SFLOAT, F::R32G32B32A32_SFLOAT],
     };
     formats[(components.clamp(1, 4) - 1) as usize]
-}
-
-/// A workgroup must fit the device.
-pub(crate) fn check_workgroup(gpu: &Gpu, size: [u32; 3]) -> Result<(), String> {
-    let limits = &gpu.limits;
-    let invocations = size.iter().fold(1_u64, |all, axis| all.saturating_mul(u64::from(*axis)));
-    let fits = size.iter().zip(limits.max_compute_work_group_size).all(|(axis, most)| *axis <= most)
-        && invocations <= u64::from(limits.max_compute_work_group_invocations);
-    if fits {
-        return Ok(());
-    }
-    let (most, in_all) = (by(limits.max_compute_work_group_size), limits.max_compute_work_group_invocations);
-    Err(format!("workgroups of {} invocations: this device allows {most}, and {in_all} in all", by(size)))
 }

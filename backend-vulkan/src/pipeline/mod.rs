@@ -12,9 +12,7 @@ mod samplers;
 mod shader_module;
 
 pub(crate) use descriptor_set::{DescriptorSet, DescriptorTarget};
-pub(crate) use fit::{
-    brought_attributes, check_brought, check_features, check_outputs, check_supplied, check_workgroup, own_attributes,
-};
+pub(crate) use fit::{brought_attributes, check_brought, check_outputs, check_supplied, own_attributes};
 pub(crate) use graphics::or_unused;
 pub(crate) use layouts::PARTS_STAGES;
-pub(crate) use limits::check_limits;
+pub(crate) use limits::check_needs;

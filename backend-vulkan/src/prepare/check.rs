@@ -7,7 +7,7 @@ use crate::base::{Error, by};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
-use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
+use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, Usage, name_of};
@@ -90,15 +90,16 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
 
 fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
     let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
-    let limits = &gpu.limits;
-    for (usage, most, kind, limit) in [
-        (BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range, "uniform", "maxUniformBufferRange"),
-        (BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range, "storage", "maxStorageBufferRange"),
-    ] {
-        if buffer.usage.contains(usage) && buffer.bytes > u64::from(most) {
-            let (device, bytes) = (&gpu.summary.name, buffer.bytes);
-            return bad(format!("`{name}` has {bytes} bytes, and a {kind} block of {device} at most {most} ({limit})"));
-        }
+    let limits = gpu.shader_limits();
+    let allowed = [
+        (true, Limit::BufferBytes),
+        (buffer.usage.contains(BufferUsage::UNIFORM_BUFFER), Limit::UniformBytes),
+        (buffer.usage.contains(BufferUsage::STORAGE_BUFFER), Limit::StorageBytes),
+    ];
+    let exceeded = allowed.into_iter().find(|(used, limit)| *used && buffer.bytes > limits.of(*limit));
+    if let Some((_, limit)) = exceeded {
+        let (device, most) = (&gpu.summary.name, limits.of(limit));
+        return bad(format!("`{name}` has {} bytes; {device} allows {most} ({})", buffer.bytes, limit.name()));
     }
     if !gpu.can_make_buffer(&descriptor) {
         let (device, bytes, usage) = (&gpu.summary.name, buffer.bytes, name_of(&buffer.usage));

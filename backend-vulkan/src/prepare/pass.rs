@@ -9,10 +9,7 @@ use super::supplied::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
-use crate::pipeline::{
-    brought_attributes, check_brought, check_features, check_limits, check_outputs, check_supplied, check_workgroup,
-    own_attributes,
-};
+use crate::pipeline::{brought_attributes, check_brought, check_needs, check_outputs, check_supplied, own_attributes};
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
@@ -189,11 +186,9 @@ pub(super) fn prepare_dispatch(
     let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
-    check_features(gpu, &shader.interface).map_err(mismatch)?;
-    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter(), 0).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, brought.supplied.iter(), 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
-    check_workgroup(gpu, size).map_err(mismatch)?;
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
     let descriptor = PipelineDescriptor::Compute { shader: shader.compute, layout: supplied.layout };
@@ -248,8 +243,7 @@ pub(super) fn prepare_draw(
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
-    check_features(gpu, &shader.interface).map_err(mismatch)?;
-    check_limits(&gpu.limits, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();

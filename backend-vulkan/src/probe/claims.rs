@@ -52,6 +52,8 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
         untested_multiview: false,
         vertex_layer: gpu.features.vertex_layer(),
         max_clip_distances: Some(if gpu.features.clip_distances() { limits.max_clip_distances } else { 0 }),
+        features: Some(gpu.features.needed().map(str::to_owned).collect()),
+        limits: Some(gpu.shader_limits()),
         depth_resolve: depth_resolve_modes(gpu),
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),

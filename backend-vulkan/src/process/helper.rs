@@ -4,6 +4,7 @@ use super::limits::Limits;
 use super::protocol::{Answer, CompileFailure, CompileJob, IncludedFile, Request, SampleResolve, SelfTest};
 use super::running::{NoAnswer, Running, Streams};
 use crate::base::{Cache, Cancel};
+use crate::shaders::Compiled;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
@@ -121,7 +122,7 @@ impl Helper {
         &self,
         job: &CompileJob,
         includes: &mut dyn FnMut(&str, &str) -> Result<IncludedFile, String>,
-    ) -> Result<Result<Vec<u32>, CompileFailure>, NoAnswer> {
+    ) -> Result<Result<Compiled, CompileFailure>, NoAnswer> {
         let mut compiler = self.compiler.lock().unwrap_or_else(PoisonError::into_inner);
         let running = match compiler.take() {
             Some(running) => running,
@@ -132,7 +133,7 @@ impl Helper {
             loop {
                 match streams.receive()? {
                     Answer::Include { from, name } => streams.send(&Request::Included(includes(&from, &name)))?,
-                    Answer::Spirv => return Ok(Ok(streams.receive_words()?)),
+                    Answer::Spirv(verdict) => return Ok(Ok(Compiled { spirv: streams.receive_words()?, verdict })),
                     Answer::CompileFailure(failure) => return Ok(Err(failure)),
                     Answer::SampleResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
                         return Err(Streams::garbage());

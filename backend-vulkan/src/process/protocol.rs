@@ -1,5 +1,6 @@
 //! The protocol between a program and its helper process: frames of bytes, each behind its length, mostly of JSON.
 
+use crate::shaders::Verdict;
 use framewright_graph::vulkan::ResolveMode;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -35,8 +36,8 @@ pub(crate) enum Request {
 pub(crate) enum Answer {
     /// The file `from` includes `name`.
     Include { from: String, name: String },
-    /// The stage compiles: the next frame is SPIR-V.
-    Spirv,
+    /// The stage compiles, and is judged so: the next frame is SPIR-V.
+    Spirv(Verdict),
     /// The stage doesn't compile.
     CompileFailure(CompileFailure),
     /// How the device resolves samples.

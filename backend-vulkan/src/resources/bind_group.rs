@@ -5,7 +5,7 @@ use super::texture::{Buffer, Texture};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, LayoutBinding};
 use crate::memory::RawBuffer;
-use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought, check_limits};
+use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought, check_needs};
 use ash::vk;
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -175,7 +175,7 @@ impl Device {
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         let of_set = supplied.iter().copied();
-        check_limits(&self.gpu.limits, &ShaderInterface::default(), of_set, 0).map_err(bad)?;
+        check_needs(&self.gpu, &ShaderInterface::default(), of_set, 0).map_err(bad)?;
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {

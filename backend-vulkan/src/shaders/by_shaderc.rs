@@ -16,13 +16,15 @@ const MAX_INCLUDE_DEPTH: usize = 16;
 /// last compiler.
 static COMPILER: OnceLock<Compiler> = OnceLock::new();
 
-/// Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs. `lines`: the SPIR-V
+/// tells the lines of its instructions.
 ///
 /// # Errors
 /// The compiler's messages, or that it failed itself.
 pub(super) fn compile(
     CompileJob { stage, shown, text, macros }: &CompileJob,
     includes: &mut Includes<'_>,
+    lines: bool,
 ) -> Result<Vec<u32>, CompileFailure> {
     let compiler = compiler().map_err(|error| CompileFailure::Internal(format!("it doesn't start: {error}")))?;
     let (stage, includes) = (*stage, RefCell::new(includes));
@@ -35,6 +37,9 @@ pub(super) fn compile(
     options.set_target_spirv(if stage == ShaderStage::Compute { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
+    if lines {
+        options.set_generate_debug_info();
+    }
     if stage == ShaderStage::Fragment {
         options.add_macro_definition("FRAMEWRIGHT_FRAGMENT", None);
     }
@@ -56,7 +61,7 @@ pub(super) fn compile(
     };
     match compiler.compile_into_spirv(text, kind, shown, "main", Some(&options)) {
         Ok(artifact) => bounded(artifact.as_binary(), LARGEST_SPIRV).map(<[u32]>::to_vec),
-        Err(shaderc::Error::CompilationError(_, text)) => Err(CompileFailure::Messages(lines(&text))),
+        Err(shaderc::Error::CompilationError(_, text)) => Err(CompileFailure::Messages(messages(&text))),
         Err(error) => Err(failed(&error)),
     }
 }
@@ -86,7 +91,7 @@ fn failed(error: &shaderc::Error) -> CompileFailure {
 }
 
 /// The messages in the compiler's text.
-fn lines(text: &str) -> Vec<String> {
+fn messages(text: &str) -> Vec<String> {
     text.lines().map(str::trim_end).filter(|line| !line.is_empty()).map(str::to_owned).collect()
 }
 

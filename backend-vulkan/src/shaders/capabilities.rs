@@ -1,14 +1,16 @@
 //! The capabilities of SPIR-V that stages may need, and what GLSL to write instead of what needs others.
 
+use super::indexing;
 use super::module::IndexedModule;
-use super::text::Refused;
+use super::needs::Feature;
+use super::text::{Refused, Words};
 use crate::base::named;
 use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
 /// Capabilities that every stage may need: those of the minimum device, and the ones with a remark below.
-const EVERYWHERE: [Capability; 16] = [
+const EVERYWHERE: [Capability; 14] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::Sampled1D,
@@ -22,9 +24,6 @@ const EVERYWHERE: [Capability; 16] = [
     Capability::DemoteToHelperInvocation,
     // Shaders have it only where they are compiled for a local read, which is for devices that have those.
     Capability::InputAttachment,
-    // A device that can't see several cubes at once refuses the pass.
-    Capability::SampledCubeArray,
-    Capability::ImageCubeArray,
     // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
     // device's choice.
     Capability::StorageImageExtendedFormats,
@@ -32,13 +31,16 @@ const EVERYWHERE: [Capability; 16] = [
     Capability::ShaderNonUniform,
 ];
 
-/// Capabilities that every stage may need on devices that have the feature of this name: elements of arrays that are chosen by a
-/// number that changes, from draw to draw, or from pixel to pixel (`nonuniformEXT`).
-const OF_DEVICES: [(Capability, &str); 4] = [
-    (Capability::SampledImageArrayDynamicIndexing, "shaderSampledImageArrayDynamicIndexing"),
-    (Capability::StorageImageArrayDynamicIndexing, "shaderStorageImageArrayDynamicIndexing"),
-    (Capability::SampledImageArrayNonUniformIndexing, "shaderSampledImageArrayNonUniformIndexing"),
-    (Capability::StorageImageArrayNonUniformIndexing, "shaderStorageImageArrayNonUniformIndexing"),
+/// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them:
+/// arrays of cubes; and elements of arrays that are chosen by a number that changes, from draw to draw, or from pixel to pixel
+/// (`nonuniformEXT`).
+const OF_DEVICES: [(Capability, &str, &[&str]); 6] = [
+    (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
+    (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),
+    (Capability::SampledImageArrayDynamicIndexing, indexing::SAMPLED, &[]),
+    (Capability::StorageImageArrayDynamicIndexing, indexing::STORAGE, &[]),
+    (Capability::SampledImageArrayNonUniformIndexing, "shaderSampledImageArrayNonUniformIndexing", &["nonuniformEXT"]),
+    (Capability::StorageImageArrayNonUniformIndexing, "shaderStorageImageArrayNonUniformIndexing", &["nonuniformEXT"]),
 ];
 
 /// Capabilities that only compute shaders may need: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
@@ -135,8 +137,7 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
     ),
 ];
 
-/// Refuses what isn't supported, with the words that need it and what to write instead. Returns the features that a device must have,
-/// by Vulkan's names.
+/// Refuses what isn't supported, with the words that need it and what to write instead. Returns the features that a device must have.
 ///
 /// # Errors
 /// The first capability that a stage needs and may not.
@@ -144,12 +145,15 @@ pub(super) fn check_capabilities(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     both_eyes: bool,
-) -> Result<Vec<&'static str>, Refused> {
+) -> Result<Vec<Feature>, Refused> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
     });
-    let feature = |it: &Capability| OF_DEVICES.iter().find(|(capability, _)| capability == it).map(|(_, name)| *name);
+    let feature = |it: &Capability| {
+        let found = OF_DEVICES.iter().find(|(capability, ..)| capability == it);
+        found.map(|(_, name, words)| Feature { name, words: Words::Beginning(words) })
+    };
     let features = needed.clone().filter_map(|it| feature(&it)).collect();
     let allowed = |it: &Capability| {
         EVERYWHERE.contains(it)

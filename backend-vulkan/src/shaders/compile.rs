@@ -1,5 +1,6 @@
-//! GLSL to SPIR-V.
+//! GLSL to SPIR-V, and the validator's verdict on it.
 
+use super::validator::Verdict;
 use crate::process::{CompileFailure, CompileJob, IncludedFile};
 
 /// A shader may include this many files, repetitions counted.
@@ -8,13 +9,35 @@ pub(super) const MAX_INCLUDES: usize = 256;
 /// Finds the file that the file of one name includes by another name.
 pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, String> + 'a;
 
+/// A stage that was compiled.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Compiled {
+    /// SPIR-V.
+    pub(crate) spirv: Vec<u32>,
+    /// Whether it is valid.
+    pub(crate) verdict: Verdict,
+}
+
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3. Fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides.
 ///
 /// # Errors
 /// The compiler's messages, or that it failed itself; [`CompileFailure::NoCompiler`] without the feature `shader-compiler`.
-pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<Vec<u32>, CompileFailure> {
+pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<Compiled, CompileFailure> {
     #[cfg(feature = "shader-compiler")]
-    return super::by_shaderc::compile(job, includes);
+    {
+        use super::by_shaderc;
+        use super::validator::judge;
+        let spirv = by_shaderc::compile(job, includes, false)?;
+        let verdict = match judge(&spirv) {
+            // SPIR-V has lines only if they are asked for. They cost time, and what is valid needs none.
+            Verdict::Invalid(finding) => match by_shaderc::compile(job, includes, true).map(|spirv| judge(&spirv)) {
+                Ok(Verdict::Invalid(with_lines)) if with_lines.place.is_some() => Verdict::Invalid(with_lines),
+                _ => Verdict::Invalid(finding),
+            },
+            other => other,
+        };
+        Ok(Compiled { spirv, verdict })
+    }
     #[cfg(not(feature = "shader-compiler"))]
     {
         let _ = (job, includes);

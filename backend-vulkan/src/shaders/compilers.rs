@@ -1,10 +1,11 @@
 //! Where stages come from: from a folder of precompiled ones, or of the GLSL compiler, in this process or in a helper process.
 
-use super::compile::{Includes, compile};
+use super::compile::{Compiled, Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
 use super::precompiled::PrecompiledShaders;
 use super::spirv_cache::{Inclusions, SpirvCache};
+use super::validator::judge;
 use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
@@ -41,16 +42,17 @@ impl Compilers {
         job: &CompileJob,
         source: &SourceFile,
         files: &ShaderFiles,
-    ) -> Result<Vec<u32>, ShaderProblem> {
+    ) -> Result<Compiled, ShaderProblem> {
         let unsupported = |what: String| ShaderProblem::Unsupported { what };
         let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
         let file = precompiled.file(job, source, files);
         if let Some(spirv) = PrecompiledShaders::read(&file).map_err(unsupported)? {
-            return Ok(spirv);
+            let verdict = judge(&spirv);
+            return Ok(Compiled { spirv, verdict });
         }
-        let spirv = self.compile_now(job, source, files)?;
-        precompiled.add(&file, &spirv).map_err(unsupported)?;
-        Ok(spirv)
+        let compiled = self.compile_now(job, source, files)?;
+        precompiled.add(&file, &compiled.spirv).map_err(unsupported)?;
+        Ok(compiled)
     }
 
     fn compile_now(
@@ -58,7 +60,7 @@ impl Compilers {
         job: &CompileJob,
         source: &SourceFile,
         files: &ShaderFiles,
-    ) -> Result<Vec<u32>, ShaderProblem> {
+    ) -> Result<Compiled, ShaderProblem> {
         // Which files the compiler's names stand for, and what they hold.
         let mut known = HashMap::from([(source.shown.clone(), (source.path.clone(), source.text.clone()))]);
         let mut includes = |from: &str, name: &str| -> Result<IncludedFile, String> {
@@ -115,10 +117,10 @@ fn compile_cached(
     cache: Option<&mut SpirvCache>,
     job: &CompileJob,
     includes: &mut Includes<'_>,
-) -> Result<Result<Vec<u32>, CompileFailure>, NoAnswer> {
+) -> Result<Result<Compiled, CompileFailure>, NoAnswer> {
     let Some(cache) = cache else { return helper.compile(job, includes) };
-    if let Some(spirv) = cache.find(job, includes) {
-        return Ok(Ok(spirv));
+    if let Some(compiled) = cache.find(job, includes) {
+        return Ok(Ok(compiled));
     }
     let mut included = Inclusions::of(job);
     let compiled = helper.compile(job, &mut |from, name| {
@@ -126,8 +128,8 @@ fn compile_cached(
         included.add(from, name, &file);
         Ok(file)
     })?;
-    if let Ok(spirv) = &compiled {
-        cache.keep(job, included, spirv);
+    if let Ok(compiled) = &compiled {
+        cache.keep(job, included, compiled);
     }
     Ok(compiled)
 }

@@ -2,13 +2,24 @@
 //! are the same for a whole draw.
 
 use super::module::{IndexedModule, id, number, storage_class};
+use super::needs::Feature;
+use super::text::Words;
 use rspirv::dr::Instruction;
 use rspirv::spirv::{Op, StorageClass};
 
-/// The features that a device must have for it, by Vulkan's names: those of arrays that are indexed by anything but constants.
-pub(super) fn features(module: &IndexedModule<'_>) -> Vec<&'static str> {
+/// The feature for elements of arrays of sampled images, by a number that changes.
+pub(super) const SAMPLED: &str = "shaderSampledImageArrayDynamicIndexing";
+/// The same of storage images.
+pub(super) const STORAGE: &str = "shaderStorageImageArrayDynamicIndexing";
+
+/// The features that a device must have for it: those of arrays that are indexed by anything but constants.
+pub(super) fn features(module: &IndexedModule<'_>) -> Vec<Feature> {
     let chains = module.code().filter(|it| matches!(it.class.opcode, Op::AccessChain | Op::InBoundsAccessChain));
-    chains.filter(|it| chooses(module, it)).filter_map(|it| feature(module, it)).collect()
+    let chosen = chains.filter(|it| chooses(module, it)).filter_map(|it| {
+        let array = it.operands.first()?.id_ref_any().map_or("", |array| module.name(array));
+        Some(Feature { name: feature(module, it)?, words: Words::Whole(array.to_owned()) })
+    });
+    chosen.collect()
 }
 
 /// Whether an index isn't a constant.
@@ -23,10 +34,8 @@ fn feature(module: &IndexedModule<'_>, chain: &Instruction) -> Option<&'static s
     storage_class(pointer).filter(|class| *class == StorageClass::UniformConstant)?;
     let element = module.global(id(pointer, 1)?)?;
     match element.class.opcode {
-        Op::TypeSampledImage => Some("shaderSampledImageArrayDynamicIndexing"),
-        Op::TypeImage if element.operands.get(5).and_then(number) == Some(2) => {
-            Some("shaderStorageImageArrayDynamicIndexing")
-        }
+        Op::TypeSampledImage => Some(SAMPLED),
+        Op::TypeImage if element.operands.get(5).and_then(number) == Some(2) => Some(STORAGE),
         _ => None,
     }
 }

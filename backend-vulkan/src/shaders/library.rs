@@ -1,19 +1,23 @@
 //! Shaders by name, for a kind of draw.
 
 use super::PrecompiledShaders;
-use super::compilers::Compilers;
 use super::colors;
+use super::compile::Compiled;
+use super::compilers::Compilers;
 use super::coverage::LEAVES_OUT;
 use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::mentioned::{Mentioned, asks_eye_in_included};
+use super::needs::Needed;
 use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, Refused};
+use super::validator::{Finding, Verdict};
 use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
+use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
     BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
@@ -247,13 +251,13 @@ impl ShaderLibrary {
         let parts = macros.iter().any(|(name, _)| name == PARTS);
         let (compilers, files) = (&mut self.compilers, &self.files);
         let unsupported = |refused: Refused| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        let spirv = compilers.compile(&job, found, files).map_err(|problem| {
+        let Compiled { spirv, verdict } = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
-                let spirv = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
-                reflect(stage, &spirv, parts, true).err()
+                let compiled = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
+                reflect(stage, &compiled.spirv, parts, true).err()
             });
             refused.map_or(problem, unsupported)
         })?;
@@ -261,6 +265,11 @@ impl ShaderLibrary {
             sized(files, found).map_err(unsupported)?;
         }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
+        // What was refused already has better words.
+        if let Verdict::Invalid(finding) = &verdict {
+            return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
+        }
+        reflected.interface.needs = placed_needs(&reflected.needs, &verdict, files, found);
         let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
         let by_eye = |spirv: Vec<u32>| layers::by_eye(&spirv, &names).map_err(|what| unsupported(what.into()));
         let spirv = if names.is_empty() { spirv } else { by_eye(spirv)? };
@@ -345,6 +354,28 @@ fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), Refused> {
     let what = "it doesn't say how large its workgroups are; write `layout(local_size_x = 8, local_size_y = 8) in;` for \
         workgroups of 8×8, or `layout(local_size_x = 1) in;` for single invocations";
     Err(Refused::named("main", what.to_owned()))
+}
+
+/// That a stage is no valid SPIR-V, with the place.
+fn invalid(finding: &Finding, files: &ShaderFiles, stage: &SourceFile) -> String {
+    let what = format!("SPIR-V that Vulkan 1.3 doesn't allow: {}", finding.words);
+    match &finding.place {
+        Some((file, line)) => format!("{file}:{line}: {what}"),
+        None => Refused::shown_by(finding.shown_by(), what).placed(files, stage),
+    }
+}
+
+/// What a stage asks of a device, with the places that show it in its text.
+fn placed_needs(needs: &[Needed], verdict: &Verdict, files: &ShaderFiles, stage: &SourceFile) -> Vec<Need> {
+    let placed =
+        needs.iter().map(|Needed { kind, words }| Need { kind: kind.clone(), place: words.place(files, stage).into() });
+    let unjudged = match verdict {
+        Verdict::Unknown(words) => {
+            Some(Need { kind: NeedKind::Unjudged(words.as_str().into()), place: stage.shown.as_str().into() })
+        }
+        Verdict::None | Verdict::Valid | Verdict::Invalid(_) => None,
+    };
+    placed.chain(unjudged).collect()
 }
 
 /// Images that a variant samples in the layer of the eye that is drawn for.

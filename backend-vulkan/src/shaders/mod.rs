@@ -1,6 +1,7 @@
 //! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
 
 mod bindings;
+mod block_layout;
 #[cfg(feature = "shader-compiler")]
 mod by_shaderc;
 mod capabilities;
@@ -8,6 +9,7 @@ mod colors;
 mod compile;
 mod compilers;
 mod coverage;
+mod extensions;
 mod eyes;
 mod files;
 mod indexing;
@@ -17,15 +19,18 @@ mod macros;
 mod mentioned;
 mod messages;
 mod module;
+mod needs;
 mod precompiled;
 mod reflect;
 mod rotation;
 mod spirv_cache;
 mod stages;
 mod text;
+mod validator;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled::PrecompiledShaders;
 pub use stages::Spirv;
 
-pub(crate) use compile::compile;
+pub(crate) use compile::{Compiled, compile};
+pub(crate) use validator::Verdict;

@@ -3,10 +3,12 @@
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
 use super::coverage;
+use super::extensions::check_extensions;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
+use super::needs::{Needed, needs};
+use super::rotation;
 use super::text::Refused;
-use super::{indexing, rotation};
 use crate::process::ShaderStage;
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
@@ -18,6 +20,8 @@ use std::collections::HashSet;
 pub(super) struct StageInterface {
     /// Its share of the shader's interface.
     pub(super) interface: ShaderInterface,
+    /// What it asks of a device beyond what every device has.
+    pub(super) needs: Vec<Needed>,
     /// Values that come in by location (vertex attributes, or what the vertex stage hands over).
     pub(super) inputs: Vec<Varying>,
     /// Values that go out by location.
@@ -42,8 +46,6 @@ const OUTPUTS: u32 = 256;
 /// Bytes of the variables of one invocation (64 KiB): a driver keeps them for every fragment that it works on at a time,
 /// and a software driver has no limit of its own but the machine's memory.
 const OWN_BYTES: u64 = 64 << 10;
-/// Bytes that the invocations of a workgroup share: Vulkan promises no more to all.
-const SHARED_BYTES: u64 = 16 << 10;
 
 /// Reads the interface of `stage` off `spirv`. `in_part`: it is told which parts of images are in use; `both_eyes`: it was made to
 /// draw for both eyes at once, for a device that can.
@@ -61,19 +63,19 @@ pub(super) fn reflect(
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == ShaderStage::Fragment;
-    let mut features = check_capabilities(&module, stage, both_eyes)?;
-    features.extend(indexing::features(&module));
-    features.sort_unstable();
-    features.dedup();
+    let features = check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
-    check_shared_memory(&module)?;
+    check_extensions(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
     let (most_in, most_out) = if fragment { (LOCATION, u32::MAX) } else { (ATTRIBUTES, LOCATION) };
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
+    let bindings = bindings(&module, stage, &used, in_part)?;
+    let workgroup_size = (stage == ShaderStage::Compute).then(|| workgroup_size(&module));
+    let needs = needs(&module, stage, features, &bindings, workgroup_size);
     let interface = ShaderInterface {
-        bindings: bindings(&module, stage, &used, in_part)?,
+        bindings,
         vertex_inputs: match stage {
             ShaderStage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
             ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
@@ -95,12 +97,13 @@ pub(super) fn reflect(
             .execution_modes
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
-        workgroup_size: (stage == ShaderStage::Compute).then(|| workgroup_size(&module)),
+        workgroup_size,
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
         sees_alike: if stage == ShaderStage::Vertex { matrices(&module, &used) } else { Vec::new() },
-        features,
+        // They are told with their places, which stand in the text too.
+        needs: Vec::new(),
     };
     let input_attachments = module
         .variables()
@@ -109,7 +112,7 @@ pub(super) fn reflect(
             Some((module.name(id).to_owned(), index))
         })
         .collect();
-    Ok(StageInterface { interface, inputs, outputs, input_attachments })
+    Ok(StageInterface { interface, needs, inputs, outputs, input_attachments })
 }
 
 /// The pass's blocks with matrices, the parameters left out; none if the stage knows which view the device draws.
@@ -170,18 +173,6 @@ fn workgroup_size(module: &IndexedModule<'_>) -> [u32; 3] {
     });
     let size = size.unwrap_or_default();
     [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1).max(1))
-}
-
-/// No more memory than the invocations of a workgroup may share.
-fn check_shared_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
-    let shared = module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Workgroup));
-    let bytes = shared.filter_map(|(_, it)| module.pointee(it)?.result_id).map(|ty| module.own_bytes(ty));
-    let total = bytes.fold(0, u64::saturating_add);
-    if total > SHARED_BYTES {
-        let what = format!("its shared variables take {total} bytes: at most {SHARED_BYTES} are allowed");
-        return Err(Refused::named("shared", what));
-    }
-    Ok(())
 }
 
 /// No more memory for variables than an invocation may have.

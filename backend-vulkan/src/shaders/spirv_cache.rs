@@ -3,7 +3,8 @@
 //! A file holds digests of all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was
 //! included. It is taken only where all of that is the same now.
 
-use super::compile::Includes;
+use super::compile::{Compiled, Includes};
+use super::validator::Verdict;
 use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file, shrink, used_now};
 use crate::process::{
     CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
@@ -35,6 +36,8 @@ struct Header {
     includes: Vec<Inclusion>,
     /// Digest of the SPIR-V.
     spirv: u64,
+    /// The validator's verdict on it.
+    verdict: Verdict,
 }
 
 /// An included file: how it was asked for, and a digest of its text. Its place isn't told: a stage is the same wherever its
@@ -78,7 +81,7 @@ impl SpirvCache {
     }
 
     /// The SPIR-V of a stage, if it was compiled before and `includes` finds the same files as then.
-    pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<Vec<u32>> {
+    pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<Compiled> {
         let path = self.path(job);
         let file = read_file(&path, LARGEST_FILE)?;
         let mut rest = &*file;
@@ -95,18 +98,20 @@ impl SpirvCache {
             shown.push(found.shown);
         }
         used_now(&path);
-        Some(words.iter().map(|word| u32::from_le_bytes(*word)).collect())
+        let spirv = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        Some(Compiled { spirv, verdict: header.verdict })
     }
 
-    /// Keeps the SPIR-V of a stage that includes these files. Where that isn't possible, or it is very large, it is compiled again
-    /// next time.
-    pub(super) fn keep(&mut self, job: &CompileJob, includes: Inclusions, spirv: &[u32]) {
-        if size_of_val(spirv) as u64 > LARGEST_FILE / 2 {
+    /// Keeps a stage that includes these files. Where that isn't possible, or it is very large or invalid, it is compiled again next
+    /// time.
+    pub(super) fn keep(&mut self, job: &CompileJob, includes: Inclusions, Compiled { spirv, verdict }: &Compiled) {
+        if size_of_val(&spirv[..]) as u64 > LARGEST_FILE / 2 || matches!(verdict, Verdict::Invalid(_)) {
             return;
         }
         let spirv: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
         let (compiler, digest_of_spirv) = (self.compiler.clone(), digest(&spirv));
-        let header = Header { compiler, job: digest_of(job), includes: includes.list, spirv: digest_of_spirv };
+        let (includes, verdict) = (includes.list, verdict.clone());
+        let header = Header { compiler, job: digest_of(job), includes, spirv: digest_of_spirv, verdict };
         let mut file = Vec::new();
         let written = write(&mut file, &header)
             .and_then(|()| write_frame(&mut file, &spirv))
@@ -140,6 +145,10 @@ mod tests {
         CompileJob { stage: ShaderStage::Vertex, shown: "a.vert".to_owned(), text: text.to_owned(), macros: Vec::new() }
     }
 
+    fn compiled(spirv: &[u32]) -> Compiled {
+        Compiled { spirv: spirv.to_vec(), verdict: Verdict::Valid }
+    }
+
     fn found(cache: &SpirvCache, text: &str) -> bool {
         cache.find(&job(text), &mut |_, _| unreachable!("nothing is included")).is_some()
     }
@@ -148,7 +157,7 @@ mod tests {
     fn cache(folder: &Path) -> SpirvCache {
         let mut cache = SpirvCache::new(&Cache::in_folder(folder), Path::new("compiler"), &Limits::default());
         for (hours, text) in ["a", "b", "c", "d"].into_iter().enumerate() {
-            cache.keep(&job(text), Inclusions::of(&job(text)), &[7; 1000]);
+            cache.keep(&job(text), Inclusions::of(&job(text)), &compiled(&[7; 1000]));
             let used = SystemTime::now() - Duration::from_secs(3600 * (10 - hours as u64));
             let file = File::options().append(true).open(cache.path(&job(text))).expect("it is kept");
             file.set_modified(used).expect("its time is set");
@@ -178,7 +187,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut cache = cache(folder.path());
         let large = vec![7; 1 << 20];
-        cache.keep(&job("large"), Inclusions::of(&job("large")), &large);
+        cache.keep(&job("large"), Inclusions::of(&job("large")), &compiled(&large));
         assert!(!found(&cache, "large") && found(&cache, "a"));
     }
 
@@ -193,7 +202,7 @@ mod tests {
         };
         let mut one = of_build("one");
         assert!(!found(&one, "a"));
-        one.keep(&job("a"), Inclusions::of(&job("a")), &[1]);
+        one.keep(&job("a"), Inclusions::of(&job("a")), &compiled(&[1]));
         let other = of_build("other");
         assert!(found(&one, "a") && !found(&other, "a") && found(&cache, "a"));
         // Files of two builds may have one name.

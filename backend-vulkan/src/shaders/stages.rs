@@ -65,9 +65,11 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
         vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
     );
     joined.unturned.sort_unstable();
-    joined.features.extend(&vertex.reflected.interface.features);
-    joined.features.sort_unstable();
-    joined.features.dedup();
+    for need in &vertex.reflected.interface.needs {
+        if !joined.needs.contains(need) {
+            joined.needs.push(need.clone());
+        }
+    }
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
     // Each stage that samples an image must ask.
     let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());

@@ -14,13 +14,33 @@ pub(super) struct Refused {
 }
 
 /// Words of a text.
-#[derive(Debug)]
-enum Words {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Words {
     None,
     /// One word.
     Whole(String),
     /// Every word with one of these beginnings.
     Beginning(&'static [&'static str]),
+    /// The first of these words that the text has.
+    First(Vec<String>),
+    /// Every word with this ending, whatever the case of its letters.
+    Ending(String),
+}
+
+impl Words {
+    /// Where a stage's file or one that it includes has such a word first, as `FILE:LINE`; its file where none has.
+    pub(super) fn place(&self, files: &ShaderFiles, stage: &SourceFile) -> String {
+        let found = match self {
+            Words::None => None,
+            Words::Whole(name) => place(files, stage, |word| word == name),
+            Words::Beginning(all) => {
+                place(files, stage, |word| all.iter().any(|beginning| word.starts_with(beginning)))
+            }
+            Words::First(all) => all.iter().find_map(|name| place(files, stage, |word| word == name)),
+            Words::Ending(ending) => place(files, stage, |word| word.to_ascii_lowercase().ends_with(ending)),
+        };
+        found.unwrap_or_else(|| stage.shown.clone())
+    }
 }
 
 impl From<String> for Refused {
@@ -40,14 +60,14 @@ impl Refused {
         Refused { what, shown_by: Words::Beginning(words) }
     }
 
+    /// With the words that are refused.
+    pub(super) fn shown_by(shown_by: Words, what: String) -> Refused {
+        Refused { what, shown_by }
+    }
+
     /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.
     pub(super) fn placed(&self, files: &ShaderFiles, stage: &SourceFile) -> String {
-        let wanted = |word: &str| match &self.shown_by {
-            Words::None => false,
-            Words::Whole(name) => word == name,
-            Words::Beginning(beginnings) => beginnings.iter().any(|beginning| word.starts_with(beginning)),
-        };
-        format!("{}: {}", place(files, stage, wanted).unwrap_or_else(|| stage.shown.clone()), self.what)
+        format!("{}: {}", self.shown_by.place(files, stage), self.what)
     }
 }
 

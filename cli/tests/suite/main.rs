@@ -59,6 +59,7 @@ mod texture_declarations;
 mod textures;
 mod variants;
 mod views;
+mod what_devices_allow;
 mod what_shaders_need;
 mod window;
 mod window_list;

@@ -71,8 +71,9 @@ impl Structure {
     ) -> Result<(Structure, Option<Frame>), Vec<Diagnostic>> {
         let (grids, live) = cull::live(frame)?;
         let formats = fit::formats(frame, &live.passes, device);
+        let of_needs = fit::check_needs(frame, &live.passes, device)?;
         let mut structure = Structure::find(formats.frame(frame), (grids, live), &formats, device, options, keeps)?;
-        structure.notes.splice(0..0, formats.notes);
+        structure.notes.splice(0..0, formats.notes.into_iter().chain(of_needs));
         Ok((structure, formats.substitute))
     }
 

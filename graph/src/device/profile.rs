@@ -1,5 +1,6 @@
 //! The capabilities of a device.
 
+use super::limits::Limits;
 use super::memory::MemoryNeeds;
 use super::sound;
 use crate::vulkan::{Format, ResolveMode, Sharing, Usage};
@@ -58,6 +59,23 @@ pub struct Profile {
         deserialize_with = "sound::clip_distances"
     )]
     pub max_clip_distances: Option<u32>,
+    /// Features beyond the minimum that shaders and draws can need, by Vulkan's names; `None` where they aren't known: then
+    /// none is missed.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "sound::known",
+        deserialize_with = "sound::where_known"
+    )]
+    pub features: Option<Vec<String>>,
+    /// Limits for shaders and buffers; `None` where they aren't known: then nothing exceeds them.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "sound::known",
+        deserialize_with = "sound::where_known"
+    )]
+    pub limits: Option<Limits>,
     /// Modes in which the rendering scope that draws depth can resolve it, without those that a test refuted.
     #[serde(default = "least_depth_resolve")]
     pub depth_resolve: Vec<ResolveMode>,
@@ -234,6 +252,12 @@ const fn first_type() -> u32 {
 }
 
 impl Profile {
+    /// Whether the device has a feature beyond the minimum, by Vulkan's name. Where its features aren't known none is missed.
+    #[must_use]
+    pub fn has_feature(&self, name: &str) -> bool {
+        self.features.as_ref().is_none_or(|features| features.iter().any(|it| it == name))
+    }
+
     /// The support for `format`; `None` if there is none.
     #[must_use]
     pub fn format(&self, format: Format) -> Option<&FormatSupport> {

@@ -72,6 +72,11 @@ pub(super) fn clip_distances<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
     u32::deserialize(deserializer).map(Some).map_err(written_anew)
 }
 
+/// What stands for itself where it is known.
+pub(super) fn where_known<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(from).map(Some)
+}
+
 /// Older profiles have `Some(…)` around such a number.
 fn written_anew<E: serde::de::Error>(error: E) -> E {
     E::custom(format!(

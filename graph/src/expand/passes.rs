@@ -34,6 +34,7 @@ pub(super) fn lower(
     supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
+        lowered.needs = supplied::needs(shaders, pass, interface);
         supplied::check(shaders, pass, (path, interface), errors);
         let before = errors.len();
         let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
@@ -81,6 +82,7 @@ pub(super) fn draft(
         untouched: coverage::untouched(pass, interface),
         no_depth_only: None,
         no_rotation: None,
+        needs: Vec::new(),
         inserted: None,
         buffers: Vec::new(),
         transfers: Vec::new(),

@@ -23,6 +23,8 @@ pub(super) struct Checked<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
     sources: &'s Sources,
     seen: HashSet<(Arc<str>, Option<Draw>)>,
+    /// What the draw source brings along for each draw that was asked about; `None`: for compute shaders.
+    brought: Vec<(Option<Draw>, Arc<DrawInterface>)>,
     /// Shaders that have no interface, and why: one may draw several things.
     reported: Vec<(Arc<str>, ShaderProblem)>,
     /// The path of the file that names a shader, if it is unknown.
@@ -34,8 +36,15 @@ pub(super) struct Checked<'s> {
 impl<'s> Checked<'s> {
     /// `sources` are the files that name the shaders.
     pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> Checked<'s> {
-        let nowhere = "".into();
-        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new(), nowhere, remarks: Vec::new() }
+        Checked {
+            shaders,
+            sources,
+            seen: HashSet::new(),
+            brought: Vec::new(),
+            reported: Vec::new(),
+            nowhere: "".into(),
+            remarks: Vec::new(),
+        }
     }
 
     /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.
@@ -115,10 +124,21 @@ impl<'s> Checked<'s> {
 
     /// The interface that the draw source provides, the first time that a shader draws this or is dispatched. Later it is known
     /// to fit or not.
-    pub(super) fn brought_along_first(&mut self, pass: &language::Pass, path: &Arc<str>) -> Option<DrawInterface> {
+    pub(super) fn brought_along_first(&mut self, pass: &language::Pass, path: &Arc<str>) -> Option<Arc<DrawInterface>> {
         let (_, draw) = named(pass)?;
         let first = self.seen.insert((path.clone(), draw));
-        first.then(|| self.shaders.brought_along(draw))
+        first.then(|| self.brought_along(pass)).flatten()
+    }
+
+    /// The interface that the draw source provides to a pass with a shader.
+    pub(super) fn brought_along(&mut self, pass: &language::Pass) -> Option<Arc<DrawInterface>> {
+        let (_, draw) = named(pass)?;
+        if let Some((_, known)) = self.brought.iter().find(|(of, _)| *of == draw) {
+            return Some(known.clone());
+        }
+        let brought = Arc::new(self.shaders.brought_along(draw));
+        self.brought.push((draw, brought.clone()));
+        Some(brought)
     }
 
     /// As [`ShaderInterfaces::custom_passes`].

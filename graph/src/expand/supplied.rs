@@ -2,9 +2,10 @@
 
 use super::shader::Checked;
 use crate::base::{Diagnostic, OutsideChoice, suggestion};
+use crate::device::Need;
 use crate::language::{self, Draw, Work};
 use crate::ron::Name;
-use crate::shader::{Binding, DrawInterface, PASS_SET, ShaderInterface, Supplied};
+use crate::shader::{Binding, DrawInterface, PASS_SET, ShaderInterface, Supplied, resource_needs};
 use std::sync::Arc;
 
 /// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
@@ -26,6 +27,18 @@ pub(super) fn check(
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
         resource(shader, binding, &brought.supplied, errors);
     }
+}
+
+/// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
+pub(super) fn needs(shaders: &mut Checked<'_>, pass: &language::Pass, interface: &ShaderInterface) -> Vec<Need> {
+    // A compute shader that reads nothing of what is brought along has nothing of it bound.
+    let dispatched = matches!(pass.work, Work::Dispatch { .. });
+    let binds = !dispatched || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
+    let brought = binds.then(|| shaders.brought_along(pass)).flatten();
+    let supplied = brought.iter().flat_map(|brought| &brought.supplied);
+    let mut needs = interface.needs.clone();
+    needs.append(&mut resource_needs(interface, supplied, pass.color.len()));
+    needs
 }
 
 /// A pass that brings its own vertices names their buffer, if and only if its shader reads attributes.

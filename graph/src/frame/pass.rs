@@ -2,6 +2,7 @@
 
 use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, ParamValue, Sampled, Storage, TransferUse, ViewIndex};
 use crate::base::Span;
+use crate::device::Need;
 use crate::vulkan::{FillValue, Filter};
 use serde::{Deserialize, Serialize};
 use std::num::NonZero;
@@ -40,6 +41,8 @@ pub struct Pass {
     pub no_depth_only: Option<Arc<str>>,
     /// Why its shader can't draw into an image that is turned, if it can't, behind the name of the pass.
     pub no_rotation: Option<Arc<str>>,
+    /// What its shader and its resources ask of the device beyond what every device has.
+    pub needs: Vec<Need>,
     /// Why the compiler inserted it; in frames that it is given, nothing is.
     pub inserted: Option<Arc<str>>,
     /// Buffers that it reads or writes by anything but a copy or fill.
@@ -70,6 +73,7 @@ impl Pass {
             untouched: None,
             no_depth_only: None,
             no_rotation: None,
+            needs: Vec::new(),
             inserted: None,
             buffers: Vec::new(),
             transfers: Vec::new(),

@@ -5,9 +5,11 @@ mod draw_interfaces;
 mod draw_kind;
 mod element;
 mod interface_file;
+mod needs;
 mod param_type;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
+use crate::device::Need;
 use crate::frame::{Draw, Eye, EyeForm};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
 use std::collections::HashSet;
@@ -19,6 +21,7 @@ pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
 pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
+pub use needs::resource_needs;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 
 /// Everything that a shader (all its stages together) uses.
@@ -59,8 +62,8 @@ pub struct ShaderInterface {
     /// The pass's blocks with matrices by which the vertex stage may place vertices, if no stage asks which eye it draws for: both
     /// eyes then see the same.
     pub sees_alike: Vec<String>,
-    /// The features beyond the minimum that a device must have for it, by Vulkan's names.
-    pub features: Vec<&'static str>,
+    /// What it asks of a device beyond what every device has, but for the number of its resources ([`resource_needs`]).
+    pub needs: Vec<Need>,
 }
 
 /// A pass samples at most this many images of which only a part is in use: the places of the parts take all the bytes of

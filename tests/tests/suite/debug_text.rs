@@ -74,7 +74,8 @@ fn in_literal(literal: &Literal) -> usize {
 }
 
 fn of_folder(folder: &Path, name: &str, found: &mut BTreeMap<String, usize>) {
-    let mut entries: Vec<_> = folder.read_dir().expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    let mut entries: Vec<_> =
+        folder.read_dir().expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
     entries.sort();
     for path in entries {
         let name = format!("{name}/{}", path.file_name().expect("a name").to_string_lossy());
@@ -98,7 +99,8 @@ fn no_debug_text_reaches_people() {
     for name in CRATES {
         of_folder(&root.join(name).join("src"), &format!("{name}/src"), &mut found);
     }
-    let allowed: BTreeMap<String, usize> = ALLOWED.iter().map(|(file, count, _)| ((*file).to_owned(), *count)).collect();
+    let allowed: BTreeMap<String, usize> =
+        ALLOWED.iter().map(|(file, count, _)| ((*file).to_owned(), *count)).collect();
     let new: Vec<_> = found.iter().filter(|(file, count)| allowed.get(*file) != Some(count)).collect();
     assert!(new.is_empty(), "`{{:?}}` in sources: word it, or say in this test why it is no message: {new:#?}");
     let gone: Vec<_> = allowed.keys().filter(|file| !found.contains_key(*file)).collect();

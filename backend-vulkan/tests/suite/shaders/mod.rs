@@ -3,6 +3,7 @@
 mod coverage;
 mod files;
 mod refusals;
+mod validity;
 
 use framewright_graph::base::Root;
 use framewright_graph::frame::{Draw, DrawList};

@@ -2,6 +2,7 @@
 
 use super::formats::Formats;
 use super::needs::{Needs, Supports};
+use super::needs_of_shaders::still_fit;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;
@@ -70,6 +71,7 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
 pub(crate) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
     let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);
     frame.images.iter().all(|image| image.made().iter().all(|side| *side <= largest(image, device)))
+        && still_fit(frame, live, device)
         && passes.into_iter().all(|pass| disagreement(frame, pass).is_none())
 }
 

@@ -157,6 +157,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         untouched,
         no_depth_only,
         no_rotation,
+        needs,
         inserted,
         buffers,
         transfers,
@@ -174,7 +175,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
-        && old.transfers == *transfers;
+        && old.transfers == *transfers
+        && old.needs == *needs;
     if !same {
         return Structure;
     }

@@ -32,6 +32,8 @@ pub(crate) fn device() -> Profile {
         untested_multiview: false,
         vertex_layer: true,
         max_clip_distances: Some(8),
+        features: None,
+        limits: None,
         depth_resolve: vec![ResolveMode::SampleZero],
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),

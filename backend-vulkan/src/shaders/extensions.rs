@@ -1,0 +1,43 @@
+//! The extensions of SPIR-V that stages may declare: those that Vulkan 1.3 has without an extension of its own.
+
+use super::module::IndexedModule;
+use super::text::{Refused, Words};
+use rspirv::dr::Operand;
+
+/// From the appendix "Vulkan Environment for SPIR-V" of Vulkan's specification. What an extension brings takes a capability, or is
+/// harmless.
+const OF_VULKAN_1_3: [&str; 18] = [
+    "SPV_KHR_16bit_storage",
+    "SPV_KHR_8bit_storage",
+    "SPV_KHR_device_group",
+    "SPV_KHR_float_controls",
+    "SPV_KHR_integer_dot_product",
+    "SPV_KHR_multiview",
+    "SPV_KHR_no_integer_wrap_decoration",
+    "SPV_KHR_non_semantic_info",
+    "SPV_KHR_physical_storage_buffer",
+    "SPV_EXT_physical_storage_buffer",
+    "SPV_KHR_shader_draw_parameters",
+    "SPV_KHR_storage_buffer_storage_class",
+    "SPV_KHR_terminate_invocation",
+    "SPV_KHR_variable_pointers",
+    "SPV_KHR_vulkan_memory_model",
+    "SPV_EXT_demote_to_helper_invocation",
+    "SPV_EXT_descriptor_indexing",
+    "SPV_EXT_shader_viewport_index_layer",
+];
+
+/// Refuses other extensions, with the word of the text that asks for it.
+///
+/// # Errors
+/// The first of them.
+pub(super) fn check_extensions(module: &IndexedModule<'_>) -> Result<(), Refused> {
+    let declared = module.module.extensions.iter().filter_map(|it| match it.operands.first() {
+        Some(Operand::LiteralString(name)) => Some(name.as_str()),
+        _ => None,
+    });
+    let Some(other) = declared.into_iter().find(|name| !OF_VULKAN_1_3.contains(name)) else { return Ok(()) };
+    // GL_EXT_subgroup_uniform_control_flow asks for SPV_KHR_subgroup_uniform_control_flow.
+    let words = other.splitn(3, '_').nth(2).map_or(Words::None, |name| Words::Ending(name.to_ascii_lowercase()));
+    Err(Refused::shown_by(words, format!("it needs SPIR-V's extension {other}, which isn't supported: do without it")))
+}

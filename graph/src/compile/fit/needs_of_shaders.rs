@@ -1,0 +1,87 @@
+//! What shaders ask of the device, and how large buffers are that they see, against the device's features and limits.
+
+use crate::base::Diagnostic;
+use crate::device::{Abilities, Limit, NeedKind, Profile};
+use crate::frame::{BufferRole, Draw, Frame, Pass, Work};
+use crate::plan::{Note, Stage};
+
+/// Vulkan's name of the feature that draws with counts in a buffer need, if their first instance isn't 0.
+const FIRST_INSTANCE: &str = "drawIndirectFirstInstance";
+
+/// Reports what passes need and the device doesn't have; returns notes about what can't be known.
+pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Result<Vec<Note>, Vec<Diagnostic>> {
+    let (mut errors, mut notes) = (Vec::new(), Vec::new());
+    for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+        if !pass.needs.is_empty() {
+            needs(pass, device, &mut errors, |text| notes.push(note(frame, pass, text)));
+        }
+        if let Work::Draw { draw: Draw::Indirect, .. } = pass.work
+            && !device.has_feature(FIRST_INSTANCE)
+        {
+            let text = format!("the first instance in its counts must be 0: `{}` lacks {FIRST_INSTANCE}", device.name);
+            notes.push(note(frame, pass, text));
+        }
+    }
+    buffers(frame, live, device, &mut errors);
+    if errors.is_empty() { Ok(notes) } else { Err(errors) }
+}
+
+/// Whether the buffers of a frame fit that differs from one that was checked in sizes and values alone.
+pub(crate) fn still_fit(frame: &Frame, live: &[u32], device: &Profile) -> bool {
+    let mut errors = Vec::new();
+    buffers(frame, live, device, &mut errors);
+    errors.is_empty()
+}
+
+fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: impl FnMut(String)) {
+    let name = format!("`{}`", device.name);
+    let abilities =
+        Abilities { device: &name, limits: device.limits.as_ref(), has: &|feature| device.has_feature(feature) };
+    for need in &pass.needs {
+        if let Some(what) = need.unmet(&abilities) {
+            let message = format!("the shader of `{}` can't be used on {name}: {what}", pass.name);
+            errors.push(Diagnostic::new(pass.span, message));
+        }
+        if let NeedKind::Unjudged(words) = &need.kind {
+            tell(format!("whether {} is valid SPIR-V isn't known: {words}", need.place));
+        }
+    }
+}
+
+fn note(frame: &Frame, pass: &Pass, text: String) -> Note {
+    Note { stage: Stage::Fit, subject: pass.name.clone(), text, at: frame.sources.place(pass.span) }
+}
+
+/// Reports buffers that are larger than the device allows.
+fn buffers(frame: &Frame, live: &[u32], device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let (Some(limits), Some(largest)) = (&device.limits, frame.buffers.iter().map(|buffer| buffer.bytes).max()) else {
+        return;
+    };
+    // Most frames have none that any device would refuse.
+    if largest <= limits.uniform_bytes {
+        return;
+    }
+    let wrong = |what: String, limit: Limit| {
+        format!("{what}; `{}` allows {} ({})", device.name, limits.of(limit), limit.name())
+    };
+    for buffer in frame.buffers.iter().filter(|buffer| buffer.bytes > limits.buffer_bytes) {
+        let message = wrong(format!("`{}` has {} bytes", buffer.name, buffer.bytes), Limit::BufferBytes);
+        errors.push(Diagnostic::new(buffer.span, message));
+    }
+    for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+        for used in &pass.buffers {
+            let (limit, what) = match used.role {
+                BufferRole::Uniform => (Limit::UniformBytes, "uniform block"),
+                BufferRole::Storage { .. } => (Limit::StorageBytes, "storage block"),
+                BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => continue,
+            };
+            let buffer = &frame.buffers[used.buffer.0 as usize];
+            if buffer.bytes > limits.of(limit) && buffer.bytes <= limits.buffer_bytes {
+                let what =
+                    format!("`{}` has {} bytes, and `{}` sees it as a {what}", buffer.name, buffer.bytes, pass.name);
+                let wrong = Diagnostic::new(used.span, wrong(what, limit)).label(buffer.span, "declared here");
+                errors.push(wrong.help("make it smaller, or have several buffers"));
+            }
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! What shaders ask of a device beyond what every device has.
+
+use super::{Limit, Limits};
+use std::sync::Arc;
+
+/// Something that not every device has or allows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Need {
+    /// What it is.
+    pub kind: NeedKind,
+    /// The file and line of the shader that show it, `FILE:LINE`; its file alone where no line does; empty if nothing is known.
+    pub place: Arc<str>,
+}
+
+/// A thing that not every device has or allows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NeedKind {
+    /// A feature, by Vulkan's name, and what it is needed for.
+    Feature {
+        /// Vulkan's name.
+        name: &'static str,
+        /// What of the shader needs it, in words: `an element of an array`.
+        what: &'static str,
+    },
+    /// More than every device allows.
+    Limit {
+        /// The limit.
+        limit: Limit,
+        /// As much is needed.
+        value: u64,
+        /// What needs as much, in words with the value: `its workgroups have 1024 invocations`.
+        what: Arc<str>,
+    },
+    /// The validator of SPIR-V doesn't know a word, so nothing says whether the shader is valid: its message.
+    Unjudged(Arc<str>),
+}
+
+/// What a device has, for [`Need::unmet`].
+pub struct Abilities<'d> {
+    /// The device in messages: its name in backticks, or `this device`.
+    pub device: &'d str,
+    /// Its limits, if they are known.
+    pub limits: Option<&'d Limits>,
+    /// Whether it has the feature of this name.
+    pub has: &'d dyn Fn(&str) -> bool,
+}
+
+impl Need {
+    /// Why a device doesn't meet it, in words; `None` if it does, or if that isn't known.
+    #[must_use]
+    pub fn unmet(&self, abilities: &Abilities<'_>) -> Option<String> {
+        let device = abilities.device;
+        let what = match &self.kind {
+            NeedKind::Feature { name, what } if !(abilities.has)(name) => {
+                format!("{what} needs the feature {name}, which {device} doesn't have")
+            }
+            NeedKind::Limit { limit, value, what } => {
+                let most = abilities.limits?.of(*limit);
+                (*value > most).then(|| format!("{what}; {device} allows {most} ({})", limit.name()))?
+            }
+            NeedKind::Feature { .. } | NeedKind::Unjudged(_) => return None,
+        };
+        Some(if self.place.is_empty() { what } else { format!("{}: {what}", self.place) })
+    }
+}
