@@ -123,7 +123,9 @@ fn expand_so(
         history::shorten(&mut resources, &states);
     }
     let decided = decided::decided(&pipeline, &states, &outputs);
-    let kept = precision::choose(inputs.facts().depth_range, &mut resources, &states, &outputs);
+    let depth_range = inputs.facts().depth_range;
+    let kept = precision::choose(depth_range, &mut resources, &states, &outputs);
+    let coarse = precision::too_coarse(depth_range, &resources, &states);
 
     let Resources { images, buffers, .. } = resources;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
@@ -133,7 +135,7 @@ fn expand_so(
             let passes = State::into_passes(states);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&pipeline), kept].concat();
+            let remarks = [shared, views::remarks(&pipeline), kept, coarse].concat();
             Ok(Frame {
                 sources,
                 settings,
