@@ -55,11 +55,6 @@ pub(crate) enum Error {
     /// `--device` names no profile.
     #[error("there is no device profile `{}`: give the file of one, or one that is shipped ({})", text::escape(name), shipped.join(", "))]
     UnknownProfile { name: String, shipped: Vec<&'static str> },
-    /// There are more variants than can be checked.
-    #[error(
-        "there are {variants} variants, and at most {most} are checked\nhelp: add `--pairwise`, which checks every pair of values, or choose settings by `--set`, which then don't vary"
-    )]
-    TooManyVariants { variants: u128, most: usize },
     /// There are more pairs of values than can be covered.
     #[error(
         "there are {pairs} pairs of values, and at most {most} are covered\nhelp: choose settings by `--set`: those don't vary"
@@ -371,6 +366,7 @@ impl Error {
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }
+            | Error::AlreadyExists { .. }
             | Error::CustomPass { .. }
             | Error::Unwritable(_)
             | Error::Json(_)
@@ -394,7 +390,6 @@ impl Error {
                 Blame::Files | Blame::Program => Exit::Found,
             },
             Error::NoOutput { .. }
-            | Error::TooManyVariants { .. }
             | Error::TooManyPairs { .. }
             | Error::OutsideRoot { .. }
             | Error::UnknownProfile { .. }
@@ -407,7 +402,6 @@ impl Error {
             | Error::Held { .. }
             | Error::ReadAndWritten { .. }
             | Error::OtherResults { .. }
-            | Error::AlreadyExists { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {

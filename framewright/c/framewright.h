@@ -239,6 +239,8 @@ typedef struct {
     double peak_radiance;
     // The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
     double depth_range;
+    // A length that is typical of the scene, metres; 0: 1.
+    double size;
 } FramewrightFacts;
 
 // An image of the program's that a frame uses.

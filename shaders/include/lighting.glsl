@@ -9,8 +9,6 @@
 const float HEAD_ON_REFLECTANCE = 0.04;
 // Blinn-Phong exponent: how tight highlights are.
 const float SHININESS = 64.0;
-// Below this distance a point light grows no brighter.
-const float NEAREST_POINT_LIGHT = 0.01;
 
 // A unit vector along `v`, or zero for a zero vector.
 vec3 direction_of(vec3 v) {
@@ -28,9 +26,9 @@ float highlight(vec3 normal, vec3 to_camera, vec3 to_light) {
 }
 
 // The share of a point light's intensity that arrives: 1/d², brought to zero at its range by 1 − (d/range)⁴ (glTF
-// extension KHR_lights_punctual, "Range Property").
-float falloff(float distance_squared, float inverse_range) {
-    const float squared = max(distance_squared, NEAREST_POINT_LIGHT * NEAREST_POINT_LIGHT);
+// extension KHR_lights_punctual, "Range Property"). Nearer than `nearest` it grows no brighter.
+float falloff(float distance_squared, float inverse_range, float nearest) {
+    const float squared = max(distance_squared, nearest * nearest);
     const float share = squared * inverse_range * inverse_range;
     return clamp(1.0 - share * share, 0.0, 1.0) / squared;
 }
@@ -39,7 +37,7 @@ float falloff(float distance_squared, float inverse_range) {
 vec3 from_point(PointLight light, vec3 position, vec3 normal) {
     const vec3 towards = light.position - position;
     const float facing = max(dot(normal, direction_of(towards)), 0.0);
-    return light.intensity * (facing * falloff(dot(towards, towards), light.inverse_range));
+    return light.intensity * (facing * falloff(dot(towards, towards), light.inverse_range, lights.nearest_to_light));
 }
 
 // Light scattered back by a white surface, and light mirrored by any surface.

@@ -60,6 +60,8 @@ layout(set = 1, binding = 1, std430) readonly buffer Lights {
     vec3 sun_radiance;
     // Radiance that a white surface shows without any of these lights.
     vec3 ambient_radiance;
+    // Nearer than this a surface gets no more of a point light, metres.
+    float nearest_to_light;
     // Radiance of the sky straight up, at eye level and straight down.
     vec3 zenith_radiance;
     vec3 horizon_radiance;

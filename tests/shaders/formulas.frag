@@ -79,7 +79,7 @@ vec4 result(int formula) {
         case 12: return vec4(octahedral(unit(0u)), 0.0, 0.0);
         case 13: return vec4(from_octahedral(octahedral(unit(0u))), 0.0);
         case 14: return vec4(highlight(unit(0u), unit(3u), unit(6u)));
-        case 15: return vec4(falloff(wide(0u, -20, 20), 0.0), falloff(wide(1u, -20, 0), 1.0), 0.0, 0.0);
+        case 15: return vec4(falloff(wide(0u, -20, 20), 0.0, 0.01), falloff(wide(1u, -20, 0), 1.0, 0.01), 0.0, 0.0);
         case 16: return vec4(motion_between(vec3(2.0 * even3(0u).xy - 1.0, 1.0 + even(2u)), vec3(2.0 * even3(3u).xy - 1.0, 1.0 + even(5u))),
                              0.0, 0.0);
         case 17: return vec4(shade_of_distance(wide(0u, -20, 0), 0.1, 20.0), shade_of_signed(2.0 * even3(1u) - 1.0, 1.0));

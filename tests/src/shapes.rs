@@ -16,6 +16,7 @@ pub fn empty_scene() -> Scene {
         ambient: black,
         point_lights: Vec::new(),
         sky: Sky { zenith: black, horizon: black, ground: black },
+        exposure: 1.0,
         camera: Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE }),
         cameras: Vec::new(),
         notes: Vec::new(),

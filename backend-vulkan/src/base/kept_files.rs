@@ -20,7 +20,7 @@ pub(crate) fn digest(of: &(impl Hash + ?Sized)) -> u64 {
 pub(crate) fn used_now(path: &Path) {
     let now = SystemTime::now();
     let last = fs::metadata(path).and_then(|file| file.modified());
-    // A time to come is none at which it was used.
+    // A time in the future comes of a wrong clock.
     if last.is_ok_and(|last| now.duration_since(last).map_or(true, |ago| ago > PRECISION)) {
         // Without this it only looks as if it had not been used.
         let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(now));

@@ -41,11 +41,15 @@ pub(crate) enum Command {
     /// with `--all-variants`.
     Check(CheckArguments),
     /// Print the Plan of a pipeline: its passes, scopes, resolves, memory and barriers, each with its cause. Needs no GPU.
+    ///
+    /// A file that ends with .json is a Plan, which is verified and shown as it is.
     Inspect(InspectArguments),
     /// Print the differences between two Plans: what another file, setting or device does to passes, resolves, barriers and memory.
     /// Needs no GPU.
     Diff(DiffArguments),
     /// Print why a pass, an image, a resolve or a barrier is in a Plan, or isn't. Needs no GPU.
+    ///
+    /// A file that ends with .json is a Plan, which is verified first.
     Explain(ExplainArguments),
     /// Draw a scene through a pipeline.
     Run(RunArguments),
@@ -414,6 +418,7 @@ fn twice<'a, T: PartialEq + 'a + ?Sized>(items: impl Iterator<Item = &'a T> + Cl
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::CommandFactory;
     use framewright_graph::compile::{Options, Order};
 
     fn read(arguments: &[&str]) -> Result<CommandLine, String> {
@@ -436,6 +441,30 @@ mod tests {
         assert_eq!(options(&["--one-queue"]), Options { queues: false, ..Options::default() });
         let both = Options { poison: true, alias: false, ..Options::default() };
         assert_eq!(options(&["--poison", "--no-alias"]), both);
+    }
+
+    /// A heading for the next options holds for all that follow, so an option may end up under another's.
+    #[test]
+    fn each_option_stands_under_its_own_heading_in_the_help_of_every_command() {
+        let limits = ["max_flip", "max_rmse", "max_error", "max_relative_mse", "min_psnr", "min_ssim"];
+        let own = |command: &str, option: &str| match option {
+            "shader_seconds" | "shader_memory" | "shader_stack" => Some("Limits of shaders"),
+            "order" | "naive" | "one_queue" | "poison" | "no_alias" | "rotate" => Some("How the Plan is made"),
+            limit if limits.contains(&limit) || limit.starts_with("max_") => {
+                Some(if command == "choose" { "Limits, of which at least one" } else { "Limits; beyond one" })
+            }
+            _ => None,
+        };
+        let mut command = CommandLine::command();
+        command.build();
+        for command in command.get_subcommands() {
+            for option in command.get_arguments().filter(|option| option.get_long().is_some()) {
+                let (id, heading) = (option.get_id().as_str(), option.get_help_heading());
+                let expected = own(command.get_name(), id);
+                let is_own = heading.zip(expected).is_some_and(|(found, own)| found.starts_with(own));
+                assert!(is_own || heading == expected, "{} --{id}: {heading:?}", command.get_name());
+            }
+        }
     }
 
     #[test]

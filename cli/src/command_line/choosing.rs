@@ -31,14 +31,15 @@ pub(crate) struct ChooseArguments {
     /// Most that the mean of flicker may be: 0 is none. `measure --flicker N` measures it.
     #[arg(long, value_name = "X", value_parser = number, help_heading = HEADING)]
     pub(crate) max_flicker: Option<f64>,
-    #[command(flatten, next_help_heading = HEADING)]
-    pub(crate) errors: ErrorLimits,
     /// Settings file to write.
     #[arg(short, long, value_name = "SETTINGS.ron")]
     pub(crate) output: Option<PathBuf>,
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: AnswerFormat,
+    // The last: its heading holds for all that follow.
+    #[command(flatten, next_help_heading = HEADING)]
+    pub(crate) errors: ErrorLimits,
 }
 
 const HEADING: &str = "Limits, of which at least one is stated";

@@ -17,11 +17,6 @@ pub(crate) struct CompareArguments {
     /// Metric to print; without this all are. Repeatable.
     #[arg(long, value_name = "METRIC", value_enum)]
     pub(crate) metric: Vec<Metric>,
-    #[command(
-        flatten,
-        next_help_heading = "Limits; beyond one, or with one if a pixel isn't finite, the command ends with 1"
-    )]
-    pub(crate) limits: ErrorLimits,
     /// File for a picture of FLIP: black where no difference is seen, bright where much is.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     pub(crate) heatmap: Option<PathBuf>,
@@ -32,6 +27,12 @@ pub(crate) struct CompareArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: AnswerFormat,
+    // The last: its heading holds for all that follow.
+    #[command(
+        flatten,
+        next_help_heading = "Limits; beyond one, or with one if a pixel isn't finite, the command ends with 1"
+    )]
+    pub(crate) limits: ErrorLimits,
 }
 
 /// Limits of errors.

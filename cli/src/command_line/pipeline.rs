@@ -3,8 +3,14 @@
 use super::values::{Assignment, Modes, assignment, order, rotation, stereo};
 use clap::{Args, ValueEnum};
 use framewright_graph::compile::{Options, Order};
+use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
 use std::path::PathBuf;
+
+/// The heading of options that limit shaders. It stands at each of them: a heading for the next ones would hold for all that follow.
+const SHADERS: &str = "Limits of shaders";
+/// The heading of options about the making of a Plan.
+const PLANNING: &str = "How the Plan is made, which changes no picture";
 
 /// The use of the cache.
 #[derive(Debug, Clone, Copy, Args)]
@@ -59,19 +65,39 @@ pub(crate) struct PipelineArguments {
     pub(crate) limits: ShaderLimits,
 }
 
+impl PipelineArguments {
+    /// An option that chooses something for a pipeline, if there is one. A Plan leaves nothing to choose.
+    #[must_use]
+    pub(crate) fn chosen(&self) -> Option<&'static str> {
+        let chosen = [
+            ("--set", !self.set.is_empty()),
+            ("--preset", self.preset.is_some()),
+            ("--settings", !self.settings.is_empty()),
+            ("--extend", !self.extend.is_empty()),
+            ("--interface", self.interface.is_some()),
+            ("--stereo", self.stereo.0 != [Stereo::Off]),
+        ];
+        first(&chosen)
+    }
+}
+
+/// The first option that is given.
+fn first(options: &[(&'static str, bool)]) -> Option<&'static str> {
+    options.iter().find(|(_, given)| *given).map(|(option, _)| *option)
+}
+
 /// Limits on compiling one stage of a shader. It happens in a process of its own, which ends where it needs more: that is a
 /// mistake of the shader.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Limits of shaders")]
 pub(crate) struct ShaderLimits {
     /// Seconds that compiling one stage of a shader may take.
-    #[arg(long, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, help_heading = SHADERS, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86400))]
     pub(crate) shader_seconds: u32,
     /// Memory that it may take, all of the compiling process counted (on Linux).
-    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(128..=1048576))]
+    #[arg(long, help_heading = SHADERS, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(128..=1048576))]
     pub(crate) shader_memory: u32,
     /// Stack that it may take.
-    #[arg(long, value_name = "MIB", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, help_heading = SHADERS, value_name = "MIB", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub(crate) shader_stack: u32,
 }
 
@@ -79,26 +105,42 @@ pub(crate) struct ShaderLimits {
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct PlanningArguments {
     /// Order of execution: the file's, the one that scores best, one that keeps little memory alive, or any.
-    #[arg(long, value_name = "file|default|low-memory|random:SEED", default_value = "default", value_parser = order)]
+    #[arg(long, help_heading = PLANNING, value_name = "file|default|low-memory|random:SEED", default_value = "default", value_parser = order)]
     order: Order,
     /// Do without a saving, to see what it is worth.
-    #[arg(long, value_name = "SAVING", value_enum)]
+    #[arg(long, help_heading = PLANNING, value_name = "SAVING", value_enum)]
     naive: Option<Saving>,
     /// Use one queue, even where the device has more.
-    #[arg(long)]
+    #[arg(long, help_heading = PLANNING)]
     one_queue: bool,
     /// Fill memory that changes hands with garbage before each first use.
-    #[arg(long)]
+    #[arg(long, help_heading = PLANNING)]
     pub(crate) poison: bool,
     /// Give each image and buffer memory of its own.
-    #[arg(long)]
+    #[arg(long, help_heading = PLANNING)]
     no_alias: bool,
     /// Rotate shown outputs clockwise by this angle, for a rotated screen. Pictures are read back upright.
-    #[arg(long, value_name = "0|90|180|270", default_value = "0", value_parser = rotation)]
+    #[arg(long, help_heading = PLANNING, value_name = "0|90|180|270", default_value = "0", value_parser = rotation)]
     pub(crate) rotate: Rotation,
 }
 
 impl PlanningArguments {
+    /// An option that chooses how a Plan is made, if there is one.
+    #[must_use]
+    pub(crate) fn chosen(&self) -> Option<&'static str> {
+        let usual = Options::default();
+        let options = self.options();
+        let chosen = [
+            ("--order", options.order != usual.order),
+            ("--naive", options.demote != usual.demote),
+            ("--one-queue", options.queues != usual.queues),
+            ("--poison", options.poison != usual.poison),
+            ("--no-alias", options.alias != usual.alias),
+            ("--rotate", self.rotate != Rotation::default()),
+        ];
+        first(&chosen)
+    }
+
     /// The compiler's options.
     #[must_use]
     pub(crate) fn options(self) -> Options {

@@ -2,7 +2,7 @@
 
 use crate::command_line::args::PipelineArguments;
 use crate::command_line::differing::{DiffArguments, DifferenceFormat};
-use crate::command_line::values::{self, Assignment, Modes, Size};
+use crate::command_line::values::{self, Assignment, DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
@@ -29,8 +29,10 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     spare()?;
     let first = &arguments.pipeline.file;
     let second = arguments.other.as_ref().unwrap_or(first);
-    if let (true, true, Some(option)) = (is_plan(first), is_plan(second), choice_for_pipelines(arguments)) {
-        return Err(Error::ChoiceForPlan { option, path: first.clone() });
+    if plan_file::is_one(first) && plan_file::is_one(second) {
+        let DiffArguments { scene, device, size, .. } = arguments;
+        let own = [("--scene", scene.is_some()), ("--device", device.is_some()), ("--size", *size != DEFAULT_SIZE)];
+        plan_file::nothing_chosen(&arguments.pipeline, arguments.planning, &own)?;
     }
     let [name_a, name_b] = [first, second].map(|file| file.to_string_lossy().into_owned());
     let (a, sources_a) = plan(arguments, first, "--a", &arguments.a, &read)?;
@@ -57,26 +59,6 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-fn is_plan(file: &Path) -> bool {
-    file.extension().is_some_and(|end| end == "json")
-}
-
-/// An option that chooses something for pipelines, if there is one.
-fn choice_for_pipelines(arguments: &DiffArguments) -> Option<&'static str> {
-    let DiffArguments { scene, device, .. } = arguments;
-    let PipelineArguments { set, preset, settings, extend, interface, .. } = &arguments.pipeline;
-    let chosen = [
-        ("--set", !set.is_empty()),
-        ("--preset", preset.is_some()),
-        ("--settings", !settings.is_empty()),
-        ("--extend", !extend.is_empty()),
-        ("--interface", interface.is_some()),
-        ("--scene", scene.is_some()),
-        ("--device", device.is_some()),
-    ];
-    chosen.into_iter().find(|(_, is)| *is).map(|(option, _)| option)
-}
-
 /// The Plan in a file, or that of a pipeline with the texts that it was read from.
 fn plan(
     arguments: &DiffArguments,
@@ -85,7 +67,7 @@ fn plan(
     own: &[Assignment],
     read: &ReadFiles,
 ) -> Result<(Plan, Option<Arc<Sources>>), Error> {
-    if is_plan(file) {
+    if plan_file::is_one(file) {
         return match own.is_empty() {
             true => Ok((plan_file::read(file, read)?, None)),
             false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),

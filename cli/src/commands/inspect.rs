@@ -1,13 +1,14 @@
 //! `framewright inspect`: the Plan of a pipeline, without a GPU.
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
+use crate::command_line::values::DEFAULT_SIZE;
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
 use crate::picture::FileFormat;
-use crate::planning::{self, Loaded, View, device};
+use crate::planning::{self, Loaded, View, device, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
@@ -24,6 +25,9 @@ use std::path::Path;
 /// If the pipeline, the scene or the profile is wrong, or the result can't be written.
 pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
+    if plan_file::is_one(&arguments.pipeline.file) {
+        return inspect_plan(arguments, &read);
+    }
     inputs::expect(&arguments.pipeline, &read);
     arguments.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
     arguments.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
@@ -52,7 +56,54 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let objects: Option<&dyn Fn(DrawList) -> usize> = scene.is_some().then_some(&counted);
     let detail = Detail { objects, verbose: arguments.verbose };
     let name = arguments.pipeline.file.to_string_lossy();
-    let shown = match arguments.format {
+    let shown = shown(arguments.format, plan, detail, || {
+        let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
+        let captures = match (&drawn_on, &scene, &arguments.output) {
+            (Some(device), Some(scene), Some(page)) => {
+                let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
+                captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?
+            }
+            _ => Vec::new(),
+        };
+        let detail = Detail { verbose: true, ..detail };
+        let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+        Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?)
+    })?;
+    put(arguments, &shown, &read)
+}
+
+/// Prints or writes the Plan in a file, as it is.
+fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
+    let InspectArguments { pipeline, scene, device, size, capture, .. } = arguments;
+    let own = [
+        ("--capture", *capture),
+        ("--scene", scene.is_some()),
+        ("--device", device.is_some()),
+        ("--size", *size != DEFAULT_SIZE),
+    ];
+    plan_file::nothing_chosen(pipeline, arguments.planning, &own)?;
+    read.expect(FileRole::PLAN.recorded, &pipeline.file);
+    let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
+    spare()?;
+    let plan = plan_file::read(&pipeline.file, read)?;
+    spare()?;
+    let detail = Detail { verbose: arguments.verbose, ..Detail::default() };
+    let shown = shown(arguments.format, &plan, detail, || {
+        let detail = Detail { verbose: true, ..detail };
+        let shown = Shown { name: pipeline.file.to_string_lossy().into_owned(), plan: &plan, detail, sources: None };
+        Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
+    })?;
+    put(arguments, &shown, read)
+}
+
+/// A Plan in a form; `page` makes that of a page.
+fn shown(
+    format: PlanFormat,
+    plan: &Plan,
+    detail: Detail<'_>,
+    page: impl FnOnce() -> Result<String, Error>,
+) -> Result<String, Error> {
+    Ok(match format {
         PlanFormat::Tree => text::escape_lines(&plan.outline(detail).draw()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),
         PlanFormat::Dot => inspection::dot(plan, &Dataflow::of(plan)),
@@ -62,23 +113,15 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             shown
         }
         PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
-        PlanFormat::Html => {
-            let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
-            let captures = match (&drawn_on, &scene, &arguments.output) {
-                (Some(device), Some(scene), Some(page)) => {
-                    let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
-                    captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?
-                }
-                _ => Vec::new(),
-            };
-            let detail = Detail { verbose: true, ..detail };
-            let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
-            inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?
-        }
-    };
+        PlanFormat::Html => page()?,
+    })
+}
+
+/// Prints what is shown, or writes it to the file that is named.
+fn put(arguments: &InspectArguments, shown: &str, read: &ReadFiles) -> Result<Exit, Error> {
     match &arguments.output {
-        Some(file) => outputs::write(&[(file, shown.as_bytes())], &read)?,
-        None => text::print(&shown).map_err(Error::Print)?,
+        Some(file) => outputs::write(&[(file, shown.as_bytes())], read)?,
+        None => text::print(shown).map_err(Error::Print)?,
     }
     Ok(Exit::Fine)
 }

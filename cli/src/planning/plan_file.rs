@@ -1,7 +1,7 @@
 //! A Plan from a file. It may come from anyone: it is read within bounds, and verified before anything is done with it.
 
 use super::{Assets, helper};
-use crate::command_line::args::PipelineArguments;
+use crate::command_line::args::{PipelineArguments, PlanningArguments};
 use crate::command_line::values::MAX_SIZE;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
@@ -12,6 +12,28 @@ use std::path::Path;
 
 /// A file of a Plan has at most this many bytes.
 const LARGEST: usize = 1 << 30;
+
+/// Whether a file is a Plan, where a pipeline may be named too.
+#[must_use]
+pub(crate) fn is_one(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"))
+}
+
+/// Refuses an option that chooses something, which a Plan leaves nothing of. `others` are the command's own, each with whether it is given.
+///
+/// # Errors
+/// [`Error::ChoiceForPlan`].
+pub(crate) fn nothing_chosen(
+    pipeline: &PipelineArguments,
+    planning: PlanningArguments,
+    others: &[(&'static str, bool)],
+) -> Result<(), Error> {
+    let others = others.iter().find(|(_, given)| *given).map(|(option, _)| *option);
+    match pipeline.chosen().or(planning.chosen()).or(others) {
+        Some(option) => Err(Error::ChoiceForPlan { option, path: pipeline.file.clone() }),
+        None => Ok(()),
+    }
+}
 
 /// The Plan that a file holds, verified.
 ///

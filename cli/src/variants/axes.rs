@@ -35,7 +35,7 @@ impl Axes {
             let name = &*setting.name.text;
             let in_presets = pipeline.presets.iter().flat_map(|preset| &preset.set);
             let in_presets = in_presets.filter(|choice| choice.setting == at).count();
-            // Its own declaration is one mention, and presets alone bring nothing about.
+            // A setting that stands in its declaration and in presets alone changes nothing.
             let varies = mentions.may_hold(name, 2 + in_presets) && !is_fixed(name);
             varies.then(|| Axis::new(Varied::Setting(name.to_owned()), values(&setting.kind)))
         });

@@ -60,7 +60,7 @@ fn cause(key: &MistakeKey, failure: Failure, space: &Space, checker: &mut Varian
         let found = checker.check(&with(some)).err().into_iter().flatten().find(|found| mistake_key(found) == *key);
         interrupted |= interrupt::asked();
         let fails = found.is_some();
-        // The last one that fails is the least.
+        // The search shrinks the set: the last one that fails is the smallest.
         found.into_iter().for_each(|found| diagnostic = found);
         fails
     });

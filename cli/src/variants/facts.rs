@@ -41,7 +41,7 @@ fn last(name: &str) -> &str {
 }
 
 /// The values of a fact that are tried. A number is compared with numbers in the same string: each of those is tried with its
-/// neighbours, and 0, up to [`MOST`].
+/// neighbours, and 0, up to [`MOST`]. A length or a factor is never 0.
 fn values(fact: Fact, mentions: &Mentions<'_>) -> Vec<String> {
     let beside = || names(fact).into_iter().flat_map(|name| mentions.numbers_beside(last(name)));
     let mut values = Vec::new();
@@ -59,6 +59,13 @@ fn values(fact: Fact, mentions: &Mentions<'_>) -> Vec<String> {
                 let whole = number.floor() as i64;
                 let near = [whole.saturating_sub(1), whole, whole.saturating_add(1)];
                 near.into_iter().filter(|near| (0..=most).contains(near)).for_each(|near| add(near.to_string()));
+            }
+        }
+        // Scaling by a length or a factor makes no other variant; being compared with a number does.
+        FactValue::Number(usual) if fact.is_measure() => {
+            add(format!("{usual:?}"));
+            for number in mentions.numbers_compared_with(last(fact.name())).filter(|number| *number > 0.0) {
+                [number.next_down(), number, number.next_up()].into_iter().for_each(|near| add(format!("{near:?}")));
             }
         }
         FactValue::Number(most) => {
@@ -87,6 +94,14 @@ mod tests {
             other => panic!("{other:?}"),
         });
         told.collect()
+    }
+
+    #[test]
+    fn a_length_varies_only_where_it_is_compared_with_a_number() {
+        let only = |value: &str| vec![(Fact::Size, vec![value.to_owned()])];
+        assert_eq!(of("\"0.1 * scene.size\""), only("1.0"));
+        let compared = ["1.0", "99.99999999999999", "100.0", "100.00000000000001"].map(String::from).to_vec();
+        assert_eq!(of("\"3.3 * scene.size\" \"scene.size > 100\""), [(Fact::Size, compared)]);
     }
 
     #[test]

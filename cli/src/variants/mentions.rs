@@ -54,6 +54,12 @@ impl<'a> Mentions<'a> {
         with_it.flat_map(|text| numbers(text))
     }
 
+    /// The numbers that stand in strings with `name` and a comparison.
+    pub(crate) fn numbers_compared_with(&self, name: &str) -> impl Iterator<Item = f64> {
+        let compared = self.numbers.iter().filter(|text| text.contains(['<', '>', '=']));
+        compared.filter(move |text| words(text).any(|word| word == name)).flat_map(|text| numbers(text))
+    }
+
     fn text(&mut self, text: &'a str) {
         let mut rest = text;
         while let Some(at) = rest.find(['"', '/', '\'']) {

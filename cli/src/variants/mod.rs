@@ -36,7 +36,7 @@ use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
 use report::Report;
 use shaders::SharedShaders;
-use space::Space;
+use space::{MOST_VARIANTS, Space};
 use std::ffi::OsStr;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex};
@@ -45,7 +45,7 @@ use std::time::Duration;
 /// Checks all variants of a pipeline.
 ///
 /// # Errors
-/// Mistakes that every variant has; in the form for programs those are the answer. If there are too many variants.
+/// Mistakes that every variant has; in the form for programs those are the answer. If there are too many pairs of values.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let report = match report(arguments) {
         Err(Error::Mistakes { mistakes }) if arguments.format != CheckFormat::Human && mistakes.exit != Exit::Usage => {
@@ -80,7 +80,16 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let axes = Axes::of(&pipeline, &sources, &set, &names);
     let sizes = axes.sizes();
     let presets = axes.variants_of_presets();
-    let space = if arguments.pairwise { Space::pairwise(&sizes, presets)? } else { Space::all(sizes, presets)? };
+    let (space, beyond) = match arguments.pairwise {
+        true => (Space::pairwise(&sizes, presets)?, None),
+        false => Space::all_or_pairwise(sizes, presets)?,
+    };
+    if let Some(combinations) = beyond {
+        text::say(&format!(
+            "note: there are {combinations} combinations, and of more than {MOST_VARIANTS} each pair of values is checked, as by `--pairwise`; \
+             settings that `--set` chooses don't vary"
+        ));
+    }
     let subject = CheckedPipeline {
         pipeline: &pipeline,
         sources: &sources,

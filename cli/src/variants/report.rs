@@ -141,6 +141,7 @@ impl Report {
             chosen: axes.fixed.iter().cloned().map(|(name, value)| Assignment { name, value }).collect(),
             axes: axes.list.iter().map(|axis| axis_entry(&axis.varied, &axis.values[..axis.combined])).collect(),
             presets: axes.presets.iter().map(|(name, _)| name.clone()).collect(),
+            pairwise: !space.is_all(),
             variants: space.len(),
             checked,
             interrupted: checked < space.len(),

@@ -4,7 +4,7 @@ use super::cover;
 use crate::error::Error;
 use std::collections::HashSet;
 
-/// Variants that are checked at once; at two thousand a second minutes pass.
+/// Of more combinations pairs of values are checked; at two thousand variants a second minutes pass.
 pub(crate) const MOST_VARIANTS: usize = 1_000_000;
 
 /// One value of each axis, by its number.
@@ -25,18 +25,30 @@ pub(crate) enum Space {
 }
 
 impl Space {
-    /// Every combination of values, then those of `more` that aren't among them.
-    ///
-    /// # Errors
-    /// If there are too many.
-    pub(crate) fn all(sizes: Vec<usize>, mut more: Vec<Choice>) -> Result<Space, Error> {
-        let variants = sizes.iter().fold(1_u128, |all, size| all.saturating_mul(*size as u128));
-        if variants > MOST_VARIANTS as u128 {
-            return Err(Error::TooManyVariants { variants, most: MOST_VARIANTS });
-        }
+    /// Every combination of values, of which there are few enough, then those of `more` that aren't among them.
+    fn all(sizes: Vec<usize>, mut more: Vec<Choice>) -> Space {
         more.retain(|choice| choice.iter().zip(&sizes).any(|(value, size)| value >= size));
         each_once(&mut more);
-        Ok(Space::All { sizes, more })
+        Space::All { sizes, more }
+    }
+
+    /// Every combination of values, or where these are more than [`MOST_VARIANTS`] rows in which each pair occurs; then those of `more`
+    /// that aren't among them. With rows comes the number of combinations.
+    ///
+    /// # Errors
+    /// If even the pairs are too many.
+    pub(crate) fn all_or_pairwise(sizes: Vec<usize>, more: Vec<Choice>) -> Result<(Space, Option<u128>), Error> {
+        let all = sizes.iter().fold(1_u128, |all, size| all.saturating_mul(*size as u128));
+        match all > MOST_VARIANTS as u128 {
+            true => Ok((Space::pairwise(&sizes, more)?, Some(all))),
+            false => Ok((Space::all(sizes, more), None)),
+        }
+    }
+
+    /// Whether it is every combination.
+    #[must_use]
+    pub(crate) fn is_all(&self) -> bool {
+        matches!(self, Space::All { .. })
     }
 
     /// Rows in which each pair of values of any two axes occurs, then those of `more` that aren't among them.
@@ -108,7 +120,7 @@ mod tests {
 
     #[test]
     fn every_combination_stands_once_in_its_order() {
-        let space = Space::all(vec![2, 3], Vec::new()).expect("few");
+        let space = Space::all(vec![2, 3], Vec::new());
         let all: Vec<Choice> = (0..space.len()).map(|number| space.choice(number)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
     }
@@ -117,24 +129,21 @@ mod tests {
     fn what_else_is_asked_for_comes_last_and_nothing_comes_twice() {
         let more = || vec![vec![1, 2], vec![2, 0], vec![0, 4], vec![2, 0]];
         let all = |space: Space| (0..space.len()).map(|number| space.choice(number)).collect::<Vec<Choice>>();
-        let every = all(Space::all(vec![2, 3], more()).expect("few"));
+        let every = all(Space::all(vec![2, 3], more()));
         assert_eq!((every.len(), &every[5..]), (8, &[vec![1, 2], vec![2, 0], vec![0, 4]][..]));
         let pairs = all(Space::pairwise(&[2, 3], more()).expect("few"));
         assert_eq!((pairs.len(), &pairs[6..]), (8, &[vec![2, 0], vec![0, 4]][..]));
     }
 
     #[test]
-    fn too_many_combinations_or_pairs_are_refused() {
-        assert!(matches!(Space::all(vec![1000, 1000], Vec::new()), Ok(space) if space.len() == MOST_VARIANTS));
-        assert!(matches!(
-            Space::all(vec![1000, 1001], Vec::new()),
-            Err(Error::TooManyVariants { variants: 1_001_000, .. })
-        ));
-        let many = vec![usize::MAX; 9];
-        assert!(matches!(
-            Space::all(many.clone(), Vec::new()),
-            Err(Error::TooManyVariants { variants: u128::MAX, .. })
-        ));
-        assert!(matches!(Space::pairwise(&many, Vec::new()), Err(Error::TooManyPairs { .. })));
+    fn of_too_many_combinations_pairs_are_taken_and_too_many_pairs_are_refused() {
+        let (space, beyond) = Space::all_or_pairwise(vec![1000, 1000], Vec::new()).expect("few");
+        assert_eq!((space.len(), space.is_all(), beyond), (MOST_VARIANTS, true, None));
+        let (space, beyond) = Space::all_or_pairwise(vec![2; 20], Vec::new()).expect("few pairs");
+        assert_eq!((space.is_all(), beyond), (false, Some(1 << 20)));
+        assert!(space.len() < 20, "{}", space.len());
+        let (space, beyond) = Space::all_or_pairwise(vec![2; 200], Vec::new()).expect("few pairs");
+        assert!(space.len() < 40 && beyond == Some(u128::MAX), "{}", space.len());
+        assert!(matches!(Space::all_or_pairwise(vec![usize::MAX; 9], Vec::new()), Err(Error::TooManyPairs { .. })));
     }
 }

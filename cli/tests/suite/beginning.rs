@@ -21,7 +21,7 @@ fn a_file_that_is_there_stays() {
     for name in ["mine", "mine.ron"] {
         place
             .run(&["new", name])
-            .exits(2)
+            .exits(1)
             .says("error: there is a file `mine.ron` already: choose another name, or move it away");
     }
     assert_eq!(std::fs::read_to_string(place.path("mine.ron")).expect("a text"), "mine");
@@ -33,7 +33,7 @@ fn a_file_that_is_there_stays() {
 fn a_link_that_leads_nowhere_is_there_too() {
     let place = Place::new();
     std::os::unix::fs::symlink("elsewhere.ron", place.path("link.ron")).expect("linked");
-    place.run(&["new", "link"]).exits(2).mentions("there is a file `link.ron` already");
+    place.run(&["new", "link"]).exits(1).mentions("there is a file `link.ron` already");
     assert_eq!(place.names(), ["link.ron"]);
 }
 

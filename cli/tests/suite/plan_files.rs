@@ -199,3 +199,78 @@ fn a_plan_for_another_device_is_refused_with_the_command_that_makes_one_for_this
         );
     }
 }
+
+/// A shipped pipeline's Plan in a file.
+fn planned(pipeline: &str) -> Place {
+    let place = Place::new();
+    place.run(&["inspect", pipeline, "--format", "json", "-o", "plan.json"]).exits(0);
+    place
+}
+
+#[test]
+fn inspect_and_explain_say_of_a_plan_in_a_file_what_they_say_of_its_pipeline() {
+    let place = planned("deferred");
+    for format in ["tree", "json", "dot", "mermaid", "svg"] {
+        let of = |file: &str| place.run(&["inspect", file, "--format", format, "--verbose"]).exits(0).out;
+        assert_eq!(of("plan.json"), of("deferred"), "{format}");
+    }
+    for format in ["human", "json"] {
+        for thing in ["color", "lighting", "barrier:color", "step:3", "heap:0"] {
+            let of = |file: &str| place.run(&["explain", file, thing, "--format", format]).exits(0).out;
+            assert_eq!(of("plan.json"), of("deferred"), "{thing}, {format}");
+        }
+    }
+    place.run(&["inspect", "plan.json", "--format", "html", "-o", "page.html"]).exits(0);
+    let page = std::fs::read_to_string(place.path("page.html")).expect("written");
+    assert!(page.contains("plan.json") && page.contains("lighting"));
+    place.run(&["explain", "plan.json", "colr"]).exits(1).mentions("did you mean `color`?");
+}
+
+#[test]
+fn a_plan_leaves_inspect_explain_and_diff_nothing_to_choose() {
+    let place = planned("forward");
+    let commands: [&[&str]; 3] =
+        [&["inspect", "plan.json"], &["explain", "plan.json", "color"], &["diff", "plan.json", "plan.json"]];
+    let options: [&[&str]; 12] = [
+        &["--set", "msaa=1"],
+        &["--preset", "reference"],
+        &["--extend", "more.ron"],
+        &["--settings", "low.ron"],
+        &["--stereo", "multiview"],
+        &["--scene", "courtyard"],
+        &["--device", "lavapipe"],
+        &["--size", "64x36"],
+        &["--order", "low-memory"],
+        &["--naive", "resolves"],
+        &["--no-alias"],
+        &["--rotate", "90"],
+    ];
+    for command in commands {
+        place.run(command).exits(0);
+        for option in options {
+            let said = format!("{} chooses something for `plan.json`, which is a Plan", option[0]);
+            place.run(&[command, option].concat()).exits(2).mentions(&said);
+        }
+    }
+    let capture = ["inspect", "plan.json", "--format", "html", "--capture", "--scene", "courtyard", "-o", "a.html"];
+    place.run(&capture).exits(2).mentions("--capture chooses something");
+    place.file("cut.json", "{");
+    place.file(
+        "wrong.json",
+        std::fs::read_to_string(place.path("plan.json")).expect("written").replacen(
+            "SHADER_READ_ONLY_OPTIMAL",
+            "GENERAL",
+            1,
+        ),
+    );
+    for command in ["inspect", "explain"] {
+        let of = |file: &str| {
+            place.run(&[&[command, file][..], if command == "explain" { &["color"] } else { &[] }].concat()).exits(1)
+        };
+        of("cut.json").mentions("cut.json: not a Plan: ");
+        of("wrong.json").mentions("wrong.json: the Plan is not right: ");
+        of("gone.json").mentions("gone.json");
+    }
+    let written = ["inspect", "plan.json", "-o", "plan.json"];
+    place.run(&written).exits(2).mentions("`plan.json` is a Plan that is read, which would be lost");
+}

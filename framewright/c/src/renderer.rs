@@ -100,6 +100,8 @@ pub struct FramewrightFacts {
     pub peak_radiance: f64,
     /// The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
     pub depth_range: f64,
+    /// A length that is typical of the scene, metres; 0: 1.
+    pub size: f64,
 }
 
 // SAFETY: it begins with its size, and has numbers alone.
@@ -119,6 +121,7 @@ unsafe impl Structure for FramewrightFacts {
         triangles: 0,
         peak_radiance: 0.0,
         depth_range: 0.0,
+        size: 0.0,
     };
 }
 
@@ -319,6 +322,8 @@ pub unsafe extern "C" fn framewright_renderer_set_facts(
                 triangles: given.triangles,
                 peak_radiance: given.peak_radiance,
                 depth_range: (given.depth_range > 0.0).then_some(given.depth_range),
+                exposure: 1.0,
+                size: if given.size > 0.0 { given.size } else { Facts::UNKNOWN.size },
             };
             state.renderer.set_facts((!facts.is_null()).then_some(known));
             Ok(())

@@ -59,8 +59,8 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
     for writer in kept.iter().flat_map(|parts| &writers[parts.clone()]).filter(|writer| **writer != NOTHING) {
         needed[*writer as usize] = true;
     }
-    // A read counts here even if its pass is culled itself, so passes may seem needed that are not. Yet whether all are needed
-    // is exact. Take the last pass that is culled: all passes behind it stay, so if one of them read its writes, it would stay too.
+    // `needed` may mark too many passes, never too few: a read counts even if its pass is culled. `all_are_needed` is exact, because
+    // all passes behind the last culled one stay, and none of them reads its writes.
     let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
     Ok(Linked { kept, all_are_needed })
 }

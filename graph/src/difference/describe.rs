@@ -13,7 +13,7 @@ use crate::vulkan::{Shape, Sharing, State, in_plan, name_of};
 pub(super) struct Description {
     pub(super) kind: Kind,
     pub(super) name: String,
-    /// What stays of the name whatever other passes the step has.
+    /// The name to pair by when the step's other passes changed.
     pub(super) of_itself: Option<String>,
     pub(super) fields: Vec<(&'static str, String)>,
     pub(super) because: Option<String>,

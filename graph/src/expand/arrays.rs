@@ -10,8 +10,8 @@ pub(super) fn binding<'i>(interface: &'i ShaderInterface, name: &str) -> Option<
     interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.takes(name))
 }
 
-/// Of something that is given as an element and declared as no array, or the other way round, or beyond the end of an array: the
-/// shader's name for it, and the mistake, of an array at the first such element.
+/// Finds a binding whose use as an array or as a single thing doesn't match the shader, or that is beyond the end of an array.
+/// Returns its name in the shader, and the mistake: of an array, that of the first such element.
 pub(super) fn misfit<'i>(
     shader: &str,
     interface: &'i ShaderInterface,

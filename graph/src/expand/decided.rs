@@ -131,7 +131,7 @@ fn users(pipeline: &Pipeline, states: &[State], outputs: &[Output]) -> Vec<Use> 
     let always = Decisions::default();
     for (state, pass) in states.iter().zip(&pipeline.passes) {
         let PassDecisions { runs, images, .. } = &pass.decided;
-        // With stand-ins, images are used in either case.
+        // A pass with `otherwise` uses its images whether it runs or not.
         let runs = if pass.otherwise.is_empty() { runs } else { &always };
         for access in state.runs().iter().flat_map(|pass| pass.accesses()) {
             let chosen = matches!(access, Access::Sampled(_)) && runs.is_empty();

@@ -379,7 +379,7 @@ impl Images {
 fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option<Eye>, twice: bool) -> Pass {
     for part in parts_mut(&mut pass) {
         let eye = part.eye.map(|eye| eye.value).or(eye);
-        // Of one for both it is the part that counts.
+        // An image for both eyes stays one image: the eye chooses its layer or half.
         if images.both[part.image.index.0 as usize] {
             part.eye = eye.map(|value| Spanned { value, span: part.image.span });
         }

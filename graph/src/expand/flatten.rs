@@ -125,7 +125,9 @@ fn expand_so(
         history::shorten(&mut resources, &states);
     }
     let decided = decided::decided(&pipeline, &states, &outputs);
-    let kept = precision::choose(inputs.facts().depth_range, &mut resources, &states, &outputs);
+    let depth_range = inputs.facts().depth_range;
+    let kept = precision::choose(depth_range, &mut resources, &states, &outputs);
+    let coarse = precision::too_coarse(depth_range, &resources, &states);
 
     let mut passes = if errors.is_empty() { State::into_passes(states) } else { Vec::new() };
     padding::keep(&resources, &mut passes);
@@ -136,7 +138,7 @@ fn expand_so(
             let settings = settings::shown(&document.settings, &values);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&pipeline), kept, checked.remarks, stored].concat();
+            let remarks = [shared, views::remarks(&pipeline), kept, coarse, checked.remarks, stored].concat();
             Ok(Frame {
                 sources,
                 settings,

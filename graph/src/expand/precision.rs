@@ -11,6 +11,7 @@ use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pas
 use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
+use std::collections::BTreeSet;
 
 /// The format that a pipeline's policy wants in place of `usual`. `range`: how far the scene reaches that is drawn into the
 /// image as depth, in near distances.
@@ -112,12 +113,7 @@ pub(super) fn choose(
             continue;
         }
         if let Some(coarse) = too_coarse {
-            let text = format!(
-                "{format} is taken in spite of {}: {coarse} is too coarse, since the scene reaches {range:.0} times as far as the near \
-                 plane, and {coarse} is good for {:.0} times",
-                choice.because,
-                reach(coarse).floor()
-            );
+            let text = format!("{format} is taken in spite of {}: {}", choice.because, too_coarse_for(coarse, range));
             let span = described.format.span;
             remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
         }
@@ -133,12 +129,43 @@ pub(super) fn choose(
     remarks
 }
 
+/// Remarks on images whose format stands in the file, and is too coarse for the depth of the scene that is drawn into them.
+/// `depth_range` is that of the scene's [`Facts`](crate::language::Facts).
+pub(super) fn too_coarse(depth_range: Option<f64>, resources: &Resources<'_>, states: &[State]) -> Vec<Remark> {
+    let Some(range) = depth_range else { return Vec::new() };
+    let seen = running(states).into_iter().filter(|pass| draws_objects(pass)).filter_map(|pass| pass.depth.as_ref());
+    let seen: BTreeSet<u32> = seen.map(|depth| depth.image.0).collect();
+    let remarks = seen.into_iter().filter_map(|at| {
+        let format = resources.image(ImageIndex(at))?.image.format;
+        let described = &resources.pipeline.images[at as usize];
+        // Formats that a policy chooses reach as far as they must.
+        (range > reach(format)).then(|| Remark {
+            subject: described.name.text.clone(),
+            span: described.format.span,
+            text: format!("{}; `Depth` in its place reaches any distance", too_coarse_for(format, range)),
+            instead: true,
+        })
+    });
+    remarks.collect()
+}
+
+/// Why a format can't hold depth of a scene that reaches `range` near distances.
+fn too_coarse_for(format: Format, range: f64) -> String {
+    format!(
+        "{format} is too coarse, since the scene reaches {range:.0} times as far as the near plane, and {format} is good for {:.0} \
+         times",
+        reach(format).floor()
+    )
+}
+
 /// Whether objects are drawn into an image as a camera sees them.
 fn is_seen_depth(passes: &[&Pass], image: ImageIndex) -> bool {
-    passes.iter().any(|pass| {
-        let objects = matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. });
-        objects && pass.depth.as_ref().is_some_and(|depth| depth.image == image)
-    })
+    let into_it = |pass: &&Pass| pass.depth.as_ref().is_some_and(|depth| depth.image == image);
+    passes.iter().any(|pass| draws_objects(pass) && into_it(pass))
+}
+
+fn draws_objects(pass: &Pass) -> bool {
+    matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })
 }
 
 /// Images that have one format together, each group in the order of the file.

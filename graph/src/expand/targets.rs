@@ -2,7 +2,6 @@
 
 use super::images::FrameImage;
 use super::resources::Resources;
-use super::shader::component_words;
 use super::{coverage, parts, transfers};
 use crate::base::Diagnostic;
 use crate::frame::{Blend, Remark, TargetShape};

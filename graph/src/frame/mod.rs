@@ -83,7 +83,7 @@ pub struct Remark {
     pub span: Span,
     /// The warning in words.
     pub text: String,
-    /// Whether something else is taken than was asked for, so that the picture may differ.
+    /// Whether it may show in the picture, so that who draws the frame is told too.
     pub instead: bool,
 }
 

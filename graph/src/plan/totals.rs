@@ -23,8 +23,8 @@ pub struct Totals {
     pub fills: u32,
     /// Waits for other queues.
     pub waits: u32,
-    /// Calls of `vkCmdPipelineBarrier2`: before the work of a step one for its memory barriers and one for its image barriers,
-    /// after it one for what it releases. Local barriers of passes are not counted.
+    /// Calls of `vkCmdPipelineBarrier2`. Up to three per step: memory barriers and image barriers before its work, releases after it.
+    /// Local barriers of passes are not counted.
     pub barrier_calls: u32,
     /// Image barriers, released ones too.
     pub image_barriers: u32,

@@ -7,7 +7,7 @@ use crate::plan::{Buffer, Image, Plan, Role};
 #[derive(Debug)]
 pub(super) struct Frames {
     pub(super) count: u32,
-    /// Images and buffers of which each becomes the next, and the last one the first.
+    /// Rings of images and buffers: each frame every member takes the next one's place, and the last the first one's.
     pub(super) circles: Vec<Vec<u32>>,
 }
 

@@ -241,7 +241,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
                 }
                 let state = &mut self.subresources[index];
                 state.layout = barrier.new;
-                // Its own second scope counts for nothing: only a semaphore leads on from here.
+                // A release makes nothing visible; the semaphore does.
                 let released = Availability { time: now, stages: StageSet::ALL, queue };
                 state.write = Write::layout_change(released, PairSet::default());
                 state.reads.clear();

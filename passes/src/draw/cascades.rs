@@ -67,7 +67,9 @@ pub fn sun_view(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, t
     let texels = f64::from(texels.max(16));
     let eye = camera.position();
     let (middle, radius) = sphere_around(scene);
-    let reach = cascade.reach.map_or_else(|| through(middle.distance(eye) + radius), |reach| f32::from(reach).into());
+    let reach = cascade
+        .reach
+        .map_or_else(|| through(middle.distance(eye) + radius, camera.near), |reach| f32::from(reach).into());
     // Beyond the far plane nothing is seen; the corners of its picture are farther off than its middle.
     let reach = camera.far.map_or(reach, |far| reach.min(f64::from(far) * corner_distance(camera, aspect)));
     let splits = Splits { near: camera.near.into(), reach, of: cascade.of, logarithmic: cascade.logarithmic };
@@ -94,7 +96,8 @@ pub fn sun_view(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, t
 /// A sphere around everything: middle and radius. Somewhat larger, so that nothing ends up beyond it by rounding.
 fn sphere_around(scene: &Scene) -> (DVec3, f64) {
     let around = scene.bounds().map_or((DVec3::ZERO, 0.0), |bounds| (bounds.center(), bounds.radius()));
-    (around.0, (around.1 * 1.001).max(1e-3))
+    // Of a scene without size nothing is seen.
+    (around.0, if around.1 > 0.0 { around.1 * 1.001 } else { 1.0 })
 }
 
 /// How far the corners of the picture at distance 1 are from the camera.

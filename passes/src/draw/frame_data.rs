@@ -53,6 +53,7 @@ pub(super) fn lights_block(scene: &Scene, camera: &Camera, clusters: &Clusters) 
     block.uint(u32::try_from(scene.point_lights.len()).unwrap_or(u32::MAX));
     block.vec3(scene.sun.color);
     block.vec3(scene.ambient);
+    block.float(if scene.point_lights.is_empty() { 0.0 } else { scene.nearest_to_light() as f32 });
     block.vec3(scene.sky.zenith);
     block.vec3(scene.sky.horizon);
     block.vec3(scene.sky.ground);

@@ -54,6 +54,8 @@ fn facts(scene: &Scene, peak: Peak) -> Facts {
         casts_shadows: casts_shadows(scene),
         shadow_cascades: shadow_cascades(scene),
         peak_radiance: peak.radiance,
+        exposure: scene.exposure,
+        size: scene.size(),
         suns: u32::from(scene.sun.shines()),
         point_lights: count(scene.point_lights.iter().filter(|light| light.shines()).count()),
         objects: count(scene.objects.len()),
@@ -131,6 +133,14 @@ fn because(scene: &Scene, peak: Peak, fact: Fact) -> String {
                 where_to
             }
         }
+        Fact::Exposure if scene.exposure == 1.0 => "the file's own numbers are drawn".to_owned(),
+        Fact::Exposure => {
+            format!("a white surface in the light of the file would show {:.4}", scene.exposure.recip())
+        }
+        Fact::Size => scene.bounds().map_or_else(
+            || "there is no object".to_owned(),
+            |bounds| format!("the radius of the box around all objects is {:.4}", bounds.radius()),
+        ),
         Fact::Suns if scene.sun.shines() => format!("its colour is {:?}", scene.sun.color),
         Fact::Suns => "its colour is black".to_owned(),
         Fact::PointLights => {

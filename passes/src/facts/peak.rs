@@ -50,6 +50,7 @@ pub(super) fn peak(scene: &Scene) -> Peak {
     let brightest_sky = vector(scene.sky.zenith).max(vector(scene.sky.horizon)).max(vector(scene.sky.ground));
     let sky = brightest_sky + sun * sky::sunward_share(to_sun.y);
 
+    let nearest = scene.nearest_to_light();
     let mut candidates = vec![(None, sky)];
     // Of transparent surfaces: the most that one adds, the most that all triangles add, the least opacity.
     let (mut most, mut all, mut opacity) = (DVec3::ZERO, DVec3::ZERO, 1.0_f64);
@@ -58,7 +59,7 @@ pub(super) fn peak(scene: &Scene) -> Peak {
         let texture = material.base_color_texture.map(|texture| textures[texture]);
         let texture = texture.unwrap_or(Extremes { brightest: DVec3::ONE, least_alpha: 1.0 });
         let [red, green, blue, alpha] = material.base_color.map(f64::from);
-        let scattered = DVec3::new(red, green, blue) * texture.brightest * arriving(scene, object);
+        let scattered = DVec3::new(red, green, blue) * texture.brightest * arriving(scene, object, nearest);
         let undimmed = sun * LARGEST_HIGHLIGHT + vector(material.emissive);
         if material.alpha == AlphaMode::Blend {
             candidates.push((Some(number), scattered));
@@ -69,7 +70,7 @@ pub(super) fn peak(scene: &Scene) -> Peak {
             candidates.push((Some(number), scattered + undimmed));
         }
     }
-    // Without any light on top nothing divided by no opacity is nothing.
+    // Where no layer adds light, 0 / 0 is avoided.
     let layers = DVec3::from_array(most.to_array().map(|most| if most > 0.0 { most / opacity } else { 0.0 }));
     let added = layers.min(all);
     let (object, radiance) = candidates
@@ -79,13 +80,13 @@ pub(super) fn peak(scene: &Scene) -> Peak {
     Peak { radiance: radiance.min(LARGEST_HALF), object, added: added.max_element() }
 }
 
-/// All light that can arrive anywhere on an object.
-fn arriving(scene: &Scene, object: &Object) -> DVec3 {
+/// All light that can arrive anywhere on an object. `nearest` is the scene's [`Scene::nearest_to_light`].
+fn arriving(scene: &Scene, object: &Object, nearest: f64) -> DVec3 {
     let from_point = |light: &PointLight| {
         // A moving object may come as near as can be.
         let moves = !object.movement.is_none();
         let distance = if moves { 0.0 } else { distance(scene, object, DVec3::from(light.position)) };
-        vector(light.color) * (f64::from(light.intensity) * light.falloff(distance))
+        vector(light.color) * (f64::from(light.intensity) * light.falloff(distance, nearest))
     };
     let points = scene.point_lights.iter().filter(|light| light.shines()).map(from_point);
     vector(scene.ambient) + vector(scene.sun.color) + points.sum::<DVec3>()

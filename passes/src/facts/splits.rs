@@ -8,9 +8,11 @@ const NEAREST: f64 = 1.0 / 256.0;
 /// two distances in the box is at most 2/√3 of its diameter, and it is rounded up to a power of √2.
 const ROUNDED: f64 = 2.0;
 
-/// Rounds a distance up to a power of √2, so that it stays the same while the camera moves a little.
-pub(crate) fn through(distance: f64) -> f64 {
-    ((distance.max(1e-3).log2() * 2.0).ceil() * 0.5).exp2()
+/// Rounds a distance up to ten near distances times a power of √2, so that it stays the same while the camera moves a little. The near
+/// distance is what a camera in a scene of another unit has in that unit.
+pub(crate) fn through(distance: f64, near: f32) -> f64 {
+    let step = f64::from(near * 10.0);
+    step * (((distance / step).max(f64::MIN_POSITIVE).log2() * 2.0).ceil() * 0.5).exp2()
 }
 
 /// How a distance is cut into slices.

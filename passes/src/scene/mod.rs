@@ -12,8 +12,11 @@
 //!
 //! with `d` and `l` the distance and direction to each point light; so a white surface that faces a sun of colour 1 gives
 //! 1: there is no division by π. Mirrored light comes on top; shaders decide it.
+//!
+//! A file may have lights in a unit of its own, such as lux. They are multiplied when it is read: see [`Scene::exposure`].
 
 mod defaults;
+mod exposure;
 pub mod gltf;
 pub mod limits;
 mod load;

@@ -38,10 +38,11 @@ pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64)
     let vector = |components: [f32; 3]| DVec3::from_array(components.map(f64::from));
     let to_sun = -vector(scene.sun.direction);
     let from_sun = vector(scene.sun.color) * (sunlit * normal.dot(to_sun).max(0.0));
+    let nearest = scene.nearest_to_light();
     let from_points = scene.point_lights.iter().map(|light| {
         let towards = DVec3::from(light.position) - position;
         let facing = normal.dot(towards.normalize_or_zero()).max(0.0);
-        vector(light.color) * (f64::from(light.intensity) * facing * light.falloff(towards.length()))
+        vector(light.color) * (f64::from(light.intensity) * facing * light.falloff(towards.length(), nearest))
     });
     let to_camera = (scene.camera.position() - position).normalize_or_zero();
     Reflected {

@@ -182,3 +182,32 @@ fn without_shadows_of_the_sun_no_cascade_is_needed() {
     scene.sun.color = [0.0; 3];
     assert_eq!(scene.facts().shadow_cascades, 0);
 }
+
+/// The scene with all its lengths and its camera's multiplied.
+fn times(scene: &Scene, factor: f64) -> Scene {
+    let mut scaled = scene.clone();
+    for object in &mut scaled.objects {
+        object.transform = DMat4::from_scale(DVec3::splat(factor)) * object.transform;
+    }
+    scaled.camera.transform.w_axis = (scene.camera.position() * factor).extend(1.0);
+    scaled.camera.near = (f64::from(scene.camera.near) * factor) as f32;
+    scaled
+}
+
+#[test]
+fn a_scene_in_another_unit_is_cut_alike() {
+    let scene = scene();
+    for factor in [1e-5, 1e-3, 0.0254, 3.0, 1e3, 1e6] {
+        let scaled = times(&scene, factor);
+        for index in 0..4 {
+            let whole = Cascade { reach: None, ..cascade(index, 4) };
+            let [one, other] = [&scene, &scaled].map(|scene| sun_view(scene, &scene.camera, ASPECT, whole, TEXELS));
+            let is_close = |one: f64, other: f64| (one * factor / other - 1.0).abs() < 1e-5;
+            assert!(is_close(one.reach, other.reach), "× {factor}: {} and {}", one.reach, other.reach);
+            assert!(is_close(one.texel, other.texel), "× {factor}: {} and {}", one.texel, other.texel);
+        }
+        let (size, expected) = (scaled.size(), scene.size() * factor);
+        assert!((size / expected - 1.0).abs() < 1e-9, "× {factor}: {size} and {expected}");
+        assert_eq!(scaled.facts().shadow_cascades, scene.facts().shadow_cascades);
+    }
+}

@@ -67,7 +67,7 @@ proptest! {
             for (order, number) in clusters.order.iter().enumerate().skip(clusters.everywhere as usize) {
                 let light = &scene.point_lights[*number as usize];
                 let from_camera = DVec3::from(light.position) - camera.position();
-                let reaches = light.falloff(from_camera.distance(place)) > 0.0;
+                let reaches = light.falloff(from_camera.distance(place), 0.01) > 0.0;
                 prop_assert!(!reaches || found.contains(&(order as u32)), "{place}: {light:?} is missing");
             }
         }
@@ -107,7 +107,7 @@ fn a_thousand_lights_of_small_range_are_few_at_any_place() {
             let place = towards * along;
             let distance = |light: &&PointLight| (DVec3::from(light.position) - eye).distance(place);
             looked_at += clusters.at(place).len();
-            reaching += scene.point_lights.iter().filter(|light| light.falloff(distance(light)) > 0.0).count();
+            reaching += scene.point_lights.iter().filter(|light| light.falloff(distance(light), 0.01) > 0.0).count();
             places += 1;
         }
     }

@@ -46,6 +46,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         sun: Sun { direction: [0.0, -1.0, 0.0], color: BLACK, shadows: false },
         ambient: BLACK,
         point_lights: Vec::new(),
+        exposure: 1.0,
         sky: Sky { zenith: BLACK, horizon: BLACK, ground: BLACK },
         camera: camera.unwrap_or_else(|| Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE })),
         cameras: Vec::new(),

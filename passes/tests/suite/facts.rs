@@ -242,3 +242,23 @@ fn every_fact_is_explained_and_the_explanation_has_its_value() {
     }
     assert!(scene.explained().iter().any(|found| found.value == FactValue::Integer(12)));
 }
+
+#[test]
+fn the_size_is_between_that_of_the_scene_and_of_what_stands_in_it() {
+    // A floor of 200 m under five balls of 1 m is hardly a larger scene than one of 20 m.
+    let with_floor = |side: f64| {
+        scene(&format!(
+            r#"materials: [(name: "white")], objects: [Plane(material: "white", size: ({side}, {side})),
+                Sphere(material: "white", radius: 1, repeat: Grid(count: (5, 1, 1), step: (3, 0, 0)))]"#
+        ))
+        .facts()
+        .size
+    };
+    // The radius of the box around a ball of 1 m is √3 m.
+    let expected = |side: f64| (DVec3::new(side, 2.0, side).length() * 0.5 * 3.0_f64.sqrt()).sqrt();
+    assert!(is_close(with_floor(20.0), expected(20.0)), "{}", with_floor(20.0));
+    assert!(is_close(with_floor(200.0), expected(200.0)), "{}", with_floor(200.0));
+    // One thing alone is as large as it is.
+    assert!(is_close(scene(WHITE_CUBE).facts().size, 3.0_f64.sqrt() * 0.5));
+    assert_eq!(scene("materials: [], objects: []").facts().size, 1.0);
+}

@@ -3,14 +3,14 @@
 mod subject;
 
 use crate::command_line::explaining::ExplainArguments;
-use crate::command_line::values::AnswerFormat;
+use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE};
 use crate::error::Error;
 use crate::files::inputs;
-use crate::planning::{self, View, device};
+use crate::planning::{self, View, device, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::device::Estimated;
-use framewright_graph::plan::Outline;
+use framewright_graph::plan::{Outline, Plan};
 use framewright_passes::scene::Scene;
 use serde::Serialize;
 use subject::Explained;
@@ -33,12 +33,7 @@ struct Answer<'a> {
 /// If the pipeline, the scene or the profile is wrong, or there is no such thing in the Plan.
 pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
-    let profile = device::choose(arguments.device.as_deref(), &read)?;
-    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
-    let scene = arguments.scene.as_deref().map(|file| inputs::scene(file, &read)).transpose()?;
-    let facts = scene.as_ref().map(Scene::facts);
-    let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
-    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
+    let plan = plan(arguments, &read)?;
     let thing = arguments.thing.as_str();
     let Explained { explanations, read_on } = subject::explained(&plan, thing)
         .ok_or_else(|| Error::NothingToExplain { thing: thing.to_owned(), help: subject::names_near(&plan, thing) })?;
@@ -54,4 +49,20 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
     };
     text::print(&answer).map_err(Error::Print)?;
     Ok(Exit::Fine)
+}
+
+/// The Plan in a file, or that of a pipeline.
+fn plan(arguments: &ExplainArguments, read: &ReadFiles) -> Result<Plan, Error> {
+    let ExplainArguments { scene, device, size, .. } = arguments;
+    if plan_file::is_one(&arguments.pipeline.file) {
+        let own = [("--scene", scene.is_some()), ("--device", device.is_some()), ("--size", *size != DEFAULT_SIZE)];
+        plan_file::nothing_chosen(&arguments.pipeline, arguments.planning, &own)?;
+        return plan_file::read(&arguments.pipeline.file, read);
+    }
+    let profile = device::choose(device.as_deref(), read)?;
+    let mut pipeline = planning::load(&arguments.pipeline, read)?;
+    let scene = scene.as_deref().map(|file| inputs::scene(file, read)).transpose()?;
+    let facts = scene.as_ref().map(Scene::facts);
+    let view = View { facts, size: *size, rotation: arguments.planning.rotate, dump: &[] };
+    Ok(pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan)
 }

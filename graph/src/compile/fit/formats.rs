@@ -47,8 +47,7 @@ fn hdr10_substitutes(format: Format) -> &'static [Format] {
     if format == A2B10G10R10_UNORM_PACK32 { &[R16G16B16A16_UNORM] } else { &[] }
 }
 
-/// Formats in place of one that a policy chose: those that hold as much and no more than the one that there would be without
-/// it, then that one.
+/// Formats in place of one that a policy chose: its substitutes, up to and with the usual format.
 fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
     let larger = substitutes(chosen);
     let last = larger.iter().position(|format| *format == usual).unwrap_or(0);

@@ -103,8 +103,8 @@ impl Work {
         balances
     }
 
-    /// What steps with this work save beside the graphics steps of a window, of which the first bytes are taken: counted from
-    /// the first graphics step on.
+    /// The time that is saved by running `own` bytes beside a window of graphics steps. `taken` bytes of it, from the first graphics
+    /// step on, are in use.
     fn overlap(&self, own: u64, [from, to]: [u32; 2], taken: u64) -> Overlap {
         let [(first, start), (last, end)] = [from, to.max(from)].map(|step| self.before[step as usize]);
         let beside = (last > first).then(|| (self.graphics[first as usize], last - first - 1));

@@ -1,4 +1,4 @@
-//! Cells while the steps are walked, and the barriers before their accesses.
+//! What is known of each subresource while the steps are walked, and the barriers before its accesses.
 
 use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::compile::queues::LayoutChange;

@@ -127,7 +127,7 @@ impl AccessTimeline {
             state.accesses |= access.accesses;
             (state.layout, state.last) = (access.layout, step);
             return match crossed {
-                // Its second scope is the accesses since.
+                // The barrier already covers this access.
                 None if is_wide => {}
                 None => barriers[state.barrier as usize].widen(access.stages, access.accesses),
                 Some(crossed) => crossed.join(queues, barriers, access, step, is_own_step),

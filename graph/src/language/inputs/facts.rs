@@ -21,6 +21,10 @@ pub struct Facts {
     pub shadow_cascades: u32,
     /// See [`Fact::PeakRadiance`].
     pub peak_radiance: f64,
+    /// See [`Fact::Exposure`].
+    pub exposure: f64,
+    /// See [`Fact::Size`].
+    pub size: f64,
     /// See [`Fact::Suns`].
     pub suns: u32,
     /// See [`Fact::PointLights`].
@@ -51,6 +55,10 @@ pub enum Fact {
     ShadowCascades,
     /// The most radiance that a pixel can show before any effect, linear.
     PeakRadiance,
+    /// What all light of the scene's file was multiplied by.
+    Exposure,
+    /// A length that is typical of the scene, metres.
+    Size,
     /// How many suns shine.
     Suns,
     /// How many point lights shine.
@@ -87,7 +95,7 @@ pub enum FactValue {
 
 impl Fact {
     /// Every fact.
-    pub const ALL: [Fact; 12] = [
+    pub const ALL: [Fact; 14] = [
         Fact::HasOpaque,
         Fact::HasAlphaClip,
         Fact::HasTransparent,
@@ -95,6 +103,8 @@ impl Fact {
         Fact::CastsShadows,
         Fact::ShadowCascades,
         Fact::PeakRadiance,
+        Fact::Exposure,
+        Fact::Size,
         Fact::Suns,
         Fact::PointLights,
         Fact::Lights,
@@ -125,6 +135,19 @@ impl Fact {
                 "no pixel shows more than this before effects, from whatever place and in whatever direction; \
                  linear, 1 is a white surface in a sun of colour 1; at most 65504",
             ),
+            Fact::Exposure => (
+                "scene.exposure",
+                Number,
+                "what all light of the scene's file was multiplied by, so that a white surface in it shows about 1; \
+                 1 where the file's own numbers are drawn",
+            ),
+            Fact::Size => (
+                "scene.size",
+                Number,
+                "a length that is typical of the scene, metres: the geometric mean of the radius of the box around all objects \
+                 and of the median radius of the boxes around each; 1 if there is nothing to measure. Effects of a certain width \
+                 are made a share of it, so that a scene may be of any size",
+            ),
             Fact::Suns => ("scene.suns", Integer, "how many suns shine: 0 or 1"),
             Fact::PointLights => ("scene.point_lights", Integer, "how many point lights shine"),
             Fact::Lights => ("scene.lights", Integer, "how many lights of any kind shine"),
@@ -150,6 +173,12 @@ impl Fact {
     pub const fn about(self) -> &'static str {
         self.row().2
     }
+
+    /// Whether it is a length or a factor: more than 0, and without a bound.
+    #[must_use]
+    pub const fn is_measure(self) -> bool {
+        matches!(self, Fact::Exposure | Fact::Size)
+    }
 }
 
 impl Facts {
@@ -162,6 +191,8 @@ impl Facts {
         casts_shadows: true,
         shadow_cascades: 4,
         peak_radiance: 65504.0,
+        exposure: 1.0,
+        size: 1.0,
         suns: 1,
         point_lights: 4096,
         objects: 250_000,
@@ -180,6 +211,8 @@ impl Facts {
             Fact::CastsShadows => FactValue::Bool(self.casts_shadows),
             Fact::ShadowCascades => FactValue::Integer(self.shadow_cascades as i64),
             Fact::PeakRadiance => FactValue::Number(self.peak_radiance),
+            Fact::Exposure => FactValue::Number(self.exposure),
+            Fact::Size => FactValue::Number(self.size),
             Fact::Suns => FactValue::Integer(self.suns as i64),
             Fact::PointLights => FactValue::Integer(self.point_lights as i64),
             Fact::Lights => FactValue::Integer(self.suns as i64 + self.point_lights as i64),
@@ -201,6 +234,8 @@ impl Facts {
             (Fact::CastsShadows, FactValue::Bool(value)) => self.casts_shadows = value,
             (Fact::ShadowCascades, FactValue::Integer(value)) => self.shadow_cascades = count(value),
             (Fact::PeakRadiance, FactValue::Number(value)) => self.peak_radiance = value,
+            (Fact::Exposure, FactValue::Number(value)) => self.exposure = value,
+            (Fact::Size, FactValue::Number(value)) => self.size = value,
             (Fact::Suns, FactValue::Integer(value)) => self.suns = count(value),
             (Fact::PointLights, FactValue::Integer(value)) => self.point_lights = count(value),
             (Fact::Lights, FactValue::Integer(value)) => {

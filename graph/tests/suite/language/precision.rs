@@ -194,3 +194,36 @@ fn what_is_dumped_is_shown_as_it_is() {
     let inputs = Inputs { dump: &dump, ..INPUTS };
     assert_eq!(right(&pipeline("color: Smallest,", "true", ""), &inputs).images[0].format, B10G11R11_UFLOAT_PACK32);
 }
+
+#[test]
+fn a_depth_format_that_stands_in_the_file_and_is_too_coarse_for_the_scene_is_told_of() {
+    let said = |format: &str, reach: Option<f64>| {
+        let text = pipeline("", "true", "")
+            .replace("(name: \"depth\", format: Depth", &format!("(name: \"depth\", format: {format}"));
+        let facts = Facts { depth_range: reach, ..Facts::UNKNOWN };
+        let frame = right(&text, &Inputs { facts, facts_known: true, ..INPUTS });
+        frame.remarks.into_iter().map(|it| format!("{}: {}", it.subject, it.text)).collect::<Vec<_>>()
+    };
+    let coarse = |format: &str, reach: &str, good: &str| {
+        vec![format!(
+            "depth: {format} is too coarse, since the scene reaches {reach} times as far as the near plane, and {format} is good for \
+             {good} times; `Depth` in its place reaches any distance"
+        )]
+    };
+    assert_eq!(said("D16_UNORM", Some(2000.0)), coarse("D16_UNORM", "2000", "1023"));
+    assert_eq!(said("X8_D24_UNORM_PACK32", Some(1e6)), coarse("X8_D24_UNORM_PACK32", "1000000", "262143"));
+    assert_eq!(said("D24_UNORM_S8_UINT", Some(1e6)), coarse("D24_UNORM_S8_UINT", "1000000", "262143"));
+    let none = Vec::<String>::new();
+    for (format, reach) in
+        [("D16_UNORM", Some(1023.0)), ("D16_UNORM", None), ("D32_SFLOAT", Some(1e9)), ("Depth", Some(1e9))]
+    {
+        assert_eq!(said(format, reach), none, "{format}, {reach:?}");
+    }
+    // One that follows has the format too; nothing is said of depth that no object is drawn into.
+    let text = pipeline("", "true", "(name: \"coarse\", format: D16_UNORM, size: Output),")
+        .replace("(name: \"depth\", format: Depth", "(name: \"depth\", format: Like(\"coarse\")");
+    let facts = Facts { depth_range: Some(2000.0), ..Facts::UNKNOWN };
+    let frame = right(&text, &Inputs { facts, facts_known: true, ..INPUTS });
+    assert_eq!(frame.remarks.iter().map(|it| &*it.subject).collect::<Vec<_>>(), ["depth"]);
+    assert!(frame.remarks.iter().all(|it| it.instead), "who draws is told");
+}

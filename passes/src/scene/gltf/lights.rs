@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 pub(super) struct Lights {
     pub(super) sun: Sun,
     pub(super) points: Vec<PointLight>,
+    /// Whether the sun isn't the file's.
+    pub(super) invented_sun: bool,
 }
 
 /// The lights of the scene; the default sun where the file has neither a directional nor a point light.
@@ -69,6 +71,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
     }
     at_most("point lights", points.len() as u64, limits::POINT_LIGHTS as u64, "")?;
     let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
+    let invented_sun = sun.is_none();
     let sun = sun.unwrap_or(if points.is_empty() { Sun { shadows: true, ..defaults::SUN } } else { dark });
-    Ok(Lights { sun, points })
+    Ok(Lights { sun, points, invented_sun })
 }

@@ -6,7 +6,8 @@
 //! sparse accessors; base colour factor and texture (PNG or JPEG); emissive factor and strength
 //! (`KHR_materials_emissive_strength`); alpha modes; double-sided materials; node hierarchies with matrices or
 //! translation, rotation and scale; the first perspective camera; directional and point lights (`KHR_lights_punctual`: the
-//! first directional light is the sun; candela and lux are divided by π, see [`crate::scene`]).
+//! first directional light is the sun; candela and lux are divided by π, see [`crate::scene`], and all light of the file is
+//! multiplied by [`Scene::exposure`], so that a white surface in its strongest light shows 1, whatever the unit).
 //!
 //! Not drawn, and noted in [`Scene::notes`]: points and lines, vertex colours, emissive, normal, occlusion and
 //! metallic-roughness textures, metallic and roughness factors, texture transforms, skins, morph targets, animations,
@@ -33,6 +34,7 @@ mod unsupported;
 
 pub use problem::{GltfError, Problem};
 
+use super::exposure::{self, Invented};
 use super::model::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Object, Scene};
 use super::notes::Notes;
 use super::{defaults, limits};
@@ -81,19 +83,25 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
     let lights = lights::read(document, &placed, &mut notes)?;
     let cameras = cameras(document, &placed, &mut notes)?;
     let camera = cameras.first().map_or_else(|| Camera::framing(bounds), |first| first.camera);
-    Ok(Scene {
+    let lights::Lights { sun, points, invented_sun } = lights;
+    let own =
+        exposure::Lights { sun: (!invented_sun).then_some(&sun), points: &points, ambient: None, bounds: Some(bounds) };
+    let exposure = own.exposure();
+    let scene = Scene {
         meshes,
         materials,
         textures: textures.decoded,
         objects,
-        sun: lights.sun,
+        sun,
         ambient: defaults::AMBIENT,
-        point_lights: lights.points,
+        point_lights: points,
         sky: defaults::SKY,
+        exposure: 1.0,
         camera,
         cameras,
         notes: notes.finish(),
-    })
+    };
+    Ok(scene.exposed(exposure, Invented { sun: invented_sun, ambient: true, sky: true }))
 }
 
 /// A primitive of a glTF mesh, as a mesh and a material of the scene.

@@ -43,16 +43,13 @@ impl PointLight {
 
     /// The share of `color · intensity` that arrives at a distance in metres: `1/d²`, and with a range
     /// `clamp(1 − (d/range)⁴, 0, 1)/d²` (glTF's KHR_lights_punctual recommends it). Distances below
-    /// [`PointLight::NEAREST`] count as that, so nothing is infinite.
+    /// `nearest`, more than 0, count as that, so nothing is infinite; see [`Scene::nearest_to_light`](super::Scene::nearest_to_light).
     #[must_use]
-    pub fn falloff(&self, distance: f64) -> f64 {
-        let distance = distance.max(PointLight::NEAREST);
+    pub fn falloff(&self, distance: f64, nearest: f64) -> f64 {
+        let distance = distance.max(nearest);
         let window = self.range.map_or(1.0, |range| (1.0 - (distance / f64::from(range)).powi(4)).clamp(0.0, 1.0));
         window / (distance * distance)
     }
-
-    /// Distances below this, in metres, count as this.
-    pub const NEAREST: f64 = 0.01;
 }
 
 /// The background: three linear colours. Towards a unit direction `d` the sky is

@@ -28,6 +28,8 @@ pub struct Scene {
     pub point_lights: Vec<PointLight>,
     /// The background.
     pub sky: Sky,
+    /// What all light of the file was multiplied by: 1 where its own numbers stand here.
+    pub exposure: f64,
     /// From where it is seen by views that ask for no camera.
     pub camera: Camera,
     /// Cameras that views may ask for.
@@ -54,6 +56,28 @@ impl Scene {
             .iter()
             .map(|object| self.meshes[object.mesh].bounds.transformed(object.transform))
             .reduce(Bounds::union)
+    }
+
+    /// A length that is typical of the scene, metres: the geometric mean of the radius of the box around all objects and of the
+    /// median radius of the boxes around each. A floor that is far wider than what stands on it makes it only somewhat larger.
+    /// 1 if there is nothing to measure.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let boxes = self.objects.iter().map(|object| self.meshes[object.mesh].bounds.transformed(object.transform));
+        let mut radii: Vec<f64> = boxes.map(Bounds::radius).collect();
+        let middle = radii.len() / 2;
+        if radii.is_empty() {
+            return 1.0;
+        }
+        let (_, median, _) = radii.select_nth_unstable_by(middle, f64::total_cmp);
+        let size = (*median * self.bounds().map_or(0.0, Bounds::radius)).sqrt();
+        if size > 0.0 { size } else { 1.0 }
+    }
+
+    /// Nearer than this to a point light, metres, a surface gets no more of its light. A share of the scene's size.
+    #[must_use]
+    pub fn nearest_to_light(&self) -> f64 {
+        self.size() / 512.0
     }
 
     /// The draw list of an object. Objects that fade by leaving out fragments are in the one with alpha-masked objects.
@@ -123,6 +147,7 @@ impl Scene {
             ambient: self.ambient,
             point_lights: self.point_lights.clone(),
             sky: self.sky,
+            exposure: self.exposure,
             camera: self.camera,
             cameras: self.cameras.clone(),
             notes: Vec::new(),

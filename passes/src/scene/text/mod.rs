@@ -9,6 +9,7 @@
 //!     ambient: (0.1, 0.1, 0.12),
 //!     sky: (zenith: "#3060a0", horizon: "#c0d0e0", ground: "#505050"),
 //!     lights: [(position: (0, 3, 0), color: "#ffffff", intensity: 20, range: 10)],
+//!     exposure: 1.0,
 //!     materials: [
 //!         (name: "grass", color: "#408040", texture: Checker(count: (8, 8), colors: ("#ffffff", "#d0d0d0"))),
 //!         (name: "sieve", color: "#c08040", texture: Dots(count: (12, 6), radius: 0.3), alpha: Mask(0.5), double_sided: true),
@@ -37,6 +38,10 @@
 //! `spin: (0, 90, 0)`: the axis, as long as the degrees a second. A frame lasts [`super::FRAME_SECONDS`]; the first shows
 //! everything where the file says that it is. Copies move alike; lights stand still.
 //!
+//! All light is multiplied by `exposure`. `Auto` chooses it so that a white surface in the strongest light shows 1: lights may be in lux
+//! and candela, or any unit. Where it is left out it is 1, a white surface in a sun of intensity 1 showing as white; but `Auto` if
+//! the light is 64 times as strong and more, or all of it less than a 256th, which would show as nothing but white or black.
+//!
 //! `version`, `materials` and `objects` must be there; without a camera the objects are framed; without sun, ambient light or
 //! sky it is a clear day. Numbers beyond [`super::limits`], and sizes below a micrometre, are mistakes.
 
@@ -44,6 +49,7 @@ mod materials;
 mod objects;
 mod values;
 
+use super::exposure::{Invented, Lights, colors};
 use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
 use super::{defaults, limits};
 use framewright_graph::base::{Diagnostic, Sources, Span};
@@ -67,6 +73,7 @@ fields! {
         ambient: Option<Leaf<'s>>,
         sky: Option<Leaf<'s>>,
         lights: Option<Leaf<'s>>,
+        exposure: Option<Leaf<'s>>,
         materials: Leaf<'s>,
         objects: Leaf<'s>,
     }
@@ -122,6 +129,8 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
     let sky = fields.sky.map_or(Some(defaults::SKY), |leaf| sky(reader, leaf));
     let point_lights = fields.lights.map_or(Some(Vec::new()), |leaf| lights(reader, leaf));
 
+    let exposure = fields.exposure.map_or(Some(None), |leaf| exposure(reader, leaf).map(Some));
+
     let mut names = Names::new("material");
     let mut patterns = Patterns::default();
     let mut materials = Vec::new();
@@ -152,7 +161,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
             bounds.map(Camera::framing)
         }
     };
-    Some(Scene {
+    let scene = Scene {
         meshes: objects.meshes,
         materials: materials.into_iter().collect::<Option<_>>()?,
         textures: patterns.textures,
@@ -161,10 +170,42 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         ambient: ambient?,
         point_lights: point_lights?,
         sky: sky?,
+        exposure: 1.0,
         camera: camera?,
         cameras: cameras?,
         notes: Vec::new(),
-    })
+    };
+    let invented = Invented { sun: fields.sun.is_none(), ambient: fields.ambient.is_none(), sky: fields.sky.is_none() };
+    let lights = Lights {
+        sun: (!invented.sun).then_some(&scene.sun),
+        points: &scene.point_lights,
+        ambient: (!invented.ambient).then_some(scene.ambient),
+        bounds: scene.bounds(),
+    };
+    let others = scene.materials.iter().map(|material| material.emissive);
+    let others = others.chain(colors(&scene.sky)).chain(invented.sun.then_some(scene.sun.color));
+    let exposure = match exposure? {
+        None => lights.exposure_if_beyond(others),
+        Some(Exposure::Auto) => lights.exposure(),
+        Some(Exposure::Fixed(factor)) => factor,
+    };
+    Some(scene.exposed(exposure, invented))
+}
+
+/// What a file says of its exposure.
+#[derive(Debug, Clone, Copy)]
+enum Exposure {
+    Auto,
+    Fixed(f64),
+}
+
+fn exposure<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Exposure> {
+    if leaf.number().is_some() {
+        return number(reader, leaf, "the exposure", 1e-12, 1e12).map(Exposure::Fixed);
+    }
+    let (_, rest) = reader.word(leaf, "the exposure", &["Auto"], "write a number, or `Auto`")?;
+    reader.bare("Auto", rest)?;
+    Some(Exposure::Auto)
 }
 
 fields! {

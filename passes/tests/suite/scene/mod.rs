@@ -1,6 +1,7 @@
 //! Scenes: from files to data.
 
 mod coplanar;
+mod exposure;
 mod fixture_files;
 mod fixtures;
 mod gltf_files;

@@ -52,5 +52,6 @@ mod temporal_noise;
 mod texture_declarations;
 mod tone_mapping;
 mod tone_mapping_operators;
+mod units;
 mod untouched;
 mod views;
