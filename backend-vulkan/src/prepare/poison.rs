@@ -6,7 +6,7 @@
 //!
 //! Buffers: no such barrier exists, and the barrier that hands over the memory may stand before an earlier step. So a buffer
 //! is filled right before the first step of its lifetime, after all that the Plan orders before that step. The fill is made
-//! visible to that step.
+//! visible to that step. So is a buffer that a step replaces: a promise that all of it is written is false where poison stays.
 //!
 //! Neither makes any write available that the Plan doesn't. So a poisoned frame shows the same picture exactly if nobody
 //! reads what was not written, and if the Plan's barriers order memory that changes hands.
@@ -17,8 +17,9 @@ use super::uses::passes;
 use crate::base::{Clear, convert};
 use crate::commands::{ImageSide, TransferCommand, TransferSide, memory_barrier};
 use ash::vk;
-use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
-use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
+use framewright_graph::frame::BufferRole;
+use framewright_graph::plan::{Buffer, BufferAccess, ImageBarrier, Resource, Role, Step, Work};
+use framewright_graph::vulkan::{Aspects, BufferUsage, Format, Layout, Numeric, Usage};
 
 const CLEAR_STAGE: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::CLEAR;
 const CLEAR_ACCESS: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_WRITE;
@@ -30,7 +31,8 @@ const WORD: u32 = 0xDEAD_BEEF;
 /// Adds the barriers of the step number `index` with the poison between their scopes.
 pub(super) fn push_poisoned_barriers(list: &mut CommandList, frame: &Frame<'_>, index: usize, step: &Step) {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
-    let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
+    let poisoned = |buffer: &&Buffer| begins(buffer, index) || replaces(step, buffer);
+    let buffers: Vec<_> = frame.plan.buffers.iter().filter(poisoned).collect();
     let memory = step.memory_barriers.iter().map(|barrier| {
         let recorded = memory_barrier(barrier);
         // Memory that changes hands is poisoned right after.
@@ -74,15 +76,22 @@ fn push_fill(list: &mut CommandList, place: TransferSide, value: Clear) {
     list.push(Command::Transfer(Box::new(TransferCommand::Fill(place, value))));
 }
 
-/// Whether the barrier begins an image's life in the frame.
+/// Whether the barrier begins an image's life, or gives up its contents, and the image can be poisoned.
 fn takes_into_use(frame: &Frame<'_>, barrier: &ImageBarrier) -> bool {
-    let transient = matches!(frame.plan.image(barrier.image).role, Role::Transient(_));
-    transient && barrier.old_layout == Layout::Undefined
+    let image = frame.plan.image(barrier.image);
+    barrier.old_layout == Layout::Undefined && image.usage.contains(Usage::TRANSFER_DST)
 }
 
 /// Whether a buffer's life in the frame begins with the step.
 fn begins(buffer: &Buffer, step: usize) -> bool {
     matches!(&buffer.role, Role::Transient(place) if place.lifetime[0].0 as usize == step)
+}
+
+/// Whether the step replaces all of a buffer, as its passes promise, and the buffer can be poisoned.
+fn replaces(step: &Step, buffer: &Buffer) -> bool {
+    let mut uses = passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
+    let whole = |it: &BufferAccess| it.role == Some(BufferRole::Storage { read: false, write: true });
+    buffer.usage.contains(BufferUsage::TRANSFER_DST) && uses.peek().is_some() && uses.all(whole)
 }
 
 /// Stages and accesses.

@@ -2,6 +2,8 @@
 
 use super::PrecompiledShaders;
 use super::compilers::Compilers;
+use super::colors;
+use super::coverage::LEAVES_OUT;
 use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
@@ -134,7 +136,9 @@ impl ShaderLibrary {
                 (usual, shipped)
             }
         };
-        let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
+        let mut interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
+        let fills = draw != Draw::FullScreen || usual_vertices;
+        interface.own_vertices = (!fills).then(|| vertex.file.clone());
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
             let (interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
@@ -143,9 +147,14 @@ impl ShaderLibrary {
             let fragment = cut.then(|| eyes::empty_fragment_stage().into());
             return Ok(CompiledShader { vertex: spirv, fragment, interface, usual_vertices, input_attachments });
         }
+        let drawn = match variant.depth_only {
+            // Nobody takes its colours, and a layer would say so.
+            true => colors::none(&fragment.spirv).map_err(|what| ShaderProblem::Unsupported { what })?.into(),
+            false => fragment.spirv.clone(),
+        };
         Ok(CompiledShader {
             vertex: spirv,
-            fragment: Some(fragment.spirv.clone()),
+            fragment: Some(drawn),
             interface,
             usual_vertices,
             input_attachments: fragment.reflected.input_attachments.clone(),
@@ -259,6 +268,12 @@ impl ShaderLibrary {
             if let BindingKind::Other(Unbindable { place, .. }) = &mut binding.kind {
                 *place = text::place(files, found, |word| word == binding.name);
             }
+        }
+        if reflected.interface.discards || reflected.interface.masks_samples {
+            reflected.interface.leaves_out_at = text::place(files, found, |word| LEAVES_OUT.contains(&word));
+        }
+        for unset in &mut reflected.interface.unset {
+            unset.place = text::place(files, found, |word| word == unset.name);
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_));

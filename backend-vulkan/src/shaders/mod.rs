@@ -4,8 +4,10 @@ mod bindings;
 #[cfg(feature = "shader-compiler")]
 mod by_shaderc;
 mod capabilities;
+mod colors;
 mod compile;
 mod compilers;
+mod coverage;
 mod eyes;
 mod files;
 mod indexing;

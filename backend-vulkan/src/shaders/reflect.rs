@@ -2,6 +2,7 @@
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
+use super::coverage;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
@@ -81,9 +82,14 @@ pub(super) fn reflect(
         discards: module
             .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
+        masks_samples: fragment && coverage::writes_sample_mask(&module, &used),
+        // The text says it, not the SPIR-V.
+        leaves_out_at: None,
+        unset: if fragment { coverage::unset(&module) } else { Vec::new() },
+        own_vertices: None,
         uses_frag_coord: built_in_used(&module, &used, &[BuiltIn::FragCoord]),
         uses_derivatives: fragment && module.code().any(|it| takes_derivatives(it.class.opcode)),
-        per_sample: fragment && per_sample(&module, &used),
+        per_sample: fragment && (per_sample(&module, &used) || coverage::uses_sample_mask(&module, &used)),
         writes_depth: module
             .module
             .execution_modes

@@ -24,7 +24,8 @@ pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
             BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. }
         )
     };
-    !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
+    let decides = fragment.discards || fragment.masks_samples || fragment.writes_depth;
+    !decides && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
 }
 
 /// The interface of both stages together.

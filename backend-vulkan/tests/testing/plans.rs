@@ -213,6 +213,8 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         redraws: None,
         alpha_to_coverage: false,
         discards: false,
+        untouched: None,
+        covers: false,
         blend: vec![Blend::Replace],
         depth: None,
         stencil: None,

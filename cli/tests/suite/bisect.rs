@@ -67,6 +67,51 @@ fn the_first_pass_that_differs_is_named_with_its_texels() {
     assert_eq!(report["mode"], "poison");
 }
 
+/// A triangle that fills less than the screen, a dispatch that stores one texel, and what each of them promises.
+const PROMISED: &str = r#"Pipeline(
+    version: 1,
+    images: [
+        (name: "spots", format: R8G8B8A8_UNORM, size: Output, lifetime: Persistent),
+        (name: "screen", format: Output, size: Output),
+    ],
+    passes: [
+        (name: "first", draw: FullScreen("plain"), color: ["screen"]),
+        (name: "spot", dispatch: "spot", groups: Count(1, 1, 1), storage: {"spots": STORAGE}),
+        (name: "show", draw: FullScreen("part"), sample: {"spots": "spots"}, color: ["screen"]COVERS),
+    ],
+    outputs: ["screen"],
+)"#;
+
+const PART: &str = "#version 460
+layout(location = 0) out vec2 uv;
+void main() {
+    uv = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+    gl_Position = vec4(uv - 1.0, 0.0, 1.0);
+}";
+
+#[test]
+fn a_promise_that_a_pass_sets_every_texel_is_refuted_where_poison_stays() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    for (file, text) in [("plain.frag", PLAIN), ("spot.comp", SPOT), ("part.frag", SPOTS), ("part.vert", PART)] {
+        place.file(file, text);
+    }
+    let bisected = |storage: &str, covers: &str, code: i32| {
+        place.file("promised.ron", PROMISED.replace("STORAGE", storage).replace("COVERS", covers));
+        let words = [&["run", "promised.ron", "--bisect", "poison"][..], &SCENE].concat();
+        place.run_with(&variables, &words).exits(code).out
+    };
+    let kept = bisected("\"spots\"", "", 0);
+    assert!(kept.contains("are the same"), "{kept}");
+    let whole = "(image: \"spots\", access: Write)";
+    let said = bisected(whole, "", 1);
+    assert!(said.contains("at pass `spot`: 2303 of 2304 texels of `spots` differ"), "{said}");
+    assert!(said.contains("`access: Write` promises that the pass sets them all, which is false"), "{said}");
+    let said = bisected("\"spots\"", ", covers: true", 1);
+    assert!(said.contains("at pass `show`:") && said.contains("texels of `screen` differ"), "{said}");
+    assert!(said.contains("`covers: true` promises that the pass sets them all, which is false"), "{said}");
+}
+
 #[test]
 fn a_picture_is_the_same_with_full_barriers_step_by_step_and_breadcrumbs() {
     let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };

@@ -70,6 +70,7 @@ fn of_image(usage: Usage, memory: MemorySource, mips: u32, poison: bool, stays_i
         // A file is copied into it, and mip levels are made one from the other.
         MemorySource::Persistent { initial: None, .. } if mips == 1 => Usage::TRANSFER_DST,
         MemorySource::Persistent { .. } | MemorySource::Imported { .. } => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        MemorySource::Output if poison => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
         MemorySource::Output => Usage::TRANSFER_SRC,
     }
 }

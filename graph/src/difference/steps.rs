@@ -105,6 +105,7 @@ impl Described<'_> {
         fields.extend(view.iter().map(|view| ("view", code(&view.name))));
         let flags = [
             ("alpha to coverage", pass.alpha_to_coverage),
+            ("covers", pass.covers),
             ("discards", pass.discards),
             ("local barrier", pass.local_barrier),
         ];

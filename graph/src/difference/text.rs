@@ -6,8 +6,8 @@ use crate::plan::names::Shown;
 use std::fmt::Write;
 
 /// Fields that are told where they differ, and not of what only one Plan has.
-const DETAILS: [&str; 8] =
-    ["accesses", "usage", "layout", "draw", "discards", "clear value", "state before", "state after"];
+const DETAILS: [&str; 9] =
+    ["accesses", "usage", "layout", "draw", "covers", "discards", "clear value", "state before", "state after"];
 
 impl Differences {
     /// The text for people: sums that differ, then each entry, with `+` before what only B has and `-` before what only A has.

@@ -36,7 +36,7 @@ fn image<'r>(resources: &'r Resources<'_>, resource: Resource) -> Option<&'r Ima
 }
 
 /// A part of an image, or a buffer.
-fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> Option<Cells> {
+pub(super) fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> Option<Cells> {
     match resource {
         Resource::Image(_) => Some(parts::cells(image(resources, resource)?, range)),
         Resource::Buffer(_) => Some(Cells { mips: 0..1, layers: 0..1, planes: Aspects::COLOR }),

@@ -4,7 +4,7 @@
 use super::resources::Resources;
 use super::shader::{Checked, PARAMS};
 use super::state::State;
-use super::variant;
+use super::{coverage, variant};
 use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
 use crate::language;
 use crate::shader::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
@@ -52,9 +52,13 @@ fn hindrance(
     if *draw == Draw::Custom {
         return None;
     }
-    let whole = shaders.drawn(shader, *draw, &variant::of(resources, described)).ok()?;
+    let variant = variant::of(resources, described);
+    let whole = shaders.drawn(shader, *draw, &variant).ok()?;
     let alone = shaders.drawn(shader, *draw, &Variant { depth_only: true, ..Variant::default() });
     let wrong = match alone {
+        Ok(alone) if variant.alpha_to_coverage && !coverage::leaves_out(&alone) => {
+            "it leaves out no samples, which its alpha does".to_owned()
+        }
         Ok(alone) => difference(&whole, &alone)?,
         Err(ShaderProblem::DoesNotCompile { messages }) => {
             format!("it doesn't compile: {}", messages.first().map_or("", |message| &message.text))
@@ -69,6 +73,9 @@ fn hindrance(
 fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String> {
     if whole.discards && !alone.discards {
         return Some("it discards no fragments any more".to_owned());
+    }
+    if whole.masks_samples && !alone.masks_samples {
+        return Some("it writes no `gl_SampleMask` any more".to_owned());
     }
     if whole.writes_depth && !alone.writes_depth {
         return Some("it writes no depth of its own any more".to_owned());

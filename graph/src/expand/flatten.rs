@@ -6,7 +6,8 @@ use super::outputs::outputs;
 use super::resources::Resources;
 use super::state::State;
 use super::{
-    casters, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, targets, views,
+    casters, coverage, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, targets,
+    views,
 };
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};
@@ -117,6 +118,7 @@ fn expand_so(
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
     let before = errors.len();
+    let stored = coverage::keep_stored(&resources, &mut states);
     order::check(&resources, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
     if errors.is_empty() {
@@ -134,7 +136,7 @@ fn expand_so(
             let settings = settings::shown(&document.settings, &values);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&pipeline), kept].concat();
+            let remarks = [shared, views::remarks(&pipeline), kept, checked.remarks, stored].concat();
             Ok(Frame {
                 sources,
                 settings,

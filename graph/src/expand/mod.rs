@@ -9,6 +9,7 @@ mod accesses;
 mod arrays;
 mod casters;
 mod compared;
+mod coverage;
 mod decided;
 mod depth_only;
 mod eyes;

@@ -216,7 +216,11 @@ impl Check<'_> {
         if several && self.errors.iter().any(here) {
             return;
         }
-        let why = if several { ": a draw reaches only the first of several layers" } else { "" };
+        let why = match &pass.untouched {
+            _ if several => ": a draw reaches only the first of several layers".to_owned(),
+            Some(why) => format!(": {why}"),
+            None => String::new(),
+        };
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
@@ -233,7 +237,11 @@ impl Check<'_> {
             }
             None => clear,
         };
-        let diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
+        let promise = match &pass.untouched {
+            Some(_) if !several => "; or say `covers: true` of the pass, which promises that it sets every texel",
+            _ => "",
+        };
+        let diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`{promise}"));
         let mut diagnostic = self.removed(diagnostic, name);
         if let Some((writer, because)) = self.off_before(write.resource, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;

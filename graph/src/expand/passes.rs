@@ -3,7 +3,7 @@
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
-    fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
+    coverage, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
 };
 use crate::base::Diagnostic;
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
@@ -47,6 +47,7 @@ pub(super) fn lower(
         sampled::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(resources, pass, interface, errors);
+        shaders.remarks.extend(targets::set(pass, interface, errors));
         halves::check(resources, pass, interface, errors);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);
@@ -73,6 +74,8 @@ pub(super) fn draft(
         color: Vec::with_capacity(pass.color.len()),
         depth: None,
         alpha_to_coverage: pass.alpha_to_coverage.is_some(),
+        covers: pass.covers,
+        untouched: coverage::untouched(pass, interface),
         no_depth_only: None,
         no_rotation: None,
         inserted: None,

@@ -2,7 +2,7 @@
 
 use super::{arrays, work};
 use crate::base::{Diagnostic, FilePath, Sources, suggestion};
-use crate::frame::Draw;
+use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
 use crate::ron::Name;
 use crate::shader::{
@@ -28,12 +28,15 @@ pub(super) struct Checked<'s> {
     reported: Vec<(Arc<str>, ShaderProblem)>,
     /// The path of the file that names a shader, if it is unknown.
     nowhere: FilePath,
+    /// What is allowed in shaders, and probably a mistake.
+    pub(super) remarks: Vec<Remark>,
 }
 
 impl<'s> Checked<'s> {
     /// `sources` are the files that name the shaders.
     pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> Checked<'s> {
-        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new(), nowhere: "".into() }
+        let nowhere = "".into();
+        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new(), nowhere, remarks: Vec::new() }
     }
 
     /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.

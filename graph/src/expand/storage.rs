@@ -2,9 +2,11 @@
 
 use super::resources::Resources;
 use super::shader::{self, PARAMS, component_words, shape_words};
-use super::{arrays, parts, sampled, transfers, work};
+use super::coverage::Kept;
+use super::parts::Cells;
+use super::{accesses, arrays, parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
-use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
+use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface};
@@ -48,6 +50,39 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
             declared.and_then(|binding| allowed(&binding.kind)).unwrap_or((false, true))
         }
     }
+}
+
+/// Lets the writes of a pass that the file says nothing of keep what is there, where `holds` says that there is something.
+/// Returns what they keep.
+pub(super) fn keep(
+    resources: &Resources<'_>,
+    described: &language::Pass,
+    pass: &mut Pass,
+    holds: impl Fn(Resource, &Cells) -> bool,
+) -> Vec<Kept> {
+    let mut kept = Vec::new();
+    for storage in described.storage.iter().filter(|storage| storage.access.is_none()) {
+        let language::ResourceRef { resource: of, span } = storage.part.resource();
+        let name = &storage.binding.text;
+        let (read, write, range) = match of {
+            Resource::Image(_) => {
+                let Some(used) = pass.storage.iter_mut().find(|used| used.binding == *name) else { continue };
+                (&mut used.read, used.write, used.range)
+            }
+            Resource::Buffer(_) => {
+                let mut buffers = pass.buffers.iter_mut();
+                let Some(used) = buffers.find(|used| used.binding.as_ref() == Some(name)) else { continue };
+                let BufferRole::Storage { read, write } = &mut used.role else { continue };
+                (read, *write, Subresources::WHOLE)
+            }
+        };
+        let Some(cells) = accesses::part(resources, of, &range) else { continue };
+        if write && !*read && holds(of, &cells) {
+            *read = true;
+            kept.push(Kept { of, span });
+        }
+    }
+    kept
 }
 
 /// Adds a storage image or buffer to the frame's pass.

@@ -3,11 +3,12 @@
 use super::images::FrameImage;
 use super::resources::Resources;
 use super::shader::component_words;
-use super::{parts, transfers};
+use super::{coverage, parts, transfers};
 use crate::base::Diagnostic;
-use crate::frame::{Blend, TargetShape};
+use crate::frame::{Blend, Remark, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
-use crate::shader::ShaderInterface;
+use crate::ron::Name;
+use crate::shader::{ShaderInterface, Unset};
 use crate::vulkan::{Aspects, Component, Numeric, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
@@ -153,6 +154,29 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
             errors.push(wrong.label(first.part.image.span, layers(first.shape.layers)));
         }
     }
+}
+
+/// Every output that a target takes is set: one that never is, or a component of it, is a mistake, and one that isn't on some
+/// path is told of.
+pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) -> Vec<Remark> {
+    let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
+    let mut remarks = Vec::new();
+    for Unset { location, what, never, place, .. } in coverage::unset(pass, interface) {
+        let target = location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
+        let at = coverage::at(place.as_deref());
+        if *never {
+            let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
+            let help = "set it, or take out its target; `discard` leaves texels as they are";
+            errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
+        } else {
+            let text = format!(
+                "shader `{shader}` {what}{at}: its value is undefined there; set it before the branches, or `discard` \
+                 what is to stay as it is"
+            );
+            remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
+        }
+    }
+    remarks
 }
 
 /// Every colour target is fed by an output of the same type.

@@ -1,7 +1,7 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
 use super::resources::Resources;
-use super::{fills, parts, transfers};
+use super::{coverage, fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work};
 use crate::language::{self, Groups as Described, MOST_GROUPS};
@@ -32,8 +32,8 @@ pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface:
         draw,
         shader: shader.text.clone(),
         // Samples that aren't covered keep their contents.
-        discards: interface.is_some_and(|interface| interface.discards) || pass.alpha_to_coverage.is_some(),
-        per_sample: interface.is_some_and(|interface| interface.per_sample),
+        discards: interface.is_some_and(coverage::leaves_out) || pass.alpha_to_coverage.is_some(),
+        per_sample: coverage::per_sample(draw, interface),
     };
     match &pass.work {
         language::Work::Draw { draw: what, shader } => drawn(draw(what), shader),

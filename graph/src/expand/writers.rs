@@ -13,6 +13,14 @@ pub(super) struct Writer {
     pub(super) span: Span,
 }
 
+/// The number of an image or buffer, where buffers follow this many images.
+pub(super) fn number(images: usize, of: Resource) -> usize {
+    match of {
+        Resource::Image(index) => index.0 as usize,
+        Resource::Buffer(index) => images + index.0 as usize,
+    }
+}
+
 /// Writers of each image and buffer, in the order of passes.
 pub(super) struct Writers {
     images: usize,
@@ -47,10 +55,7 @@ impl Writers {
     }
 
     pub(super) fn index(&self, of: Resource) -> usize {
-        match of {
-            Resource::Image(index) => index.0 as usize,
-            Resource::Buffer(index) => self.images + index.0 as usize,
-        }
+        number(self.images, of)
     }
 
     /// The last pass before `position` that writes it.

@@ -58,6 +58,15 @@ impl Written {
         !self.all && self.rows.is_empty()
     }
 
+    /// Whether any of `cells` holds something.
+    pub(super) fn has_any(&self, cells: &Cells) -> bool {
+        let holds = |(plane, mip): (Aspects, u32)| {
+            let row = self.rows.get(&(plane, mip)).map_or(&[][..], Vec::as_slice);
+            row.iter().any(|there| there.start < cells.layers.end && cells.layers.start < there.end)
+        };
+        self.all || cells.mips.clone().any(|mip| cells.planes.into_iter().any(|plane| holds((plane, mip))))
+    }
+
     /// The first of `cells` that holds nothing.
     pub(super) fn missing(&self, cells: &Cells) -> Option<Cell> {
         if self.all {

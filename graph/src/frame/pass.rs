@@ -31,6 +31,11 @@ pub struct Pass {
     pub depth: Option<DepthTarget>,
     /// Whether the alpha of the first colour says how many samples are covered, where the targets have several.
     pub alpha_to_coverage: bool,
+    /// Whether the file promises that it sets every texel of its targets; blending and tests need what is there all the same.
+    pub covers: bool,
+    /// Why it may leave texels of its targets as they were although it fills the screen, in words; `None`: it sets them all, or it
+    /// doesn't fill the screen. If there are any words, a draw doesn't cover.
+    pub untouched: Option<Arc<str>>,
     /// Why its shader can't draw its depth alone, for images of fewer samples, if it can't.
     pub no_depth_only: Option<Arc<str>>,
     /// Why its shader can't draw into an image that is turned, if it can't, behind the name of the pass.
@@ -61,6 +66,8 @@ impl Pass {
             color: Vec::new(),
             depth: None,
             alpha_to_coverage: false,
+            covers: false,
+            untouched: None,
             no_depth_only: None,
             no_rotation: None,
             inserted: None,
@@ -81,9 +88,10 @@ pub enum Work {
         draw: Draw,
         /// The shader's name.
         shader: Arc<str>,
-        /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
+        /// Whether its fragment shader leaves samples out, as it does where it discards fragments: then a full-screen draw doesn't
+        /// cover.
         discards: bool,
-        /// Whether its fragment shader runs once a sample.
+        /// Whether it tells the samples of a texel apart, as a fragment shader does that runs once a sample.
         per_sample: bool,
     },
     /// Runs compute shaders.
@@ -145,7 +153,7 @@ pub enum Draw {
     Casters(Cascade),
     /// The sky, behind everything.
     Sky,
-    /// One triangle that covers every pixel.
+    /// One triangle that covers every pixel, unless the shader has a vertex stage of its own.
     FullScreen,
     /// Triangles: a number of vertices and instances. The vertex shader finds its data itself or in the pass's vertex
     /// buffers.

@@ -69,7 +69,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 12;
+pub const FORMAT_VERSION: u32 = 13;
 
 /// The work of a frame on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -16,6 +16,8 @@ pub enum Reason {
         load: LoadOp,
         /// The pass that uses the attachment first.
         first: Option<Arc<str>>,
+        /// Why that pass may leave texels as they were, if nothing else makes it need them.
+        untouched: Option<Arc<str>>,
         /// The store operation.
         store: StoreOp,
         /// The next use of its contents.
@@ -60,11 +62,17 @@ impl Display for Reason {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let name = |name: &Option<Arc<str>>| name.clone().unwrap_or_default();
         match self {
-            Reason::LoadStore { load, first, store, next } => {
+            Reason::LoadStore { load, first, untouched, store, next } => {
                 let first = name(first);
                 match load {
                     LoadOp::Clear => write!(f, "`{first}` clears it; "),
-                    LoadOp::Load => write!(f, "`{first}` continues on what is there; "),
+                    LoadOp::Load => match untouched {
+                        Some(why) => write!(
+                            f,
+                            "`{first}` may leave texels as they were: {why}; `covers: true` promises that it sets them all; "
+                        ),
+                        None => write!(f, "`{first}` continues on what is there; "),
+                    },
                     LoadOp::DontCare => write!(f, "`{first}` covers every pixel; "),
                 }?;
                 next.fmt_after(*store, f)

@@ -109,8 +109,13 @@ pub struct Pass {
     /// The pass of which it draws the depth again and nothing else: its shader is compiled for that (the macro
     /// `DEPTH_ONLY`), or left out where it would change nothing.
     pub redraws: Option<Arc<str>>,
-    /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
+    /// Whether its fragment shader leaves samples out, as it does where it discards fragments: then a full-screen draw doesn't
+    /// cover.
     pub discards: bool,
+    /// Why else a full-screen draw doesn't cover, in words, or why its shader leaves samples out.
+    pub untouched: Option<Arc<str>>,
+    /// Whether the file promises that it sets every texel of its targets, whatever its shader is known to do.
+    pub covers: bool,
     /// Whether the alpha that its shader writes at location 0 says how many samples are covered: it is compiled for that (the
     /// macro `ALPHA_TO_COVERAGE`).
     pub alpha_to_coverage: bool,

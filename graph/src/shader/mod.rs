@@ -32,11 +32,21 @@ pub struct ShaderInterface {
     pub outputs: Vec<FragmentOutput>,
     /// Whether the fragment stage may discard fragments.
     pub discards: bool,
+    /// Whether the fragment stage writes `gl_SampleMask`, and may leave out samples by it.
+    pub masks_samples: bool,
+    /// File and line, `FILE:LINE`, where it may leave out fragments or samples, if they are known.
+    pub leaves_out_at: Option<String>,
+    /// Outputs of the fragment stage that it doesn't set on every path, its depth included.
+    pub unset: Vec<Unset>,
+    /// The file of the vertex stage, of a full-screen draw whose vertex stage isn't the usual one: nothing is known of where its
+    /// triangle lies.
+    pub own_vertices: Option<String>,
     /// Whether the fragment stage reads `gl_FragCoord`.
     pub uses_frag_coord: bool,
     /// Whether the fragment stage takes screen-space derivatives, implicit ones included.
     pub uses_derivatives: bool,
-    /// Whether the fragment stage runs once a sample.
+    /// Whether the fragment stage may tell the samples of a texel apart: it runs once a sample, writes `gl_SampleMask` or reads
+    /// `gl_SampleMaskIn`.
     pub per_sample: bool,
     /// Whether the fragment stage writes its own depth.
     pub writes_depth: bool,
@@ -202,6 +212,21 @@ pub struct FragmentOutput {
     pub component: Component,
     /// Number of components.
     pub components: u32,
+}
+
+/// An output of a fragment stage that isn't set on every path. Vulkan leaves its value undefined there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unset {
+    /// Its location; `None`: it is the depth.
+    pub location: Option<u32>,
+    /// Its name in the shader.
+    pub name: String,
+    /// What the stage doesn't do, in words: "never sets `color.a`".
+    pub what: String,
+    /// Whether it, or a component of it, is set on no path at all.
+    pub never: bool,
+    /// File and line of its declaration, `FILE:LINE`, if they are known.
+    pub place: Option<String>,
 }
 
 /// Why a shader has no interface. Text from files inside is not yet escaped.

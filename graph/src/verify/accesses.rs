@@ -5,8 +5,8 @@
 //! `LATE_FRAGMENT_TESTS`. A `DONT_CARE` load or store is a write; a `NONE` store is nothing.
 //!
 //! Beside each access stands its effect on contents. Only some accesses are sure to set all that they name: a `CLEAR`
-//! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and every
-//! write without attachments. Undefined contents stay so, in part, after any other.
+//! load, a full-screen draw without blending, depth or stencil test to one layer whose shader is known to set all, or any draw
+//! that is promised to, a resolve, a whole copy, and every write without attachments. Undefined contents stay so, in part, after any other.
 
 use super::lookup::Scope;
 use super::parts::overlap;
@@ -262,14 +262,13 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
     let deep = pass.depth.is_some_and(|depth| depth.write);
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
     let mut targets = scope.color.iter().zip(&pass.blend);
-    pass.draw == Some(Draw::FullScreen)
-        && !pass.discards
-        && scope.layers == 1
-        && untested
-        && unmasked
+    let passes = untested && unmasked;
+    let proven = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.untouched.is_none() && passes;
+    scope.layers == 1
+        && (proven || pass.covers)
         && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
-            || deep && scope.depth.as_ref().is_some_and(same)
-            || set && scope.stencil.as_ref().is_some_and(same))
+            || passes && deep && scope.depth.as_ref().is_some_and(same)
+            || passes && set && scope.stencil.as_ref().is_some_and(same))
 }
 
 fn buffer_usage(accesses: Accesses) -> BufferUsage {

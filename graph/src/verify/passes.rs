@@ -157,7 +157,8 @@ impl<'p> Check<'_, 'p> {
         self.named(&pass.name);
         let drawn = pass.draw.is_some() || !pass.blend.is_empty() || pass.depth.is_some() || pass.stencil.is_some();
         let drawn = drawn || pass.redraws.is_some();
-        if drawn || pass.discards || pass.alpha_to_coverage || pass.local_barrier || pass.merged.is_some() {
+        let covers = pass.discards || pass.covers || pass.untouched.is_some() || pass.alpha_to_coverage;
+        if drawn || covers || pass.local_barrier || pass.merged.is_some() {
             self.wrong_pass(pass, "is no draw and has the state of one");
         }
     }

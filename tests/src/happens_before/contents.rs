@@ -341,11 +341,8 @@ impl Follower<'_> {
             let value = self.read(step, &of_attachment(attachment));
             read = read.zip(value).map(number);
         }
-        let sure = pass.draw == Some(Draw::FullScreen)
-            && tested.is_none()
-            && stencil_tested.is_none()
-            && !pass.discards
-            && scope.layers == 1;
+        let fills = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.untouched.is_none();
+        let sure = (pass.covers || fills && tested.is_none() && stencil_tested.is_none()) && scope.layers == 1;
         for (location, attachment) in scope.color.iter().enumerate() {
             if !writes(pass, attachment) {
                 continue;

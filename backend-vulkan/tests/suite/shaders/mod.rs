@@ -1,5 +1,6 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
+mod coverage;
 mod files;
 mod refusals;
 

@@ -34,6 +34,8 @@ struct Difference {
     texels: [usize; 2],
     /// The first of them, from the upper left corner; layers stand side by side.
     at: [usize; 2],
+    /// The words of the file that promise that the pass sets them all, if poison has refuted them.
+    refuted: Option<&'static str>,
 }
 
 /// Draws in both modes and says where they part.
@@ -63,7 +65,10 @@ pub(super) fn bisect(
     let (options, executor) = in_mode(mode, options, executor);
     let second = drawn(options, executor)?;
     let name = mode.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
-    let first_difference = first.iter().zip(&second).find_map(|(a, b)| difference(a, b));
+    let mut first_difference = first.iter().zip(&second).find_map(|(a, b)| difference(a, b));
+    if let Some(difference) = first_difference.as_mut().filter(|_| mode == DebugMode::Poison) {
+        difference.refuted = made.1.promise(&difference.pass, &difference.image);
+    }
     let found = Bisected { format_version: 1, mode: name, compared: first.len().min(second.len()), first_difference };
     if let Some(file) = &arguments.report {
         outputs::write(&[(file, text::json(&found)?.as_bytes())], read)?;
@@ -103,6 +108,7 @@ fn difference(a: &Captured, b: &Captured) -> Option<Difference> {
         image: a.capture.image.to_string(),
         texels: [1 + differ.count(), texels],
         at: [first % width, first / width],
+        refuted: None,
     })
 }
 
@@ -111,12 +117,17 @@ impl Bisected {
         let Bisected { mode, compared, first_difference, .. } = self;
         match first_difference {
             None => format!("all {compared} images after their passes are the same with and without `{mode}`\n"),
-            Some(Difference { pass, image, texels: [differ, all], at: [x, y] }) => format!(
-                "with and without `{mode}` the pictures part at pass `{}`: {differ} of {all} texels of `{}` differ, the first at \
-                 {x}, {y}\n",
-                text::escape(pass),
-                text::escape(image)
-            ),
+            Some(Difference { pass, image, texels: [differ, all], at: [x, y], refuted }) => {
+                let refuted = refuted.map_or_else(String::new, |words| {
+                    format!("; `{words}` promises that the pass sets them all, which is false")
+                });
+                format!(
+                    "with and without `{mode}` the pictures part at pass `{}`: {differ} of {all} texels of `{}` differ, the first \
+                     at {x}, {y}{refuted}\n",
+                    text::escape(pass),
+                    text::escape(image)
+                )
+            }
         }
     }
 }

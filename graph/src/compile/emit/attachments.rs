@@ -6,7 +6,9 @@ use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
 use crate::plan::{Attachment, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
+use crate::frame::Blend;
 use crate::vulkan::{Layout, LoadOp};
+use std::sync::Arc;
 
 pub(super) fn scope(results: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(results, scope);
@@ -107,12 +109,27 @@ fn attachment_resolve(results: &StageResults<'_>, number: u32) -> Option<Attachm
     })
 }
 
+/// Why the pass that uses a loaded attachment first may leave texels of it as they were, if it would set them all otherwise.
+fn untouched(results: &StageResults<'_>, ops: &AttachmentOps) -> Option<Arc<str>> {
+    let OpKind::Draw(number) = results.adapted.ops.get(ops.first as usize)?.kind else { return None };
+    let pass = &results.frame.passes[number as usize];
+    let untouched = pass.untouched.as_ref()?;
+    let uses = results.adapted.uses(ops.first);
+    let used = uses.iter().find(|used| used.role == ops.role && Target::of(results.adapted, used) == ops.target)?;
+    let replaces = match ops.role {
+        Role::Color => pass.color.get(used.entry as usize)?.blend == Blend::Replace,
+        _ => pass.depth.as_ref()?.write,
+    };
+    replaces.then(|| untouched.clone())
+}
+
 /// Why an attachment has these operations.
 fn reason(results: &StageResults<'_>, ops: &AttachmentOps) -> Reason {
     let name = |op: u32| op_name(results.frame, results.adapted, op).cloned();
     Reason::LoadStore {
         load: ops.load,
         first: if ops.first == u32::MAX { None } else { name(ops.first) },
+        untouched: if ops.load == LoadOp::Load { untouched(results, ops) } else { None },
         store: ops.store,
         next: match ops.next {
             Next::Op(op) => name(op).map_or(NextUse::Transfer, NextUse::Pass),

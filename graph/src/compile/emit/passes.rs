@@ -224,6 +224,8 @@ fn weighted(mut pass: Pass) -> Pass {
 /// Adds the state that only draws have.
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
+    planned.untouched.clone_from(&declared.untouched);
+    planned.covers = declared.covers;
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
     let uses_plane = |role| uses.iter().any(|used| used.role == role);
     let depth = declared.depth.as_ref();
@@ -243,6 +245,8 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         shader,
         redraws: None,
         discards: false,
+        untouched: None,
+        covers: false,
         alpha_to_coverage: false,
         blend: Vec::new(),
         depth: None,

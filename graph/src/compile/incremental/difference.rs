@@ -153,6 +153,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         color,
         depth,
         alpha_to_coverage,
+        covers,
+        untouched,
         no_depth_only,
         no_rotation,
         inserted,
@@ -164,7 +166,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
-        && (old.side_effect == *side_effect) & (old.alpha_to_coverage == *alpha_to_coverage)
+        && (old.side_effect == *side_effect) & (old.alpha_to_coverage == *alpha_to_coverage) & (old.covers == *covers)
+        && same_option(&old.untouched, untouched)
         && same_option(&old.no_depth_only, no_depth_only)
         && same_option(&old.no_rotation, no_rotation)
         && same_option(&old.inserted, inserted)

@@ -133,7 +133,8 @@ fields! {
         /// How many frames back; only for buffers with history, and only to read.
         previous: Option<Leaf<'src>> => parts::PREVIOUS,
         /// The access; as the shader declares it if left out. `Write` promises that all of it is written and nothing of
-        /// it read before: `ReadWrite` is for atomics, and for writes here and there.
+        /// it read before: `ReadWrite` is for atomics, and for writes here and there. A shader that declares it `writeonly`
+        /// promises nothing: what it doesn't write is kept.
         access: Option<Leaf<'src>> => Form::Choice("an access", || names(&ACCESSES)),
     }
 }

@@ -54,6 +54,8 @@ fields! {
         /// `true`: the alpha that the shader writes at location 0 tells how many samples of a texel are covered, where its
         /// targets have several; not if left out.
         pub(crate) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,
+        /// `true`: promises that it sets every texel of its targets, where that [isn't proven](#what-a-pass-leaves-untouched).
+        pub(crate) covers: Option<Leaf<'src>> => Form::Truth,
         /// Images and buffers, or parts of them, that it reads by transfer.
         pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
         /// Images and buffers, or parts of them, that it writes by transfer; all of each is written.

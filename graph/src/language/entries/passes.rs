@@ -69,15 +69,16 @@ impl Context<'_> {
         let color = optional(fields.color, |leaf| self.color_targets(leaf));
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
+        let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
         let bindings = (IfRead(sample), IfRead(storage), IfRead(uniform), IfRead(params));
-        let targets = (IfRead(color), IfRead(depth), IfRead(alpha_to_coverage));
+        let targets = (IfRead(color), IfRead(depth), IfRead(alpha_to_coverage), IfRead(covers));
         let parts = (IfRead(work), bindings, (IfRead(vertex), IfRead(index)), targets, IfRead(side_effect));
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
             let (sample, storage, uniform, params) = bindings;
-            let (color, depth, alpha_to_coverage) = targets;
+            let (color, depth, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
                 targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
@@ -97,6 +98,7 @@ impl Context<'_> {
                 color: color?.unwrap_or_default(),
                 depth: depth?,
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
+                covers: covers?.unwrap_or_default(),
                 params: params?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),

@@ -8,7 +8,7 @@ use crate::ron::{Reader, Shape};
 use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
+pub(crate) const GOES_WITH: [(&str, &[&str]); 14] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
@@ -20,6 +20,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
     ("color", &["draw", "custom"]),
     ("depth", &["draw", "custom"]),
     ("alpha_to_coverage", &["draw"]),
+    ("covers", &["draw", "custom"]),
     ("reads", &["custom"]),
     ("writes", &["custom"]),
 ];
@@ -93,6 +94,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         fields.color,
         fields.depth,
         fields.alpha_to_coverage,
+        fields.covers,
         fields.reads,
         fields.writes,
     ];

@@ -39,6 +39,8 @@ pub struct Pass {
     pub depth: Option<Depth>,
     /// The place of `alpha_to_coverage`, if it is on: the alpha of the first colour tells how many samples are covered.
     pub alpha_to_coverage: Option<Span>,
+    /// Whether the file promises that it sets every texel of its targets.
+    pub covers: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
@@ -354,6 +356,7 @@ impl Pass {
             color: Vec::new(),
             depth: None,
             alpha_to_coverage: None,
+            covers: false,
             params: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),

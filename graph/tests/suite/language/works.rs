@@ -134,7 +134,9 @@ fn storage_is_accessed_as_the_shader_declares_it_unless_the_file_says_so() {
         let fields = format!(r#"dispatch: "count_up", groups: Count(1), storage: {{"counts": {access}}}"#);
         pass(&fields).buffers[0].role
     };
-    assert_eq!(write_only("\"counts\""), BufferRole::Storage { read: false, write: true });
+    // That a shader doesn't read says nothing of how much it writes: what earlier frames left is kept.
+    assert_eq!(write_only("\"counts\""), BufferRole::Storage { read: true, write: true });
+    assert_eq!(write_only("(buffer: \"counts\", access: Write)"), BufferRole::Storage { read: false, write: true });
     // A shader that writes here and there keeps the rest.
     assert_eq!(write_only("(buffer: \"counts\", access: ReadWrite)"), BufferRole::Storage { read: true, write: true });
 }
@@ -149,7 +151,8 @@ fn a_storage_image_is_one_mip_level() {
     let level = |base_mip| Subresources { aspects: Aspects::empty(), base_mip, mips: 1, base_layer: 1, layers: 1 };
     assert_eq!(pass.sampled[0].range, level(0));
     assert_eq!(pass.storage[0].range, level(1));
-    assert_eq!((pass.storage[0].read, pass.storage[0].write), (false, true));
+    // It persists, so what isn't written is kept.
+    assert_eq!((pass.storage[0].read, pass.storage[0].write), (true, true));
 }
 
 #[test]

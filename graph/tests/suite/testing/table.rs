@@ -4,7 +4,7 @@ use framewright_graph::base::Quote;
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
-    ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
+    ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Unset, Variant, VertexInput,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
@@ -63,6 +63,13 @@ fn outputs(count: u32, component: Component, components: u32) -> Vec<FragmentOut
 fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
     let asks_part = sampled(&bindings);
     ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), asks_part, ..ShaderInterface::default() }
+}
+
+/// The first output, not set on some path or on none.
+fn unset(never: bool) -> Unset {
+    let what = if never { "never sets `color_0`" } else { "doesn't set `color_0` on every path" };
+    let place = Some("unset.frag:3".to_owned());
+    Unset { location: Some(0), name: "color_0".to_owned(), what: what.to_owned(), never, place }
 }
 
 /// The names of the sampled images among `bindings`.
@@ -403,6 +410,16 @@ impl ShaderInterfaces for Table {
                 interface
             }
             "holes" => ShaderInterface { discards: true, ..full_screen(vec![]) },
+            "masks" => ShaderInterface {
+                masks_samples: true,
+                per_sample: true,
+                leaves_out_at: Some("masks.frag:4".to_owned()),
+                ..full_screen(vec![])
+            },
+            "part" => ShaderInterface { own_vertices: Some("part.vert".to_owned()), ..full_screen(vec![]) },
+            "forgets" => ShaderInterface { unset: vec![unset(false)], ..full_screen(vec![]) },
+            "never_sets" => ShaderInterface { unset: vec![unset(true)], ..full_screen(vec![]) },
+            "unmasked" => ShaderInterface { masks_samples: !variant.depth_only, ..lit(false) },
             "around" => full_screen(vec![shaped("source", Dimension::Cube, false)]),
             "layered" => full_screen(vec![shaped("source", Dimension::D2, true)]),
             "deep" => full_screen(vec![shaped("source", Dimension::D3, false)]),

@@ -294,8 +294,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 12", "\"format_version\": 13"),
-        "the Plan has format version 13, this program reads version 12: compile it again"
+        changed("\"format_version\": 13", "\"format_version\": 14"),
+        "the Plan has format version 14, this program reads version 13: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");

@@ -52,4 +52,5 @@ mod temporal_noise;
 mod texture_declarations;
 mod tone_mapping;
 mod tone_mapping_operators;
+mod untouched;
 mod views;

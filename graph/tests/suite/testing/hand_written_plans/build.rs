@@ -149,6 +149,8 @@ pub(crate) fn draw(
         redraws: None,
         alpha_to_coverage: false,
         discards: false,
+        untouched: None,
+        covers: false,
         blend: blend.to_vec(),
         depth,
         stencil: None,
