@@ -2,7 +2,8 @@
 //!
 //! An output counts as set where each path through the control flow graph, from the beginning of the entry point to its end,
 //! stores to all its components, in the entry point itself or in functions that it calls. A path that ends the invocation has
-//! no outputs. Both ways of a branch count as taken, but for one on a constant, and a loop may end before its first round.
+//! no outputs. Both ways of a branch count as taken, but for one on a constant, and a loop may end before its first round. Where it
+//! would do that each loop has a round, and that an index takes all its values, an output is taken for perhaps set.
 
 use super::module::{IndexedModule, id, storage_class};
 use framewright_graph::shader::Unset;
@@ -44,17 +45,19 @@ pub(super) fn unset(module: &IndexedModule<'_>) -> Vec<Unset> {
     let (Some(entry), false) = (entry, outputs.variables.is_empty()) else { return Vec::new() };
     let functions: HashMap<u32, &Function> =
         module.module.functions.iter().filter_map(|it| Some((it.def.as_ref()?.result_id?, it))).collect();
-    let mut always = HashMap::new();
+    let order = callees_first(entry, &functions);
     let mut ever = Set::none(outputs.bits);
-    // A function is looked at after those that it calls.
-    for number in callees_first(entry, &functions) {
-        let Some(function) = functions.get(&number) else { continue };
-        let set = Paths::of(module, function, &outputs, &always, &mut ever).set_at_the_end();
-        always.insert(number, set);
-    }
-    let always = always.remove(&entry).unwrap_or_else(|| Set::none(outputs.bits));
+    let [always, perhaps] = [Rounds::AnyNumber, Rounds::AtLeastOne].map(|rounds| {
+        let mut always = HashMap::new();
+        // A function is looked at after those that it calls.
+        for function in order.iter().filter_map(|number| functions.get(number).copied()) {
+            let set = Paths::of(module, function, &outputs, (&always, rounds), &mut ever).set_at_the_end();
+            always.extend(function.def.as_ref().and_then(|def| def.result_id).map(|number| (number, set)));
+        }
+        always.remove(&entry).unwrap_or_else(|| Set::none(outputs.bits))
+    });
     let mut unset: Vec<Unset> =
-        outputs.variables.iter().flat_map(|it| it.unset(module, &always, &ever)).collect();
+        outputs.variables.iter().flat_map(|it| it.unset(module, [&always, &perhaps, &ever])).collect();
     unset.sort_by_key(|it| it.location);
     unset
 }
@@ -120,13 +123,14 @@ struct Output {
 }
 
 impl Output {
-    /// Those of its elements that aren't set on every path.
-    fn unset(&self, module: &IndexedModule<'_>, always: &Set, ever: &Set) -> Vec<Unset> {
+    /// Those of its elements that aren't set on every path, with how much of them is set on every path, is so perhaps, and is set
+    /// on any.
+    fn unset(&self, module: &IndexedModule<'_>, [always, perhaps, ever]: [&Set; 3]) -> Vec<Unset> {
         let name = module.name(self.variable);
         let element = |number: usize| {
             let first = self.first + number * self.components;
             let lacks = |set: &Set| (0..self.components).filter(|at| !set.has(first + at)).collect::<Vec<_>>();
-            let (never, sometimes) = (lacks(ever), lacks(always));
+            let (never, sometimes, refused) = (lacks(ever), lacks(always), !lacks(perhaps).is_empty());
             if sometimes.is_empty() {
                 return None;
             }
@@ -141,7 +145,7 @@ impl Output {
                 false => format!("never sets `{name}{place}{letters}`"),
             };
             let location = self.location.map(|location| location.saturating_add(u32::try_from(number).unwrap_or(u32::MAX)));
-            Some(Unset { location, name: name.to_owned(), what, never: !never.is_empty(), place: None })
+            Some(Unset { location, name: name.to_owned(), what, refused, place: None })
         };
         (0..self.elements).filter_map(element).collect()
     }
@@ -224,6 +228,15 @@ enum Index {
     Unknown,
 }
 
+/// How many rounds a loop is taken to have, and which of its values an index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rounds {
+    /// Any number, and any of them.
+    AnyNumber,
+    /// One at least, and all of them.
+    AtLeastOne,
+}
+
 /// The control flow graph of a function, with what is set in each block.
 struct Paths {
     blocks: Vec<Block>,
@@ -243,7 +256,7 @@ impl Paths {
         module: &IndexedModule<'_>,
         function: &Function,
         outputs: &Outputs,
-        always: &HashMap<u32, Set>,
+        (always, rounds): (&HashMap<u32, Set>, Rounds),
         ever: &mut Set,
     ) -> Paths {
         let bits = outputs.bits;
@@ -251,7 +264,9 @@ impl Paths {
         let numbers: HashMap<u32, usize> =
             function.blocks.iter().enumerate().filter_map(|(number, block)| Some((label(block)?, number))).collect();
         let mut chains: HashMap<u32, (u32, Vec<Index>)> = HashMap::new();
-        let mut blocks = Vec::with_capacity(function.blocks.len());
+        let mut blocks: Vec<Block> = Vec::with_capacity(function.blocks.len());
+        // The header of each loop, the block behind it, and the one that leads to its next round.
+        let mut loops = Vec::new();
         for block in &function.blocks {
             let (mut sets, mut next, mut returns) = (Set::none(bits), Vec::new(), false);
             let mut leads_to = |label: Option<u32>| next.extend(label.and_then(|label| numbers.get(&label).copied()));
@@ -275,7 +290,7 @@ impl Paths {
                     Op::Store | Op::CopyMemory => {
                         let Some((range, known)) = id(it, 0).and_then(|to| outputs.pointed_to(to, &chains)) else { continue };
                         ever.add(range.clone());
-                        if known {
+                        if known || rounds == Rounds::AtLeastOne {
                             sets.add(range);
                         }
                     }
@@ -289,6 +304,7 @@ impl Paths {
                     }
                     // What follows has no effect.
                     Op::DemoteToHelperInvocation => sets = Set::all(bits),
+                    Op::LoopMerge => loops.push((blocks.len(), id(it, 0), id(it, 1))),
                     Op::Branch => leads_to(id(it, 0)),
                     Op::BranchConditional => {
                         let condition = id(it, 0).and_then(|condition| module.global(condition)).map(|it| it.class.opcode);
@@ -309,6 +325,19 @@ impl Paths {
                 }
             }
             blocks.push(Block { sets, next, returns });
+        }
+        for (header, behind, again) in loops.into_iter().filter(|_| rounds == Rounds::AtLeastOne) {
+            let number = |label: Option<u32>| label.and_then(|label| numbers.get(&label).copied());
+            let (Some(behind), Some(again)) = (number(behind), number(again)) else { continue };
+            // The condition stands in the header, or right behind it.
+            let first = match blocks[header].next[..] {
+                [next] => next,
+                _ => header,
+            };
+            if blocks[first].next.len() > 1 && blocks[first].next.contains(&behind) {
+                blocks[first].next.retain(|next| *next != behind);
+                blocks[again].next.push(behind);
+            }
         }
         Paths { blocks, bits }
     }

@@ -156,23 +156,19 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
     }
 }
 
-/// Every output that a target takes is set: one that never is, or a component of it, is a mistake, and one that isn't on some
-/// path is told of.
+/// Every output that a target takes is set: one that some path leaves is a mistake, or told of where that isn't sure.
 pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) -> Vec<Remark> {
     let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
     let mut remarks = Vec::new();
-    for Unset { location, what, never, place, .. } in coverage::unset(pass, interface) {
+    for Unset { location, what, refused, place, .. } in coverage::unset(pass, interface) {
         let target = location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
         let at = coverage::at(place.as_deref());
-        if *never {
-            let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
-            let help = "set it, or take out its target; `discard` leaves texels as they are";
+        let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
+        if *refused {
+            let help = "set it at the beginning of `main`; `discard` leaves texels as they were";
             errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
         } else {
-            let text = format!(
-                "shader `{shader}` {what}{at}: its value is undefined there; set it before the branches, or `discard` \
-                 what is to stay as it is"
-            );
+            let text = format!("{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`");
             remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
         }
     }

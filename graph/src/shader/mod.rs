@@ -223,8 +223,8 @@ pub struct Unset {
     pub name: String,
     /// What the stage doesn't do, in words: "never sets `color.a`".
     pub what: String,
-    /// Whether it, or a component of it, is set on no path at all.
-    pub never: bool,
+    /// Whether that is sure: the path doesn't depend on how many rounds a loop has, nor on an index.
+    pub refused: bool,
     /// File and line of its declaration, `FILE:LINE`, if they are known.
     pub place: Option<String>,
 }

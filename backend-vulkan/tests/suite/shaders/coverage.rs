@@ -12,9 +12,9 @@ fn reflected(fragment: &str) -> ShaderInterface {
     drawn(Draw::FullScreen, &[("test.frag", &fragment), ("test.vert", quad)]).unwrap_or_else(|why| panic!("{fragment}: {why:?}"))
 }
 
-/// What a stage doesn't set, in words.
-fn unset(fragment: &str) -> Vec<String> {
-    reflected(fragment).unset.into_iter().map(|unset| unset.what).collect()
+/// What a stage doesn't set, in words, and whether that is sure.
+fn unset(fragment: &str) -> Vec<(String, bool)> {
+    reflected(fragment).unset.into_iter().map(|unset| (unset.what, unset.refused)).collect()
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn an_output_that_every_path_sets_is_set() {
         "layout(location = 1) out uint id; void main() { color = vec4(0.0); id = 7u; }",
         "void main() { color = vec4(0.0); gl_FragDepth = uv.x; }",
     ] {
-        assert_eq!(unset(fragment), [""; 0], "{fragment}");
+        assert!(unset(fragment).is_empty(), "{fragment}: {:?}", unset(fragment));
     }
 }
 
@@ -51,9 +51,7 @@ fn an_output_that_some_path_leaves_is_told_with_its_components() {
         ("void main() { if (uv.x < 0.5) return; color = vec4(1.0); }", on_every_path("color")),
         ("void main() { if (uv.x < 0.5) color = vec4(1.0); }", on_every_path("color")),
         ("void main() { color.rgb = vec3(1.0); if (uv.x < 0.5) color.a = 1.0; }", on_every_path("color.w")),
-        ("void main() { for (int i = 0; i < int(uv.x); ++i) color = vec4(1.0); }", on_every_path("color")),
         ("void main() { switch (int(uv.x * 4.0)) { case 0: color = vec4(0.0); break; case 1: color = vec4(1.0); } }", on_every_path("color")),
-        ("void main() { color[int(uv.x * 3.0)] = 1.0; }", on_every_path("color")),
         ("void set(float x) { if (x < 0.5) color = vec4(x); } void main() { set(uv.x); }", on_every_path("color")),
         ("void main() { color = vec4(0.0); if (uv.x < 0.5) gl_FragDepth = uv.x; }", on_every_path("gl_FragDepth")),
         ("void main() { color.rgb = vec3(1.0); }", never("color.w")),
@@ -66,15 +64,34 @@ fn an_output_that_some_path_leaves_is_told_with_its_components() {
         ),
     ] {
         let found = unset(fragment);
-        assert_eq!(found, [expected], "{fragment}");
+        assert_eq!(found, [(expected, true)], "{fragment}");
     }
+}
+
+#[test]
+fn what_hangs_on_the_rounds_of_a_loop_or_on_an_index_is_not_sure() {
+    for fragment in [
+        "void main() { for (int i = 0; i < int(uv.x); ++i) color = vec4(1.0); }",
+        "void main() { int i = 0; while (i < int(uv.x)) { ++i; color = vec4(1.0); } }",
+        "void main() { for (int i = 0; i < 4; ++i) color[i] = 1.0; }",
+        "void main() { color[int(uv.x * 3.0)] = 1.0; }",
+        "void main() { for (int i = 0; i < 4; ++i) { if (uv.x < 0.5) continue; color = vec4(1.0); } color.x = 0.0; }",
+    ] {
+        let found = unset(fragment);
+        let [(what, refused)] = &found[..] else { panic!("{fragment}: {found:?}") };
+        assert_eq!(*refused, fragment.contains("continue"), "{fragment}: {what}");
+    }
+    let array = "layout(location = 1) out vec4 more[2];
+        void main() { color = vec4(0.0); for (int i = 0; i < 2; ++i) more[i] = vec4(float(i)); }";
+    let found = unset(array);
+    assert!(found.len() == 2 && found.iter().all(|(_, refused)| !refused), "{found:?}");
 }
 
 #[test]
 fn what_is_not_set_has_its_location_and_its_line() {
     let unset = reflected("layout(location = 3) out vec4 more[2];\nvoid main() { color = vec4(0.0); more[0] = color; }").unset;
     let [unset] = &unset[..] else { panic!("{unset:?}") };
-    assert_eq!((unset.location, unset.never), (Some(4), true));
+    assert_eq!((unset.location, unset.refused), (Some(4), true));
     assert!(unset.place.as_deref().is_some_and(|place| place.ends_with("test.frag:3")), "{unset:?}");
 }
 

@@ -134,7 +134,7 @@ fn a_first_writer_that_may_leave_texels_is_refused_with_the_line_and_the_promise
 }
 
 #[test]
-fn an_output_that_is_never_set_is_refused_and_one_that_some_path_leaves_is_told() {
+fn an_output_that_some_path_leaves_is_refused_or_told_of_where_that_is_not_sure() {
     let drawn = |shader: &str| {
         let text = format!(
             r#"Pipeline(version: 1, images: [(name: "screen", format: Output, size: Output)],

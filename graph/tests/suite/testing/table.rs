@@ -65,11 +65,11 @@ fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
     ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), asks_part, ..ShaderInterface::default() }
 }
 
-/// The first output, not set on some path or on none.
-fn unset(never: bool) -> Unset {
-    let what = if never { "never sets `color_0`" } else { "doesn't set `color_0` on every path" };
+/// The first output, perhaps not set on some path, or surely.
+fn unset(refused: bool) -> Unset {
+    let what = if refused { "never sets `color_0`" } else { "doesn't set `color_0` on every path" };
     let place = Some("unset.frag:3".to_owned());
-    Unset { location: Some(0), name: "color_0".to_owned(), what: what.to_owned(), never, place }
+    Unset { location: Some(0), name: "color_0".to_owned(), what: what.to_owned(), refused, place }
 }
 
 /// The names of the sampled images among `bindings`.
