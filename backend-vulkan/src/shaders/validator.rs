@@ -132,7 +132,7 @@ mod told {
             Debug { names, line }
         }
 
-        /// A message with names in place of `'12[%12]'`, and the names.
+        /// A message with names in place of `'12[%12]'` and `id 12`, and the names.
         fn with_names(&self, words: &str) -> (String, Vec<String>) {
             let (mut said, mut named) = (String::new(), Vec::new());
             let mut rest = words;
@@ -151,19 +151,19 @@ mod told {
         }
     }
 
-    /// What stands before the next `'12[%12]'`, its number, and what stands behind it.
+    /// What stands before the next `'12[%12]'` or `id 12`, its number, and what stands behind it.
     fn next_id(words: &str) -> Option<(&str, u32, &str)> {
-        let mut from = 0;
-        loop {
-            let start = from + words.get(from..)?.find('\'')?;
-            let inside = &words[start + 1..];
+        let ids = words.match_indices(['\'', 'i']).filter_map(|(start, _)| {
+            let inside = words[start..].strip_prefix('\'').or(words[start..].strip_prefix("id "))?;
             let digits = inside.len() - inside.trim_start_matches(|letter: char| letter.is_ascii_digit()).len();
-            let end = inside[digits..].starts_with("[%").then(|| inside.find("]'")).flatten();
-            match (inside[..digits].parse(), end) {
-                (Ok(id), Some(end)) => return Some((&words[..start], id, &inside[end + 2..])),
-                _ => from = start + 1,
-            }
-        }
+            let (id, behind) = inside.split_at(digits);
+            let behind = match words[start..].starts_with('\'') {
+                true => behind.strip_prefix("[%")?.split_once("]'")?.1,
+                false => behind,
+            };
+            Some((&words[..start], id.parse().ok()?, behind))
+        });
+        ids.into_iter().next()
     }
 
     /// A literal string: bytes up to a zero.
