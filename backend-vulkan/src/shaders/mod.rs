@@ -21,6 +21,7 @@ mod rotation;
 mod spirv_cache;
 mod stages;
 mod text;
+mod varyings;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled::PrecompiledShaders;

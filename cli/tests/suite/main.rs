@@ -50,6 +50,7 @@ mod scene_notes;
 mod serving;
 mod settings;
 mod shader_files;
+mod shader_interfaces;
 mod shipped_pictures;
 mod stereo;
 mod study;
