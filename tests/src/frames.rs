@@ -77,13 +77,13 @@ impl Added<'_> {
         self.target(image, None, blend)
     }
 
-    fn target(self, image: ImageIndex, clear: Option<[f32; 4]>, blend: Blend) -> Self {
+    fn target(self, image: ImageIndex, clear: Option<[f64; 4]>, blend: Blend) -> Self {
         self.0.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
         self
     }
 
     /// It tests depth and writes it, from a clear value if there is one.
-    pub fn depth(self, image: ImageIndex, clear: Option<f32>, write: bool) -> Self {
+    pub fn depth(self, image: ImageIndex, clear: Option<f64>, write: bool) -> Self {
         self.0.depth = Some(DepthTarget {
             image,
             range: Subresources::WHOLE,

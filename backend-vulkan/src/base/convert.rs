@@ -133,21 +133,23 @@ pub(crate) fn extent([width, height, depth]: [u32; 3]) -> vk::Extent3D {
     vk::Extent3D { width, height, depth }
 }
 
-/// A colour attachment's clear value in the form that its components need.
-pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValue {
+/// A colour attachment's clear value in the form that its components need. The format holds it.
+pub(crate) fn clear_color(format: Format, value: [f64; 4]) -> vk::ClearColorValue {
     match format.numeric() {
         Numeric::Uint => {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, as a clear should")]
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the format holds it")]
             let uint32 = value.map(|component| component as u32);
             vk::ClearColorValue { uint32 }
         }
         Numeric::Sint => {
-            #[allow(clippy::cast_possible_truncation, reason = "saturates, as a clear should")]
+            #[allow(clippy::cast_possible_truncation, reason = "the format holds it")]
             let int32 = value.map(|component| component as i32);
             vk::ClearColorValue { int32 }
         }
         Numeric::Sfloat | Numeric::Ufloat | Numeric::Unorm | Numeric::Snorm | Numeric::Srgb => {
-            vk::ClearColorValue { float32: value }
+            #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
+            let float32 = value.map(|component| component as f32);
+            vk::ClearColorValue { float32 }
         }
     }
 }
@@ -178,7 +180,7 @@ pub(crate) fn clear(format: Option<Format>, value: FillValue) -> Clear {
             Clear::DepthStencil(vk::ClearDepthStencilValue { depth, stencil })
         }
         (Some(_), FillValue::Bits(uint32)) => Clear::Color(vk::ClearColorValue { uint32 }),
-        (Some(format), FillValue::Color(color)) => Clear::Color(clear_color(format, color)),
-        (Some(format), FillValue::Depth(value, _)) => Clear::Color(clear_color(format, [value; 4])),
+        (Some(format), FillValue::Color(color)) => Clear::Color(clear_color(format, color.map(f64::from))),
+        (Some(format), FillValue::Depth(value, _)) => Clear::Color(clear_color(format, [value.into(); 4])),
     }
 }

@@ -3,7 +3,9 @@
 use crate::gpu::VertexAttribute;
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind, VertexInput};
+use framewright_graph::shader::{
+    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, SuppliedKind, VertexInput, VertexLayout,
+};
 use framewright_graph::vulkan::Component;
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.
@@ -75,58 +77,38 @@ pub(crate) fn brought_attributes(
         let found = found.ok_or_else(|| format!("vertices of this kind of draw have no `{}`", input.name))?;
         if !input.is_float() {
             let (name, ty) = (&input.name, &input.ty);
-            return Err(format!("the vertex attribute `{name}` is a {ty}, and floats are brought along"));
+            let what = format!("the vertex attribute `{name}` is a {ty} at component {}", input.component);
+            return Err(format!("{what}, and floats at locations of their own are brought along"));
         }
-        let format = attribute_format('f', found.components);
+        let format = attribute_format(Component::Float, found.components);
         Ok(VertexAttribute { location: input.location, binding: 0, format, offset: found.offset })
     };
     shader.vertex_inputs.iter().map(attribute).collect()
 }
 
-/// The vertex attributes from the pass's own vertex buffers, with the bytes from vertex to vertex of each: out of one
-/// buffer all attributes of a vertex, in the order of their locations and without gaps; out of several, one attribute each.
-/// Components are 32 bits wide and of the type that the shader declares.
+/// The vertex attributes from the pass's own vertex buffers, with the bytes from vertex to vertex of each.
 pub(crate) fn own_attributes(
     shader: &ShaderInterface,
     buffers: usize,
 ) -> Result<(Vec<VertexAttribute>, Vec<u32>), String> {
-    let mut inputs: Vec<&VertexInput> = shader.vertex_inputs.iter().collect();
-    inputs.sort_by_key(|it| it.location);
-    if buffers != 1 && buffers != inputs.len() {
-        let wanted = inputs.len();
-        return Err(format!(
-            "it has {buffers} vertex buffers for {wanted} vertex attributes: one buffer, or one for each"
-        ));
-    }
-    let (mut attributes, mut strides) = (Vec::new(), vec![0; buffers]);
-    for (number, input) in (0_u32..).zip(inputs) {
-        let (kind, components) = match input.ty.as_str() {
-            "float" => ('f', 1),
-            "int" => ('i', 1),
-            "uint" => ('u', 1),
-            ty => {
-                let kind = ty.strip_prefix("vec").map(|n| ('f', n)).or(ty.strip_prefix("ivec").map(|n| ('i', n)));
-                let kind = kind.or(ty.strip_prefix("uvec").map(|n| ('u', n)));
-                let parsed = kind.and_then(|(kind, count)| Some((kind, count.parse().ok()?)));
-                parsed.ok_or_else(|| format!("the vertex attribute `{}` is a {ty}", input.name))?
-            }
-        };
-        let binding = if buffers == 1 { 0 } else { number };
-        let stride: &mut u32 = &mut strides[binding as usize];
-        let format = attribute_format(kind, components);
-        attributes.push(VertexAttribute { location: input.location, binding, format, offset: *stride });
-        *stride += 4 * components;
-    }
-    Ok((attributes, strides))
+    let VertexLayout { locations, strides } =
+        VertexLayout::of(&shader.vertex_inputs, buffers).map_err(|fault| fault.message)?;
+    let attribute = |it: &LocationLayout| VertexAttribute {
+        location: it.location,
+        binding: it.buffer as u32,
+        format: attribute_format(it.kind, it.components),
+        offset: it.offset,
+    };
+    Ok((locations.iter().map(attribute).collect(), strides))
 }
 
-/// The format of an attribute of floats (`f`), signed (`i`) or unsigned integers (`u`).
-fn attribute_format(kind: char, components: u32) -> vk::Format {
+/// The format of an attribute of 32-bit components.
+fn attribute_format(kind: Component, components: u32) -> vk::Format {
     use vk::Format as F;
     let formats = match kind {
-        'i' => [F::R32_SINT, F::R32G32_SINT, F::R32G32B32_SINT, F::R32G32B32A32_SINT],
-        'u' => [F::R32_UINT, F::R32G32_UINT, F::R32G32B32_UINT, F::R32G32B32A32_UINT],
-        _ => [F::R32_SFLOAT, F::R32G32_SFLOAT, F::R32G32B32_SFLOAT, F::R32G32B32A32_SFLOAT],
+        Component::Int => [F::R32_SINT, F::R32G32_SINT, F::R32G32B32_SINT, F::R32G32B32A32_SINT],
+        Component::Uint => [F::R32_UINT, F::R32G32_UINT, F::R32G32B32_UINT, F::R32G32B32A32_UINT],
+        Component::Float => [F::R32_SFLOAT, F::R32G32_SFLOAT, F::R32G32B32_SFLOAT, F::R32G32B32A32_SFLOAT],
     };
     formats[(components.clamp(1, 4) - 1) as usize]
 }

@@ -110,7 +110,11 @@ fn attachment(frame: &Frame<'_>, planned: &Attachment) -> Result<vk::RenderingAt
                 let stencil = u32::from(value[0] as u8);
                 vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil } }
             }
-            _ => vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: value[0], stencil: 0 } },
+            _ => {
+                #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
+                let depth = value[0] as f32;
+                vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } }
+            }
         }),
         _ => info,
     })

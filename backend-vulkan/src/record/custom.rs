@@ -91,13 +91,16 @@ impl<'f> CustomRecorder<'f> {
         pass.accesses.iter().map(image).chain(pass.buffers.iter().map(buffer))
     }
 
-    /// Sets all that the pass may write of an image or buffer to a value.
+    /// Sets all that the pass may write of an image or buffer to a value that its format holds.
     pub fn fill(&mut self, target: &str, value: FillValue) {
         let Some(named) = self.find(target, Accesses::TRANSFER_WRITE) else { return };
         let format = match named {
             NamedResource::Image(access) => Some(self.frame.plan.image(access.image).format),
             NamedResource::Buffer(_) => None,
         };
+        if let Some(what) = value.problem(format) {
+            return self.misused(|| format!("`{target}` is filled with {what}"));
+        }
         fill(self.frame.gpu, self.commands, self.side(&named), convert::clear(format, value));
         self.recorded += 1;
     }

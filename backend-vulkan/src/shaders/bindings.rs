@@ -122,7 +122,8 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
                 module.decoration(variable, wanted).is_none() && !(0..members).all(|member| decorated(member).is_some())
             };
             let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
-            BindingKind::StorageBlock { readable, writable }
+            let bytes = ty.result_id.map_or(0, |ty| module.block_end(ty));
+            BindingKind::StorageBlock { readable, writable, bytes }
         }
         (opcode, _) => other(&format!("an {} of SPIR-V", named(opcode)), "declare an image or a block"),
     }

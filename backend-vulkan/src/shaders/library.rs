@@ -15,6 +15,7 @@ use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, Refused};
 use super::validator::{Finding, Verdict};
+use super::varyings::without_idle_inputs;
 use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::device::{Need, NeedKind};
@@ -62,12 +63,13 @@ pub struct CompiledCompute {
 /// shipped file names is shipped: from there `NAME` is the shader `shipped:NAME`.
 ///
 /// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
-/// gives as `NAME`, in the stages that are the shader's own and whose own file mentions it. Where a pass reads the image
+/// gives as `NAME`, in the stages that are the shader's own and whose text mentions it, included files counted. Where a pass reads the image
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
-/// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage's own file, which declares the sampler `NAME`, stands
-/// for the part in use of the image that the pass gives as `NAME`. What was once read or compiled is kept for the library's
+/// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage that declares the sampler `NAME` stands
+/// for the part in use of the image that the pass gives as `NAME`. A name that the stage itself declares is its own, and no
+/// macro. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
@@ -140,7 +142,14 @@ impl ShaderLibrary {
                 (usual, shipped)
             }
         };
-        let mut interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
+        let mut interface = match join(&vertex, &fragment) {
+            Ok(interface) => interface,
+            Err(refused) => {
+                let source = self.source(&format!("{name}.frag"))?;
+                let placed = source.map(|source| refused.placed(&self.files, &source.found));
+                return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
+            }
+        };
         let fills = draw != Draw::FullScreen || usual_vertices;
         interface.own_vertices = (!fills).then(|| vertex.file.clone());
         let spirv = vertex.spirv.clone();
@@ -233,8 +242,7 @@ impl ShaderLibrary {
         let found = self.files.find(&FilePath::of_text(file)).map_err(|what| ShaderProblem::Unsupported { what });
         let source = found.map(|found| {
             found.map(|found| {
-                let mut mentioned = Mentioned::by(&found.text);
-                mentioned.eye |= asks_eye_in_included(&self.files, &found);
+                let mentioned = Mentioned::by_stage(&self.files, &found);
                 Arc::new(StageSource { found, mentioned })
             })
         });
@@ -276,6 +284,7 @@ impl ShaderLibrary {
         if mentioned.eye {
             reflected.interface.sees_alike.clear();
         }
+        let spirv = if stage == ShaderStage::Fragment { without_idle_inputs(spirv) } else { spirv };
         for binding in &mut reflected.interface.bindings {
             if let BindingKind::Other(Unbindable { place, .. }) = &mut binding.kind {
                 *place = text::place(files, found, |word| word == binding.name);

@@ -1,7 +1,7 @@
 //! The macros with which a stage is compiled for a pass.
 
 use super::eyes::{BothEyes, EYE};
-use super::mentioned::{COMPONENTS, HAS, Mentioned, PART, TEXTURE};
+use super::mentioned::{COMPONENTS, HAS, LOCAL, Mentioned, PART, TEXTURE};
 use crate::process::ShaderStage;
 use framewright_graph::frame::{Eye, EyeForm};
 use framewright_graph::shader::{EyeSource, Variant};
@@ -39,9 +39,10 @@ pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStag
         let given = variant.components.iter().find(|(given, _)| **given == **name);
         (format!("{COMPONENTS}{name}"), given.map_or(MOST_COMPONENTS, |(_, count)| *count).to_string())
     });
-    let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
+    let local = variant.local.iter().map(|name| (format!("{LOCAL}{name}"), String::new()));
     let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
     let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
+    let fixed = local.chain(depth_only).chain(covers).filter(|(name, _)| !mentioned.own.contains(name));
     let place = |name: &String| variant.parts.iter().position(|part| **part == **name);
     let parts = mentioned.parts.iter().map(|name| {
         let part = place(name).map(|at| format!("framewright_parts.st[{at}]"));
@@ -60,14 +61,7 @@ pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStag
         _ => None,
     };
     let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
-    let own = textures
-        .chain(sampled)
-        .chain(components)
-        .chain(local)
-        .chain(depth_only)
-        .chain(covers)
-        .chain(parts)
-        .chain(count);
+    let own = textures.chain(sampled).chain(components).chain(fixed).chain(parts).chain(count);
     own.chain(one).chain(both).collect()
 }
 

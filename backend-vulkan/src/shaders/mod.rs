@@ -27,6 +27,7 @@ mod spirv_cache;
 mod stages;
 mod text;
 mod validator;
+mod varyings;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled::PrecompiledShaders;

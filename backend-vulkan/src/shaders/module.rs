@@ -26,8 +26,8 @@ struct Sizes {
     own_bytes: u64,
     /// Locations of a value of the type.
     locations: u32,
-    /// Of a struct the bytes as a block, rounded up to 16 as std140 does.
-    block_bytes: u32,
+    /// Of a struct the bytes up to the end of its last member of a written length.
+    block_end: u32,
 }
 
 impl<'m> IndexedModule<'m> {
@@ -71,7 +71,7 @@ impl<'m> IndexedModule<'m> {
                 let sizes = Sizes {
                     own_bytes: indexed.measured(it),
                     locations: indexed.located(it),
-                    block_bytes: indexed.laid_out(it),
+                    block_end: indexed.laid_out(it),
                 };
                 indexed.sizes.insert(ty, sizes);
             }
@@ -90,7 +90,17 @@ impl<'m> IndexedModule<'m> {
 
     /// Bytes that a struct takes as a block, rounded up to 16 as std140 does.
     pub(super) fn block_bytes(&self, structure: u32) -> u32 {
-        self.sizes(structure).block_bytes
+        self.block_end(structure).checked_next_multiple_of(16).unwrap_or(u32::MAX)
+    }
+
+    /// Bytes of a block up to the end of its last member, an array of no written length left out.
+    pub(super) fn block_end(&self, structure: u32) -> u32 {
+        self.sizes(structure).block_end
+    }
+
+    /// Locations that a value of a type takes.
+    pub(super) fn locations(&self, ty: u32) -> u32 {
+        self.sizes(ty).locations
     }
 
     fn measured(&self, it: &Instruction) -> u64 {
@@ -130,7 +140,7 @@ impl<'m> IndexedModule<'m> {
             let bytes = self.member_bytes(ty?, self.matrix_layout(structure, member));
             Some(said(Decoration::Offset).unwrap_or(0).saturating_add(bytes))
         });
-        ends.max().unwrap_or(0).checked_next_multiple_of(16).unwrap_or(u32::MAX)
+        ends.max().unwrap_or(0)
     }
 
     /// How a block's member lies if it is a matrix, or an array of them.
@@ -159,9 +169,14 @@ impl<'m> IndexedModule<'m> {
             }
             Op::TypeArray => {
                 let stride = self.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
-                stride.saturating_mul(self.array_length(it))
+                let last = id(it, 0).map_or(0, |element| self.member_bytes(element, matrix));
+                match self.array_length(it) {
+                    0 => 0,
+                    length => stride.saturating_mul(length - 1).saturating_add(last),
+                }
             }
-            Op::TypeStruct => self.block_bytes(ty),
+            Op::TypeRuntimeArray => 0,
+            Op::TypeStruct => self.block_end(ty),
             _ => scalar_bytes(it),
         }
     }

@@ -9,8 +9,9 @@ use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::{Needed, needs};
 use super::rotation;
 use super::text::Refused;
+use super::varyings::{Varying, varyings, vertex_inputs};
 use crate::process::ShaderStage;
-use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface, VertexInput};
+use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
@@ -28,14 +29,6 @@ pub(super) struct StageInterface {
     pub(super) outputs: Vec<Varying>,
     /// Input attachments by name, with their index among those of the shader.
     pub(super) input_attachments: Vec<(String, u32)>,
-}
-
-/// A value at a location.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Varying {
-    pub(super) location: u32,
-    pub(super) name: String,
-    pub(super) ty: String,
 }
 
 /// Locations of vertex attributes are below this, which every Vulkan device has. The compiler itself limits those of colour
@@ -66,6 +59,7 @@ pub(super) fn reflect(
     let features = check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_extensions(&module)?;
+    rotation::check_constants(&module, stage)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
     let (most_in, most_out) = if fragment { (LOCATION, u32::MAX) } else { (ATTRIBUTES, LOCATION) };
@@ -77,7 +71,7 @@ pub(super) fn reflect(
     let interface = ShaderInterface {
         bindings,
         vertex_inputs: match stage {
-            ShaderStage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
+            ShaderStage::Vertex => vertex_inputs(&inputs)?,
             ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
         },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
@@ -190,25 +184,6 @@ fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
         }
     }
     Ok(())
-}
-
-/// The variables of one storage class that have a location.
-fn varyings(module: &IndexedModule<'_>, class: StorageClass, used: &HashSet<u32>) -> Vec<Varying> {
-    let mut varyings: Vec<Varying> = module
-        .variables()
-        .filter(|(id, it)| storage_class(it) == Some(class) && used.contains(id))
-        .filter_map(|(id, it)| {
-            let location = module.decoration_number(id, Decoration::Location)?;
-            let ty = module.type_name(module.pointee(it)?.result_id?);
-            Some(Varying { location, name: module.name(id).to_owned(), ty })
-        })
-        .collect();
-    varyings.sort_by_key(|it| it.location);
-    varyings
-}
-
-fn vertex_input(Varying { location, name, ty }: Varying) -> VertexInput {
-    VertexInput { location, name, ty }
 }
 
 /// Colour outputs by location; an array takes a location for each element.

@@ -6,6 +6,7 @@
 //! only partly turns.
 
 use super::module::{IndexedModule, id};
+use super::text::Refused;
 use crate::process::ShaderStage;
 use framewright_graph::shader::Unturned;
 use rspirv::dr::{Function, Instruction, Operand};
@@ -14,6 +15,31 @@ use std::collections::HashSet;
 
 /// The number of the constant that says by how much the picture is turned.
 const ROTATION: u32 = 100;
+
+/// The constants of `include/rotation.glsl`, from that number on. Pipelines set them by their numbers.
+const CONSTANTS: [&str; 3] = ["framewright_rotation", "framewright_turned_width", "framewright_turned_height"];
+
+/// That a stage which draws has no constant of its own in the place of one of these.
+pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
+    if stage == ShaderStage::Compute {
+        return Ok(());
+    }
+    for it in &module.module.types_global_values {
+        let Some(constant) = it.result_id else { continue };
+        let Some(number) = module.decoration_number(constant, Decoration::SpecId) else { continue };
+        let own = number.checked_sub(ROTATION).and_then(|at| CONSTANTS.get(at as usize));
+        let name = module.name(constant);
+        if own.is_some_and(|own| *own != name) {
+            let last = ROTATION + CONSTANTS.len() as u32 - 1;
+            let what = format!(
+                "`{name}` has the `constant_id` {number}: {ROTATION} to {last} say how pictures are turned, and would change it; \
+                 take another number"
+            );
+            return Err(Refused::named(name, what));
+        }
+    }
+    Ok(())
+}
 
 /// The parts that go wrong.
 pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Unturned> {

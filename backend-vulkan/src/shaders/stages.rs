@@ -1,6 +1,7 @@
 //! Compiled stages, and how a vertex and a fragment stage go together.
 
 use super::reflect::StageInterface;
+use super::text::Refused;
 use framewright_graph::shader::{BindingKind, PASS_SET, ShaderInterface};
 use std::sync::Arc;
 
@@ -31,16 +32,23 @@ pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
 /// The interface of both stages together.
 ///
 /// # Errors
-/// In words: where the stages don't fit together.
-pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, String> {
-    for input in &fragment.reflected.inputs {
-        let handed = vertex.reflected.outputs.iter().find(|output| output.location == input.location);
+/// What of the fragment stage doesn't fit.
+pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, Refused> {
+    // An input that isn't used is left out of the stage.
+    for input in fragment.reflected.inputs.iter().filter(|input| input.used) {
+        let mut handed = vertex.reflected.outputs.iter().filter(|output| output.used);
+        let handed = handed.find(|output| (output.location, output.component) == (input.location, input.component));
         if handed.is_none_or(|output| output.ty != input.ty) {
             let found = handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", output.ty, output.name));
-            return Err(format!(
-                "{} reads `{} {}` at location {}, where {} hands over {found}",
-                fragment.file, input.ty, input.name, input.location, vertex.file
-            ));
+            let component = match input.component {
+                0 => String::new(),
+                component => format!(", component {component}"),
+            };
+            let what = format!(
+                "it reads `{} {}` at location {}{component}, where {} hands over {found}",
+                input.ty, input.name, input.location, vertex.file
+            );
+            return Err(Refused::named(&input.name, what));
         }
     }
     let mut joined = fragment.reflected.interface.clone();
@@ -54,10 +62,11 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                 same.adapts &= binding.adapts;
             }
             Some(other) => {
-                return Err(format!(
-                    "{} declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",
-                    vertex.file, binding.name, binding.set, binding.binding, fragment.file, other.name
-                ));
+                let what = format!(
+                    "it declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",
+                    other.name, binding.set, binding.binding, vertex.file, binding.name
+                );
+                return Err(Refused::named(&other.name, what));
             }
         }
     }

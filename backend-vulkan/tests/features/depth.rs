@@ -47,7 +47,7 @@ const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-fn depth(image: ImageIndex, clear: Option<f32>, test: CompareOp, write: bool) -> DepthTarget {
+fn depth(image: ImageIndex, clear: Option<f64>, test: CompareOp, write: bool) -> DepthTarget {
     DepthTarget { image, range: WHOLE, span: Span::NONE, clear, test, write, stencil: None }
 }
 

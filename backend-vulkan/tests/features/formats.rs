@@ -201,7 +201,7 @@ fn what_is_cleared_and_drawn_is_read_by_shaders_and_by_the_host() {
             paint.work =
                 Work::Draw { draw: Draw::FullScreen, shader: "paint".into(), discards: true, per_sample: false };
             #[allow(clippy::cast_precision_loss, reason = "small")]
-            let clear = [first as f32; 4];
+            let clear = [first as f64; 4];
             small.pass(paint.draws(image, WHOLE, Some(clear)));
             judge(device, small, format, Some(first));
             tried += 1;

@@ -203,7 +203,7 @@ pub(crate) trait Uses {
     fn uniform(self, binding: &str, buffer: BufferIndex) -> Pass;
     /// A buffer that no shader names.
     fn takes(self, buffer: BufferIndex, role: BufferRole) -> Pass;
-    fn draws(self, image: ImageIndex, range: Subresources, clear: Option<[f32; 4]>) -> Pass;
+    fn draws(self, image: ImageIndex, range: Subresources, clear: Option<[f64; 4]>) -> Pass;
     fn tests(self, depth: DepthTarget) -> Pass;
 }
 
@@ -268,7 +268,7 @@ impl Uses for Pass {
         self
     }
 
-    fn draws(mut self, image: ImageIndex, range: Subresources, clear: Option<[f32; 4]>) -> Pass {
+    fn draws(mut self, image: ImageIndex, range: Subresources, clear: Option<[f64; 4]>) -> Pass {
         self.color.push(ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace });
         self
     }

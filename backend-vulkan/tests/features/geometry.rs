@@ -91,7 +91,7 @@ fn shows(small: &Small, row: [u32; 4]) {
     });
 }
 
-const CLEAR: Option<[f32; 4]> = Some([1.0, 0.0, 0.0, 0.0]);
+const CLEAR: Option<[f64; 4]> = Some([1.0, 0.0, 0.0, 0.0]);
 
 #[test]
 fn vertices_that_a_pass_wrote_are_drawn() {

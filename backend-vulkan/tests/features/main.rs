@@ -10,6 +10,7 @@ mod adopted;
 mod allocations;
 mod blending;
 mod breadcrumbs;
+mod clear_values;
 mod compute;
 mod debugging;
 mod depth;

@@ -51,6 +51,7 @@ mod scene_notes;
 mod serving;
 mod settings;
 mod shader_files;
+mod shader_interfaces;
 mod shipped_pictures;
 mod stereo;
 mod study;

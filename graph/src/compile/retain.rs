@@ -12,7 +12,7 @@ pub(super) struct AttachmentOps {
     pub(super) role: Role,
     pub(super) load: LoadOp,
     pub(super) store: StoreOp,
-    pub(super) clear: Option<[f32; 4]>,
+    pub(super) clear: Option<[f64; 4]>,
     /// The operation that uses it first.
     pub(super) first: u32,
     /// The next use of its contents.
@@ -240,12 +240,12 @@ pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, load_store: &
 }
 
 /// The clear value that a pass of the frame gives.
-fn clear_value(frame: &Frame, kind: &OpKind, used: &Use) -> Option<[f32; 4]> {
+fn clear_value(frame: &Frame, kind: &OpKind, used: &Use) -> Option<[f64; 4]> {
     let pass = &frame.passes[kind.pass()? as usize];
     match used.role {
         Role::Color => pass.color.get(used.entry as usize)?.clear,
         Role::Depth => pass.depth.as_ref()?.clear.map(|value| [value, 0.0, 0.0, 0.0]),
-        Role::Stencil => pass.depth.as_ref()?.stencil?.clear.map(|value| [f32::from(value), 0.0, 0.0, 0.0]),
+        Role::Stencil => pass.depth.as_ref()?.stencil?.clear.map(|value| [f64::from(value), 0.0, 0.0, 0.0]),
         _ => None,
     }
 }

@@ -178,7 +178,7 @@ impl Described<'_> {
     }
 
     fn fill(self, fill: &Fill) -> Description {
-        let fields = vec![("work", "fill".to_owned()), ("value", fill_value(&fill.value))];
+        let fields = vec![("work", "fill".to_owned()), ("value", fill_value(self.plan, fill))];
         Description::new(Kind::Transfer, self.side(fill.target), fields).caused(&fill.cause)
     }
 

@@ -1,7 +1,8 @@
 //! Values for all texels of an image or all words of a buffer, typed by the image or buffer that they fill.
 
+use super::resources::Resources;
 use crate::base::shown_number;
-use crate::language::Fill;
+use crate::language::{Fill, Part};
 use crate::vulkan::{Aspects, FillValue, Format, Numeric};
 
 /// Zero, as the format has it; `None`: a buffer.
@@ -13,9 +14,19 @@ pub(super) fn zero(format: Option<Format>) -> FillValue {
     }
 }
 
-/// The value as the format has it; `None`: a buffer. An error says why the value doesn't fit, and which value would.
-pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (String, String)> {
-    let Some(format) = format else {
+/// What is filled: a format and the planes of it; `None`: a buffer.
+pub(super) type Filled = Option<(Format, Aspects)>;
+
+/// What of an image or buffer a part of it is.
+pub(super) fn filled(resources: &Resources<'_>, part: &Part) -> Filled {
+    let Part::Image(part) = part else { return None };
+    let format = resources.image(part.image.index)?.image.format;
+    Some((format, part.plane.map_or(format.aspects(), |plane| plane.value)))
+}
+
+/// The value as the format has it. An error says why the value doesn't fit, and which value would.
+pub(super) fn typed(fill: Fill, filled: Filled) -> Result<FillValue, (String, String)> {
+    let Some((format, planes)) = filled else {
         let Fill::Number(number) = fill else {
             return Err((
                 "a buffer is filled with one number".to_owned(),
@@ -28,7 +39,7 @@ pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (St
         return Ok(FillValue::Bits([word, 0, 0, 0]));
     };
     if format.is_depth() {
-        return depth(fill, format);
+        return depth(fill, format, planes);
     }
     let numbers = match fill {
         Fill::Number(number) => [number; 4],
@@ -39,40 +50,51 @@ pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (St
             return Err((message, "write `(red, green, blue, alpha)`".to_owned()));
         }
     };
-    if format.is_integer() {
-        let size = u32::try_from(format.texel_bytes() * 8 / u64::from(format.components())).unwrap_or(32);
-        let signed = format.numeric() == Numeric::Sint;
-        let component = |number| {
-            let fitting = if signed { signed_bits(number, size) } else { bits(number, size) };
-            fitting.ok_or_else(|| {
-                let values = 1_i64 << size.min(32);
-                let (least, most) = if signed { (-values / 2, values / 2 - 1) } else { (0, values - 1) };
-                let message = format!("{} is no component of {format}", shown_number(number));
-                (message, format!("whole numbers from {least} to {most} are allowed"))
-            })
-        };
-        let [r, g, b, a] = numbers;
-        return Ok(FillValue::Bits([component(r)?, component(g)?, component(b)?, component(a)?]));
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "colour is filled in single precision")]
-    let single = numbers.map(|number| number as f32);
-    match single.iter().zip(numbers).find(|(single, _)| !single.is_finite()) {
-        Some((_, number)) => {
-            let help = "32-bit floating point reaches about 3.4e38".to_owned();
-            Err((format!("{} is too large for a colour", shown_number(number)), help))
-        }
-        None => Ok(FillValue::Color(single)),
-    }
+    held(numbers, format).map_err(|(_, message, help)| (message, help))?;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the format holds them")]
+    Ok(match format.numeric() {
+        Numeric::Uint => FillValue::Bits(numbers.map(|number| number as u32)),
+        Numeric::Sint => FillValue::Bits(numbers.map(|number| (number as i32).cast_unsigned())),
+        _ => FillValue::Color(numbers.map(|number| number as f32)),
+    })
 }
 
-fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
+/// That a format of colours or integers holds these numbers. An error says which doesn't fit, why not, and what would.
+pub(super) fn held(numbers: [f64; 4], format: Format) -> Result<(), (usize, String, String)> {
+    let Some(at) = format.lacks(numbers) else { return Ok(()) };
+    let [least, most] = format.component_range(at).map(shown_number);
+    let number = shown_number(numbers[at]);
+    let (message, help) = match format.numeric() {
+        Numeric::Uint | Numeric::Sint => (
+            format!("{number} is no component of {format}"),
+            format!("whole numbers from {least} to {most} are allowed"),
+        ),
+        Numeric::Sfloat if format.component_bits() == 32 => {
+            (format!("{number} is too large for a colour"), "32-bit floating point reaches about 3.4e38".to_owned())
+        }
+        _ => (format!("{number} lies outside of {format}"), format!("numbers from {least} to {most} are allowed")),
+    };
+    Err((at, message, help))
+}
+
+fn depth(fill: Fill, format: Format, planes: Aspects) -> Result<FillValue, (String, String)> {
+    let alone = |plane| planes == plane && format.aspects() != plane;
     let (depth, stencil) = match fill {
+        Fill::Number(stencil) if planes == Aspects::STENCIL => (0.0, stencil),
         Fill::Number(depth) => (depth, 0.0),
         Fill::DepthStencil(depth, _) if !format.aspects().contains(Aspects::STENCIL) => {
             return Err((
                 format!("{format} has no stencil plane"),
                 format!("write `{}`, the depth alone", shown_number(depth)),
             ));
+        }
+        Fill::DepthStencil(depth, stencil) if alone(Aspects::STENCIL) && depth != 0.0 => {
+            let message = format!("stencil is filled alone, and not with the depth {}", shown_number(depth));
+            return Err((message, format!("write `{}`, the stencil alone", shown_number(stencil))));
+        }
+        Fill::DepthStencil(depth, stencil) if alone(Aspects::DEPTH) && stencil != 0.0 => {
+            let message = format!("depth is filled alone, and not with the stencil {}", shown_number(stencil));
+            return Err((message, format!("write `{}`, the depth alone", shown_number(depth))));
         }
         Fill::DepthStencil(depth, stencil) => (depth, stencil),
         Fill::Color(_) => {
@@ -93,14 +115,6 @@ fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
     };
     #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
     Ok(FillValue::Depth(depth as f32, stencil))
-}
-
-/// The bits of a signed whole number of `size` bits, with its sign before them up to 32 bits.
-fn signed_bits(number: f64, size: u32) -> Option<u32> {
-    let half = 2_f64.powi(size.clamp(1, 32).cast_signed() - 1);
-    let fits = number.fract() == 0.0 && (-half..half).contains(&number);
-    #[allow(clippy::cast_possible_truncation, reason = "whole and in range, as checked")]
-    fits.then_some((number as i32).cast_unsigned())
 }
 
 /// A whole number of `bits` bits.

@@ -35,7 +35,7 @@ pub(super) fn lower(
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
         lowered.needs = supplied::needs(shaders, pass, interface);
-        supplied::check(shaders, pass, (path, interface), errors);
+        supplied::check(resources, shaders, pass, (path, interface), errors);
         let before = errors.len();
         let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
@@ -101,7 +101,7 @@ pub(super) fn draft(
             image: target.part.image.index,
             range: parts::range(resources, &target.part, errors),
             span: target.part.image.span,
-            clear: target.clear,
+            clear: target.clear.map(|clear| clear.map(|number| number.value)),
             blend: target.blend.value,
         });
     }
@@ -181,8 +181,8 @@ pub(super) fn stand_ins(
             StandIn::Clear { to, value } => {
                 let part = language::Part::Image(language::ImagePart::whole(to));
                 transfers::fill(resources, &part, value, errors);
-                let format = resources.image(to.index).map(|image| image.image.format);
-                let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
+                let filled = fills::typed(value.value, fills::filled(resources, &part));
+                let filled = filled.unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
                 let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
                 (Work::Fill { value: filled }, Some(transfer))

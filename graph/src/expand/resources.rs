@@ -170,7 +170,7 @@ fn lifetime(
     let here = |span: Span| if value.span == own { span } else { own };
     let initial = |fill: Option<Spanned<language::Fill>>, errors: &mut Vec<Diagnostic>| {
         let Some(fill) = fill else { return Some(fills::zero(of.format)) };
-        match fills::typed(fill.value, of.format) {
+        match fills::typed(fill.value, of.format.map(|format| (format, format.aspects()))) {
             Ok(value) => Some(value),
             Err((message, help)) => {
                 let message = format!("`{}` can't begin like this: {message}", of.name);

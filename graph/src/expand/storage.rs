@@ -28,7 +28,7 @@ fn of_pass<'a>(interface: &'a ShaderInterface, name: &str) -> Option<&'a Binding
 /// Whether a shader may read, and may write, a binding of this kind.
 fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
     match kind {
-        BindingKind::StorageImage { readable, writable, .. } | BindingKind::StorageBlock { readable, writable } => {
+        BindingKind::StorageImage { readable, writable, .. } | BindingKind::StorageBlock { readable, writable, .. } => {
             Some((*readable, *writable))
         }
         _ => None,
@@ -154,7 +154,11 @@ pub(super) fn check<'i>(
                 let check = ImageCheck { resources, shader, name: &name.text, image, part };
                 check.fits(given.range, *shape, *format, errors);
             }
-            (Part::Buffer(_), Some(BindingKind::StorageBlock { .. })) => {}
+            (Part::Buffer(part), Some(BindingKind::StorageBlock { bytes, .. })) => {
+                let what = format!("the members of the block `{}`", name.text);
+                let (buffer, span) = (&part.buffer, part.buffer.span);
+                work::holds(resources, buffer, u64::from(*bytes), &what, span, errors);
+            }
             (Part::Image(_), _) => {
                 unknown(name, "no storage image", errors);
                 continue;

@@ -1,15 +1,20 @@
 //! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
 
+use super::resources::Resources;
 use super::shader::Checked;
+use super::work;
 use crate::base::{Diagnostic, OutsideChoice, suggestion};
 use crate::device::Need;
 use crate::language::{self, Draw, Work};
 use crate::ron::Name;
-use crate::shader::{Binding, DrawInterface, PASS_SET, ShaderInterface, Supplied, resource_needs};
+use crate::shader::{
+    Binding, DrawInterface, LayoutFault, PASS_SET, ShaderInterface, Supplied, VertexLayout, resource_needs,
+};
 use std::sync::Arc;
 
 /// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
 pub(super) fn check(
+    resources: &Resources<'_>,
     shaders: &mut Checked<'_>,
     pass: &language::Pass,
     (path, interface): (&Arc<str>, &ShaderInterface),
@@ -18,7 +23,7 @@ pub(super) fn check(
     let Some(shader) = pass.shader() else { return };
     let own = matches!(&pass.work, Work::Draw { draw: Draw::Vertices { .. } | Draw::Indirect(_), .. });
     if own {
-        own_attributes(pass, shader, interface, errors);
+        own_attributes(resources, pass, shader, interface, errors);
     }
     let Some(brought) = shaders.brought_along_first(pass, path) else { return };
     if !own {
@@ -41,21 +46,49 @@ pub(super) fn needs(shaders: &mut Checked<'_>, pass: &language::Pass, interface:
     needs
 }
 
-/// A pass that brings its own vertices names their buffer, if and only if its shader reads attributes.
-fn own_attributes(pass: &language::Pass, shader: &Name, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+/// A pass that brings its own vertices names their buffer, if and only if its shader declares attributes. The buffer holds as
+/// many vertices as are drawn; which of them indices ask for is not known, nor how many an indirect draw asks for.
+fn own_attributes(
+    resources: &Resources<'_>,
+    pass: &language::Pass,
+    shader: &Name,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
     match (interface.vertex_inputs.first(), &pass.vertex) {
         (Some(input), None) => {
             let message = format!(
-                "shader `{}` reads the vertex attribute `{}`, and pass `{}` has no buffer of vertices",
-                shader.text, input.name, pass.name.text
+                "shader `{}` {} the vertex attribute `{}`, and pass `{}` has no buffer of vertices",
+                shader.text,
+                input.verb(),
+                input.name,
+                pass.name.text
             );
-            errors.push(Diagnostic::new(shader.span, message).help("add `vertex: \"…\"`"));
+            let help =
+                if input.used { "add `vertex: \"…\"`" } else { "remove it in the shader, or add `vertex: \"…\"`" };
+            errors.push(Diagnostic::new(shader.span, message).help(help));
         }
         (None, Some(part)) => {
             let message = format!("shader `{}` reads no vertex attributes", shader.text);
             errors.push(Diagnostic::new(part.buffer.span, message).help("remove `vertex`, or name it in `storage`"));
         }
-        _ => {}
+        (Some(_), Some(part)) => match VertexLayout::of(&interface.vertex_inputs, 1) {
+            Ok(layout) => {
+                let stride = layout.strides[0];
+                let (count, what) = match &pass.work {
+                    Work::Draw { draw: Draw::Vertices { count, .. }, .. } if pass.index.is_none() => {
+                        (*count, format!("{count} vertices of {stride} bytes"))
+                    }
+                    _ => (1, format!("the attributes of one vertex of shader `{}`", shader.text)),
+                };
+                let bytes = u64::from(count) * u64::from(stride);
+                work::holds(resources, &part.buffer, bytes, &what, part.buffer.span, errors);
+            }
+            Err(LayoutFault { message, .. }) => {
+                errors.push(Diagnostic::new(shader.span, format!("shader `{}`: {message}", shader.text)));
+            }
+        },
+        (None, None) => {}
     }
 }
 
@@ -64,14 +97,17 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
     for input in &interface.vertex_inputs {
         let (name, ty) = (&input.name, &input.ty);
         if !brought.attributes.iter().any(|attribute| attribute.name == **name) {
-            let message = format!("shader `{shader}` reads the vertex attribute `{name}`, which doesn't exist");
+            let verb = input.verb();
+            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}`, which doesn't exist");
             let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)))
                 .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
             let unknown = Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
             errors.push(Diagnostic { help, ..unknown });
         } else if !input.is_float() {
-            let message = format!("shader `{shader}` reads the vertex attribute `{name}` as `{ty}`");
-            let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`";
+            let part = if input.component == 0 { "" } else { " from another component than the first on" };
+            let verb = input.verb();
+            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}` as `{ty}`{part}");
+            let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`, each at a location of its own";
             errors.push(Diagnostic::new(*span, message).help(help));
         }
     }

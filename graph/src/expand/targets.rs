@@ -2,7 +2,7 @@
 
 use super::images::FrameImage;
 use super::resources::Resources;
-use super::{coverage, parts, transfers};
+use super::{coverage, fills, parts, transfers};
 use crate::base::Diagnostic;
 use crate::frame::{Blend, Remark, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
@@ -25,6 +25,12 @@ pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut
         } else if format.is_integer() && target.blend.value != Blend::Replace {
             let message = format!("`{}` holds integers ({format}), which can't be blended", image.image.name);
             errors.push(Diagnostic::new(target.blend.span, message).label(declared(target.part.image), "its format"));
+        } else if let Some(clear) = target.clear
+            && let Err((at, message, help)) = fills::held(clear.map(|number| number.value), format)
+        {
+            let message = format!("`{}` can't be cleared: {message}", image.image.name);
+            let wrong = Diagnostic::new(clear[at].span, message).label(declared(target.part.image), "its format");
+            errors.push(wrong.help(help));
         }
     }
     if let Some(target) = &pass.depth

@@ -268,17 +268,12 @@ pub(super) fn draw_part(resources: &Resources<'_>, lowered: &mut Pass, errors: &
 
 /// Reports a fill whose value doesn't fit.
 pub(super) fn fill(resources: &Resources<'_>, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
-    let (format, name) = match to {
-        Part::Image(part) => {
-            let Some(image) = resources.image(part.image.index) else { return };
-            (Some(image.image.format), &image.image.name)
-        }
-        Part::Buffer(part) => {
-            let Some(buffer) = resources.buffer(part.buffer.index) else { return };
-            (None, &buffer.name)
-        }
+    let name = match to {
+        Part::Image(part) => resources.image(part.image.index).map(|image| &image.image.name),
+        Part::Buffer(part) => resources.buffer(part.buffer.index).map(|buffer| &buffer.name),
     };
-    if let Err((message, help)) = fills::typed(value.value, format) {
+    let Some(name) = name else { return };
+    if let Err((message, help)) = fills::typed(value.value, fills::filled(resources, to)) {
         errors.push(Diagnostic::new(value.span, format!("`{name}` can't be filled: {message}")).help(help));
     }
 }

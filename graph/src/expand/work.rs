@@ -51,11 +51,8 @@ pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface:
             Work::Blit { filter: filter.map_or(default, |filter| filter.value) }
         }
         language::Work::Fill { to, value } => {
-            let format = match to {
-                language::Part::Image(part) => resources.image(part.image.index).map(|image| image.image.format),
-                language::Part::Buffer(_) => None,
-            };
-            Work::Fill { value: fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4])) }
+            let value = fills::typed(value.value, fills::filled(resources, to));
+            Work::Fill { value: value.unwrap_or(FillValue::Bits([0; 4])) }
         }
         language::Work::Custom { callback, .. } if is_drawn(pass) => drawn(Draw::Custom, callback),
         language::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },

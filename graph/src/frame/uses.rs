@@ -98,8 +98,9 @@ pub struct ColorTarget {
     pub range: Subresources,
     /// Where the image was named.
     pub span: Span,
-    /// Clear value (linear), if the pass starts from a cleared image.
-    pub clear: Option<[f32; 4]>,
+    /// Clear value (linear), if the pass starts from a cleared image: numbers that the image's format holds. In 64 bits,
+    /// which hold integers of 32 bits exactly.
+    pub clear: Option<[f64; 4]>,
     /// How new colour meets old.
     pub blend: Blend,
 }
@@ -128,7 +129,7 @@ pub struct DepthTarget {
     /// Where the image was named.
     pub span: Span,
     /// Clear value (reversed depth: 0 is infinitely far), if the pass starts from a cleared image.
-    pub clear: Option<f32>,
+    pub clear: Option<f64>,
     /// The comparison.
     pub test: CompareOp,
     /// Whether passing fragments write depth.

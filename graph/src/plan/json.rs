@@ -191,7 +191,9 @@ impl Plan {
             }
             let (attachments, passes) = attachments_and_passes(&step.work);
             for attachment in attachments {
-                if attachment.clear.iter().flatten().any(|value| !value.is_finite()) {
+                #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
+                let is_finite = |value: &f64| (*value as f32).is_finite();
+                if !attachment.clear.iter().flatten().all(is_finite) {
                     return Err(PlanError::NotFinite { place: format!("a clear value in steps[{index}]") });
                 }
             }

@@ -66,8 +66,8 @@ pub struct Attachment {
     /// Store op: the contents when the scope ends.
     pub store: StoreOp,
     /// Clear value where `load` is `CLEAR`: red, green, blue, alpha, or depth or stencil in the
-    /// first.
-    pub clear: Option<[f32; 4]>,
+    /// first. The format holds them.
+    pub clear: Option<[f64; 4]>,
     /// Resolve at the end of the scope.
     pub resolve: Option<AttachmentResolve>,
     /// Why these operations.

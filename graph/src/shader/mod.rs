@@ -7,6 +7,7 @@ mod element;
 mod interface_file;
 mod needs;
 mod param_type;
+mod vertex_layout;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::device::Need;
@@ -23,13 +24,14 @@ pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use needs::resource_needs;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
+pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 
 /// Everything that a shader (all its stages together) uses.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ShaderInterface {
     /// Resources by set and binding.
     pub bindings: Vec<Binding>,
-    /// Vertex attributes that the vertex stage reads.
+    /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
     pub outputs: Vec<FragmentOutput>,
@@ -136,6 +138,8 @@ pub enum BindingKind {
         readable: bool,
         /// Whether the shader may write it.
         writable: bool,
+        /// Bytes of its members, an array of no written length left out.
+        bytes: u32,
     },
     /// An input attachment: the texel at the fragment's own position.
     InputAttachment {
@@ -205,25 +209,6 @@ pub struct MatrixLayout {
     pub stride: u32,
     /// Whether rows follow each other, and not columns.
     pub row_major: bool,
-}
-
-/// A vertex attribute.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct VertexInput {
-    /// Location.
-    pub location: u32,
-    /// Name in the shader.
-    pub name: String,
-    /// Type, as GLSL writes it.
-    pub ty: String,
-}
-
-impl VertexInput {
-    /// Whether it is of floating point, as all attributes that a draw source brings.
-    #[must_use]
-    pub fn is_float(&self) -> bool {
-        matches!(&*self.ty, "float" | "vec2" | "vec3" | "vec4")
-    }
 }
 
 /// A colour output.

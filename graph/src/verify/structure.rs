@@ -8,7 +8,7 @@ use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
 use crate::plan::names::Shown;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Placement, Plan, Resource, Role};
-use crate::vulkan::{Accesses, BufferUsage, FillValue, Layout, Shape, Stages, State, Usage};
+use crate::vulkan::{Accesses, Aspects, BufferUsage, FillValue, Format, Layout, Numeric, Shape, Stages, State, Usage};
 use std::collections::HashSet;
 
 /// Most steps that all frames together can be numbered with.
@@ -155,8 +155,41 @@ pub(super) fn fill_fits(image: &Image, value: &FillValue) -> bool {
         FillValue::Color(color) => {
             !image.format.is_depth() && !image.format.is_integer() && color.iter().all(|value| value.is_finite())
         }
-        FillValue::Bits(_) => image.format.is_integer(),
+        FillValue::Bits(bits) => {
+            let number = |bits: u32| match image.format.numeric() {
+                Numeric::Sint => i64::from(bits.cast_signed()),
+                _ => i64::from(bits),
+            };
+            let count = image.format.components() as usize;
+            image.format.is_integer() && bits.iter().take(count).all(|bits| is_component(image.format, number(*bits)))
+        }
         FillValue::Depth(depth, _) => image.format.is_depth() && depth.is_finite(),
+    }
+}
+
+/// Whether a plane of this format can be cleared to a value.
+pub(super) fn clear_fits(format: Format, plane: Aspects, clear: [f64; 4]) -> bool {
+    let whole = |number: f64| number.fract() == 0.0 && number.abs() <= 4_294_967_295.0;
+    #[allow(clippy::cast_possible_truncation, reason = "whole, and of 33 bits at most")]
+    let component = |number: f64| whole(number) && is_component(format, number as i64);
+    let finite = clear.iter().all(|number| number.is_finite());
+    finite
+        && match plane {
+            Aspects::COLOR if format.is_integer() => {
+                clear.iter().take(format.components() as usize).all(|number| component(*number))
+            }
+            Aspects::DEPTH => (0.0..=1.0).contains(&clear[0]),
+            Aspects::STENCIL => whole(clear[0]) && (0.0..=255.0).contains(&clear[0]),
+            _ => clear.iter().all(|number| number.abs() <= f64::from(f32::MAX)),
+        }
+}
+
+/// Whether a component of an integer format can be this number.
+fn is_component(format: Format, number: i64) -> bool {
+    let bits = format.texel_bytes() * 8 / u64::from(format.components());
+    match format.numeric() {
+        Numeric::Sint => (-(1_i64 << (bits - 1))..1_i64 << (bits - 1)).contains(&number),
+        _ => (0..1_i64 << bits).contains(&number),
     }
 }
 

@@ -10,6 +10,7 @@ use super::lookup::Scopes;
 use super::names::Names;
 use super::parts::overlap;
 use super::program::{Builder, Program};
+use super::structure::clear_fits;
 use super::violation::{Accessed, Rule, StepName};
 use crate::frame::Draw;
 use crate::plan::names::Shown;
@@ -142,8 +143,8 @@ impl<'p> Check<'_, 'p> {
         self.demand(!read_only || untouched, id, "is attached read-only, which takes a LOAD load and a NONE store");
         let clears = attachment.load == LoadOp::Clear;
         self.demand(attachment.clear.is_some() == clears, id, "has a clear value exactly if its load is CLEAR");
-        let finite = attachment.clear.iter().flatten().all(|value| value.is_finite());
-        self.demand(finite, id, "has a clear value that is not finite");
+        let held = attachment.clear.is_none_or(|clear| clear_fits(image.format, plane, clear));
+        self.demand(held, id, "has a clear value that its format doesn't hold");
         if let Some(resolve) = &attachment.resolve {
             self.attachment_resolve(scope, image, resolve, plane);
         }

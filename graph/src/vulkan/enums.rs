@@ -290,18 +290,6 @@ impl Subresources {
     }
 }
 
-/// The value that every texel of an image, or every 32-bit word of a buffer, is set to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FillValue {
-    /// Red, green, blue and alpha (linear) of an image whose components are not integers.
-    Color([f32; 4]),
-    /// Red, green, blue and alpha of an image of integers; of a buffer, the word in the first.
-    Bits([u32; 4]),
-    /// Depth, and stencil where there is any.
-    Depth(f32, u8),
-}
-
 /// The operation on a stencil value (`VkStencilOp`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]

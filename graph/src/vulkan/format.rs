@@ -126,6 +126,59 @@ impl Format {
         matches!(self.numeric(), Numeric::Uint | Numeric::Sint)
     }
 
+    /// Bits of each component; of packed formats those of the widest.
+    #[must_use]
+    pub const fn component_bits(self) -> u32 {
+        match self {
+            Format::A2B10G10R10_UNORM_PACK32 => 10,
+            Format::B10G11R11_UFLOAT_PACK32 => 11,
+            Format::X8_D24_UNORM_PACK32 | Format::D24_UNORM_S8_UINT => 24,
+            Format::D32_SFLOAT_S8_UINT => 32,
+            other => other.texel_bytes() as u32 * 8 / other.components(),
+        }
+    }
+
+    /// The least and the greatest number that a component holds: 0 is red, or depth.
+    #[must_use]
+    pub fn component_range(self, component: usize) -> [f64; 2] {
+        let bits = self.component_bits().cast_signed();
+        match self.numeric() {
+            Numeric::Unorm | Numeric::Srgb => [0.0, 1.0],
+            Numeric::Snorm => [-1.0, 1.0],
+            Numeric::Uint => [0.0, 2_f64.powi(bits) - 1.0],
+            Numeric::Sint => [-2_f64.powi(bits - 1), 2_f64.powi(bits - 1) - 1.0],
+            // Vulkan, "16-Bit Floating-Point Numbers" and "Unsigned 11-Bit" and "10-Bit Floating-Point Numbers".
+            Numeric::Sfloat if bits == 16 => [-65504.0, 65504.0],
+            Numeric::Sfloat => [f32::MIN.into(), f32::MAX.into()],
+            Numeric::Ufloat => [0.0, if component == 2 { 64512.0 } else { 65024.0 }],
+        }
+    }
+
+    /// The first of these components that the format doesn't hold: it lies outside of the range, or is no whole number and must
+    /// be one. Components that the format doesn't have are judged alike.
+    #[must_use]
+    pub fn lacks(self, components: [f64; 4]) -> Option<usize> {
+        let single = |number: f64| {
+            #[allow(clippy::cast_possible_truncation, reason = "no format holds more than 32 bits of floating point")]
+            let single = number as f32;
+            f64::from(single)
+        };
+        let holds = |(at, number): (usize, f64)| {
+            let [least, most] = self.component_range(at);
+            match self.is_integer() {
+                true => number.fract() == 0.0 && (least..=most).contains(&number),
+                false => (least..=most).contains(&single(number)),
+            }
+        };
+        components.into_iter().enumerate().position(|component| !holds(component))
+    }
+
+    /// Words of 32 bits as the integers that they are in this format.
+    #[must_use]
+    pub fn integers(self, words: [u32; 4]) -> [f64; 4] {
+        words.map(|word| if self.numeric() == Numeric::Sint { word.cast_signed().into() } else { word.into() })
+    }
+
     /// Bytes that one texel takes where each plane is stored by itself.
     #[must_use]
     pub const fn least_texel_bytes(self) -> u64 {

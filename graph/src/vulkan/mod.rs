@@ -2,6 +2,7 @@
 
 mod encoding;
 mod enums;
+mod fill_value;
 mod foreign_formats;
 mod format;
 mod image_shape;
@@ -11,9 +12,10 @@ pub(crate) mod states;
 
 pub use encoding::Encoding;
 pub use enums::{
-    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler,
-    Shape, Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler, Shape,
+    Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
 };
+pub use fill_value::FillValue;
 pub(crate) use foreign_formats::vulkans_name;
 pub use format::{Format, Numeric};
 pub(crate) use image_shape::extent_at;

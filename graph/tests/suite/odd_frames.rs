@@ -112,8 +112,8 @@ fn what_cannot_be_is_refused_in_words() {
         ("`blend` accesses `source1` in stages", |frame| frame.passes[2].sampled[1].stages = Stages::COMPUTE_SHADER),
         ("`fill` accesses `target` in stages", |frame| frame.passes[0].storage[0].stages = Stages::empty()),
         ("`fill` neither reads nor writes `target`", |frame| frame.passes[0].storage[0].write = false),
-        ("`opaque` clears to what is not a finite number", |frame| {
-            frame.passes[1].color[0].clear = Some([f32::NAN; 4])
+        ("`opaque` clears `color` to what R8G8B8A8_SRGB doesn't hold", |frame| {
+            frame.passes[1].color[0].clear = Some([f64::NAN; 4])
         }),
         ("`fill` accesses `noise` as storage and in another way", |frame| {
             let again = Storage { read: true, write: false, ..frame.passes[0].storage[0].clone() };

@@ -108,7 +108,8 @@ impl Maker {
             && pass.depth.as_ref().is_none_or(|depth| depth.test == CompareOp::Always);
         for target in &mut pass.color {
             if !(self.written[target.image.0 as usize] || covers && target.blend == Blend::Replace) {
-                target.clear = Some([0.25; 4]);
+                let integers = IMAGES[target.image.0 as usize].0.is_integer();
+                target.clear = Some([if integers { 25.0 } else { 0.25 }; 4]);
             }
         }
         self.sample(pass, Stages::FRAGMENT_SHADER);
@@ -116,7 +117,7 @@ impl Maker {
 
     fn color(&mut self, pass: &mut Pass, image: usize) {
         let blend = if self.one_in(2) && !IMAGES[image].0.is_integer() { Blend::Alpha } else { Blend::Replace };
-        let clear = self.one_in(4).then_some([0.5; 4]);
+        let clear = self.one_in(4).then_some([if IMAGES[image].0.is_integer() { 5.0 } else { 0.5 }; 4]);
         let image = ImageIndex(image as u32);
         pass.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
     }

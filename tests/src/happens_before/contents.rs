@@ -301,7 +301,7 @@ impl Follower<'_> {
             match (attachment.load, attachment.clear) {
                 (LoadOp::Load, _) => {}
                 (LoadOp::Clear, Some(clear)) => {
-                    let value = number(clear.map(f32::to_bits));
+                    let value = number(clear.map(f64::to_bits));
                     let whole = self.covers_area(scope, attachment);
                     self.write(&one, |_, old| filled(Some(value), old, whole));
                 }

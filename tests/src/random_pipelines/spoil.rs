@@ -57,7 +57,7 @@ impl Spoil {
     fn scope(self, scope: &mut RenderScope) -> bool {
         let attachment = scope.color.iter_mut().any(|attachment| match (self, attachment.load) {
             (Spoil::Clear, LoadOp::Clear) => {
-                attachment.clear = attachment.clear.map(|clear| clear.map(|value| value + 2.0));
+                attachment.clear = attachment.clear.map(|clear| clear.map(|value| f64::from(value == 0.0)));
                 true
             }
             (Spoil::Load, LoadOp::Load) => {

@@ -254,7 +254,7 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             image: ImageIndex(part.image as u32),
             range: range(format, *part),
             span: Span::NONE,
-            clear: clear.map(|value| [texels::float(format, texels::plain(format, value)); 4]),
+            clear: clear.map(|value| [texels::float(format, texels::plain(format, value)).into(); 4]),
             blend: *blend,
         });
     }
@@ -264,7 +264,7 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             image: ImageIndex(part.image as u32),
             range: range(format, Part { plane: Plane::All, ..part }),
             span: Span::NONE,
-            clear: clear.map(|value| texels::float(format, texels::plain(format, value))),
+            clear: clear.map(|value| texels::float(format, texels::plain(format, value)).into()),
             test,
             write,
             stencil,

@@ -86,16 +86,21 @@ fn with_values(frame: &Frame, value: u8) -> Frame {
                 ParamValue::List(list) => ParamValue::list(list.iter().map(|_| ParamValue::Number(number.into()))),
             };
         }
-        pass.color.iter_mut().filter_map(|target| target.clear.as_mut()).for_each(|clear| *clear = [number; 4]);
+        for target in &mut pass.color {
+            let integers = frame.images[target.image.0 as usize].format.is_integer();
+            // Every format of integers holds numbers of seven bits.
+            let number = if integers { f64::from(value & 127) } else { f64::from(number) };
+            target.clear = target.clear.map(|_| [number; 4]);
+        }
         if let Some(depth) = &mut pass.depth {
-            depth.clear = depth.clear.map(|_| number);
+            depth.clear = depth.clear.map(|_| number.into());
             if let Some(stencil) = &mut depth.stencil {
                 stencil.clear = stencil.clear.map(|_| value);
             }
         }
         match &mut pass.work {
             Work::Fill { value: FillValue::Color(color) } => *color = [number; 4],
-            Work::Fill { value: FillValue::Bits(bits) } => *bits = [value.into(); 4],
+            Work::Fill { value: FillValue::Bits(bits) } => *bits = [u32::from(value & 127); 4],
             Work::Fill { value: FillValue::Depth(depth, stencil) } => (*depth, *stencil) = (number, value),
             Work::Dispatch { groups: Groups::Count(count) | Groups::Invocations(count), .. } => {
                 *count = [value.into(), 1, 1];

@@ -222,9 +222,9 @@ fn in_sets_from_one_on_only_what_is_used_counts() {
         bindings.into_iter().map(|it| (it.name, it.kind)).collect::<Vec<_>>()
     };
     assert_eq!(names("color = vec4(1.0);"), []);
-    let read_only = BindingKind::StorageBlock { readable: true, writable: false };
+    let read_only = BindingKind::StorageBlock { readable: true, writable: false, bytes: 0 };
     assert_eq!(names("color = light[0];"), [("Lights".to_owned(), read_only)]);
-    let writable = BindingKind::StorageBlock { readable: true, writable: true };
+    let writable = BindingKind::StorageBlock { readable: true, writable: true, bytes: 4 };
     assert_eq!(names("color = vec4(float(counter.count));"), [("counter".to_owned(), writable)]);
 }
 
@@ -372,7 +372,7 @@ fn a_compute_shader_has_a_workgroup_size_its_resources_and_nothing_of_a_draw() {
         panic!("{interface:?}")
     };
     assert_eq!((*format, *readable, *writable), (Some(Format::R32_UINT), false, true));
-    assert_eq!(interface.bindings[2].kind, BindingKind::StorageBlock { readable: true, writable: false });
+    assert_eq!(interface.bindings[2].kind, BindingKind::StorageBlock { readable: true, writable: false, bytes: 0 });
     assert_eq!((interface.outputs.len(), interface.vertex_inputs.len(), interface.discards), (0, 0, false));
 }
 

@@ -236,7 +236,7 @@ fn color_target(old: &ColorTarget, new: &ColorTarget) -> Difference {
     if !same || old.clear.is_some() != clear.is_some() {
         return Structure;
     }
-    let bits = |clear: &Option<[f32; 4]>| clear.map(|clear| clear.map(f32::to_bits));
+    let bits = |clear: &Option<[f64; 4]>| clear.map(|clear| clear.map(f64::to_bits));
     unless(bits(&old.clear) == bits(clear), Values)
 }
 
@@ -249,7 +249,7 @@ fn depth_target(old: &DepthTarget, new: &DepthTarget) -> Difference {
     if !same || old.clear.is_some() != clear.is_some() || kind(&old.stencil) != kind(stencil) {
         return Structure;
     }
-    let bits = |clear: &Option<f32>| clear.map(f32::to_bits);
+    let bits = |clear: &Option<f64>| clear.map(f64::to_bits);
     unless(bits(&old.clear) == bits(clear) && old.stencil == *stencil, Values)
 }
 

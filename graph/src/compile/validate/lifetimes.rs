@@ -3,7 +3,7 @@
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{Subject, When, contradiction};
-use crate::vulkan::{FillValue, Format, Layout, State};
+use crate::vulkan::{Layout, State};
 
 /// Most frames that history goes back: as many as the checker of the Plan can follow around.
 const MOST_HISTORY: u32 = 32;
@@ -22,7 +22,7 @@ fn mistake(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnosti
             Some(wrong(format!("keeps {frames} frames; 1 to {MOST_HISTORY} are possible")))
         }
         Lifetime::Persistent { initial } | Lifetime::History { initial, .. } => {
-            value_problem(initial, of.format).map(|what| wrong(format!("starts as {what}")))
+            initial.problem(of.format).map(|what| wrong(format!("starts as {what}")))
         }
         Lifetime::Imported { before, after } => {
             let after = after.and_then(|after| check_state(&after, span, of, When::After));
@@ -63,19 +63,4 @@ pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: When
     }
     let odd = of.format.is_none() && state.layout != Layout::Undefined;
     odd.then(|| Diagnostic::new(span, format!("`{}` is a buffer and has a layout", of.name)).help("write `UNDEFINED`"))
-}
-
-/// Whether a value can't fill an image with that format, or a buffer.
-pub(super) fn value_problem(value: &FillValue, format: Option<Format>) -> Option<&'static str> {
-    match (value, format) {
-        (FillValue::Color(color), _) if color.iter().any(|value| !value.is_finite()) => {
-            Some("what is not a finite number")
-        }
-        (FillValue::Depth(depth, _), _) if !(0.0..=1.0).contains(depth) => Some("a depth outside of 0 to 1"),
-        (FillValue::Bits(_), None) => None,
-        (FillValue::Color(_), Some(format)) if !format.is_integer() && !format.is_depth() => None,
-        (FillValue::Bits(_), Some(format)) if format.is_integer() => None,
-        (FillValue::Depth(..), Some(format)) if format.is_depth() => None,
-        _ => Some("a value of another kind"),
-    }
 }

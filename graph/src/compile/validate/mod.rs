@@ -9,7 +9,7 @@ use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View, Work};
 use crate::vulkan::Shape;
 use crate::vulkan::states::{Subject, When};
-use pass::{Check, clears_are_finite};
+use pass::{Check, wrong_clear};
 
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;
@@ -70,7 +70,7 @@ pub(super) fn values_still_hold(frame: &Frame) -> bool {
     for pass in &frame.passes {
         match pass.work {
             Work::Copy | Work::Fill { .. } => Check { frame, pass, errors: &mut errors }.transfers(),
-            Work::Draw { .. } if !clears_are_finite(pass) => return false,
+            Work::Draw { .. } if wrong_clear(frame, pass).is_some() => return false,
             _ => {}
         }
     }

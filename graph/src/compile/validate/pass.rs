@@ -144,8 +144,9 @@ impl Check<'_> {
         if let Some(used) = wrong {
             return self.wrong_stages(&self.frame.buffers[used.buffer.0 as usize].name);
         }
-        if !clears_are_finite(pass) {
-            return self.wrong(pass.span, "clears to what is not a finite number");
+        if let Some(image) = wrong_clear(self.frame, pass) {
+            let Image { name, format, .. } = image;
+            return self.wrong(pass.span, &format!("clears `{name}` to what {format} doesn't hold"));
         }
         let counts = pass.buffers.iter().filter(|used| used.role == BufferRole::Indirect).count();
         let indirect = match &pass.work {
@@ -208,8 +209,16 @@ impl Check<'_> {
     }
 }
 
-/// Whether it clears to numbers alone.
-pub(super) fn clears_are_finite(pass: &Pass) -> bool {
-    let mut clears = pass.color.iter().filter_map(|target| target.clear).flatten();
-    clears.all(f32::is_finite) && pass.depth.as_ref().and_then(|depth| depth.clear).is_none_or(f32::is_finite)
+/// An image that it clears to what the format doesn't hold, if there is one.
+pub(super) fn wrong_clear<'f>(frame: &'f Frame, pass: &Pass) -> Option<&'f Image> {
+    let image = |image: ImageIndex| &frame.images[image.0 as usize];
+    let colors = pass.color.iter().filter_map(|target| Some((image(target.image), target.clear?)));
+    let wrong = |(image, clear): &(&Image, [f64; 4])| {
+        image.format.lacks(*clear).is_some() || clear.iter().any(|number| !number.is_finite())
+    };
+    let depth = || {
+        let (depth, clear) = pass.depth.as_ref().and_then(|depth| Some((depth.image, depth.clear?)))?;
+        (!(0.0..=1.0).contains(&clear)).then(|| image(depth))
+    };
+    colors.filter(wrong).map(|(image, _)| image).next().or_else(depth)
 }

@@ -1,6 +1,5 @@
 //! Copies, blits and fills: both sides fit together.
 
-use super::lifetimes::value_problem;
 use super::pass::Check;
 use crate::frame::{Image, Resource, TransferUse, Work};
 use crate::vulkan::{Filter, Subresources};
@@ -28,7 +27,7 @@ impl Check<'_> {
                     Resource::Image(image) => Some(self.frame.images[image.0 as usize].format),
                     Resource::Buffer(_) => None,
                 };
-                if let Some(what) = value_problem(value, format) {
+                if let Some(what) = value.problem(format) {
                     self.wrong(pass.span, &format!("fills with {what}"));
                 }
             }

@@ -206,7 +206,7 @@ impl Context<'_> {
         Some(at(leaf, state))
     }
 
-    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<[f32; 4]>> {
+    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<[Spanned<f64>; 4]>> {
         if !matches!(leaf.shape(), Shape::Parentheses) {
             self.reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
             return None;
@@ -216,28 +216,28 @@ impl Context<'_> {
         Some(combined(parts, |parts| parts))
     }
 
-    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f32>> {
-        self.number_because(leaf, "a channel of a colour")?.checked(self.reader, move |number, _| {
-            #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
-            let component = number.value as f32;
-            if component.is_finite() {
-                return Ok(component);
+    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Spanned<f64>>> {
+        let number = self.number_because(leaf, "a channel of a colour")?.checked(self.reader, move |number, _| {
+            #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
+            let fits = (number.value as f32).is_finite();
+            if fits {
+                return Ok(number.value);
             }
             let wrong = format!("{} is too large for a colour", crate::base::shown_number(number.value));
             let wrong = Diagnostic::new(number.span, wrong).remark(number.remark());
             Err(wrong.help("32-bit floating point reaches about 3.4e38"))
-        })
+        })?;
+        Some(at(leaf, number))
     }
 
-    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f32>> {
+    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<f64>> {
         self.number_because(leaf, "depth")?.checked(self.reader, move |depth, _| {
             if !(0.0..=1.0).contains(&depth.value) {
                 let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
                 let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth.value));
                 return Err(Diagnostic::new(depth.span, wrong).remark(depth.remark()).help(help));
             }
-            #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
-            Ok(depth.value as f32)
+            Ok(depth.value)
         })
     }
 }

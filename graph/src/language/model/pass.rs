@@ -262,7 +262,7 @@ pub struct Color {
     /// Which part of which image.
     pub part: ImagePart,
     /// Clear value (linear red, green, blue, alpha).
-    pub clear: Option<[f32; 4]>,
+    pub clear: Option<[Spanned<f64>; 4]>,
     /// The blend of new colour with old.
     pub blend: Spanned<Blend>,
 }
@@ -273,7 +273,7 @@ pub struct Depth {
     /// Which part of which image.
     pub part: ImagePart,
     /// Clear value, 0 (infinitely far) to 1.
-    pub clear: Option<f32>,
+    pub clear: Option<f64>,
     /// The comparison.
     pub test: CompareOp,
     /// Whether passing fragments write depth.

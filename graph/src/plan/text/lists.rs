@@ -1,11 +1,11 @@
 //! Lists of a Plan beside its steps: views, images, buffers, outputs, notes and totals.
 
 use super::outline::{About, Outline};
-use super::words::{bytes, cause, count, fill_value, place, samples, size};
+use super::words::{bytes, cause, count, held, place, samples, size};
 use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
 use crate::plan::names::Shown;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
-use crate::vulkan::{Encoding, name_of};
+use crate::vulkan::{Encoding, Format, name_of};
 
 pub(super) fn view(view: &View) -> Outline {
     let [width, height] = view.extent;
@@ -27,12 +27,13 @@ fn jitter(jitter: &Jitter) -> String {
 
 pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Outline {
     let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
-    let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, next));
+    let text =
+        format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, None, next));
     Outline::leaf(text + &cause(&buffer.cause)).about(About::Buffer(buffer.id)).caused(&buffer.cause)
 }
 
-/// Where the memory of the image or buffer `name` comes from.
-fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
+/// Where the memory of the image or buffer `name` comes from; `format`: that of an image.
+fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) -> &'p str) -> String {
     match role {
         Role::Transient(placement) => {
             let [first, last] = placement.lifetime;
@@ -51,7 +52,10 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
         Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
             let next = next(*becomes);
             let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
-            format!(": persistent, {becomes} in the next frame, at first {}", fill_value(initial))
+            format!(
+                ": persistent, {becomes} in the next frame, at first {}",
+                held(initial, format.map(|format| (format, format.aspects())))
+            )
         }
         Role::External { .. } => ": external".to_owned(),
     }
@@ -75,7 +79,7 @@ pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Outline>) -> Outlin
         text += &format!(", rotated by {}°", image.rotation.degrees());
     }
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
-    text += &role(&image.role, &image.name, next);
+    text += &role(&image.role, &image.name, Some(image.format), next);
     Outline::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).chain(decided).collect())
         .about(About::Image(image.id))
         .caused(&image.cause)

@@ -121,7 +121,7 @@ impl Tree<'_> {
             Work::Fill(fill) => {
                 parts.extend(fill.name.iter().flat_map(|name| self.about_pass(name)));
                 let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
-                let value = fill_value(&fill.value);
+                let value = fill_value(self.plan, fill);
                 format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
             }
             Work::Export if self.id.0 as usize + 1 == self.plan.steps.len() => {

@@ -6,8 +6,8 @@ use crate::base::Place;
 use crate::base::amount::largest;
 use crate::frame::DrawList;
 use crate::plan::names::Shown;
-use crate::plan::{Cause, Hazard, ImageId, Moved, Plan, Step, StepId};
-use crate::vulkan::{AddressMode, FillValue, Filter, Sampler, name_of};
+use crate::plan::{Cause, Fill, Hazard, ImageId, Moved, Plan, Side, Step, StepId};
+use crate::vulkan::{AddressMode, Aspects, FillValue, Filter, Format, Numeric, Sampler, name_of};
 use std::collections::BTreeMap;
 
 /// The hazard of a barrier in words: the user, its work, and the step before.
@@ -59,10 +59,27 @@ pub(super) fn words_of(sampler: &Sampler) -> String {
     words
 }
 
-pub(crate) fn fill_value(value: &FillValue) -> String {
+/// The value of a fill, as the planes that it fills hold it.
+pub(crate) fn fill_value(plan: &Plan, Fill { value, target, .. }: &Fill) -> String {
+    match target {
+        Side::Image { image, range, .. } => held(value, Some((plan.image(*image).format, range.aspects))),
+        Side::Buffer { .. } => held(value, None),
+    }
+}
+
+/// A value of planes of a format, or (`None`) of a buffer.
+pub(super) fn held(value: &FillValue, by: Option<(Format, Aspects)>) -> String {
+    let planes = by.map_or(Aspects::COLOR, |(_, planes)| planes);
+    let signed = by.is_some_and(|(format, _)| format.numeric() == Numeric::Sint);
     match value {
         FillValue::Color([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Bits(bits) if signed => {
+            let [red, green, blue, alpha] = bits.map(u32::cast_signed);
+            format!("({red}, {green}, {blue}, {alpha})")
+        }
         FillValue::Bits([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Depth(_, stencil) if planes == Aspects::STENCIL => format!("stencil {stencil}"),
+        FillValue::Depth(depth, _) if planes == Aspects::DEPTH => format!("depth {depth}"),
         FillValue::Depth(depth, stencil) => format!("depth {depth}, stencil {stencil}"),
     }
 }

@@ -11,6 +11,7 @@ mod choices;
 mod covering;
 mod dynamic_sizes;
 mod encodings;
+mod exact_values;
 mod extend;
 mod eyes;
 mod fragments;

@@ -69,7 +69,7 @@ impl Raster {
 pub(crate) struct Added<'a>(&'a mut Pass);
 
 impl Added<'_> {
-    fn target(self, image: ImageIndex, clear: Option<[f32; 4]>, blend: Blend) -> Self {
+    fn target(self, image: ImageIndex, clear: Option<[f64; 4]>, blend: Blend) -> Self {
         self.0.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
         self
     }
@@ -82,7 +82,7 @@ impl Added<'_> {
         self.target(image, None, blend)
     }
 
-    fn depth(self, image: ImageIndex, clear: Option<f32>, test: CompareOp, write: bool) -> Self {
+    fn depth(self, image: ImageIndex, clear: Option<f64>, test: CompareOp, write: bool) -> Self {
         self.0.depth = Some(DepthTarget {
             image,
             range: Subresources::WHOLE,

@@ -35,8 +35,8 @@ fn drawn(value: u64) -> u64 {
     mix(("copy", value))
 }
 
-fn cleared(value: [f32; 4]) -> u64 {
-    mix(value.map(f32::to_bits))
+fn cleared(value: [f64; 4]) -> u64 {
+    mix(value.map(f64::to_bits))
 }
 
 /// A pass makes this of one of its targets.

@@ -89,9 +89,15 @@ fn lit(discards: bool) -> ShaderInterface {
         stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
     };
     let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
-    let objects = frame(2, "objects", BindingKind::StorageBlock { readable: true, writable: false });
+    let objects = frame(2, "objects", BindingKind::StorageBlock { readable: true, writable: false, bytes: 0 });
     let texture = Binding { set: 2, ..texture("base_color_texture", 0, false, Component::Float) };
-    let input = |location, name: &str, ty: &str| VertexInput { location, name: name.to_owned(), ty: ty.to_owned() };
+    let input = |location, name: &str, ty: &str| VertexInput {
+        location,
+        component: 0,
+        name: name.to_owned(),
+        ty: ty.to_owned(),
+        used: true,
+    };
     ShaderInterface {
         bindings: vec![view, objects, texture],
         vertex_inputs: vec![input(0, "position", "vec3"), input(1, "normal", "vec3")],
@@ -102,7 +108,7 @@ fn lit(discards: bool) -> ShaderInterface {
 }
 
 fn block(name: &str, binding: u32, readable: bool, writable: bool, stages: Stages) -> Binding {
-    let kind = BindingKind::StorageBlock { readable, writable };
+    let kind = BindingKind::StorageBlock { readable, writable, bytes: 0 };
     Binding { set: 0, binding, name: name.to_owned(), kind, length: None, adapts: false, stages }
 }
 
@@ -257,6 +263,8 @@ impl ShaderInterfaces for Table {
             }
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
+            "uints" => ShaderInterface { outputs: outputs(1, Component::Uint, 4), ..ShaderInterface::default() },
+            "ints" => ShaderInterface { outputs: outputs(1, Component::Int, 4), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
             "over_bright" | "blur_tent" | "copy" => full_screen(vec![source()]),
             "scale_area" | "scale_catmull_rom" => {
@@ -277,7 +285,7 @@ impl ShaderInterfaces for Table {
                 ShaderInterface { outputs, ..lit(name == "g_buffer_masked") }
             }
             "deferred_lighting" => {
-                let lights = BindingKind::StorageBlock { readable: true, writable: false };
+                let lights = BindingKind::StorageBlock { readable: true, writable: false, bytes: 0 };
                 let mut bindings = vec![
                     texture("base_color", 0, false, float),
                     texture("normal", 1, false, float),
@@ -428,9 +436,37 @@ impl ShaderInterfaces for Table {
                 full_screen(vec![Binding { kind, ..source() }])
             }
             "particles" => ShaderInterface {
-                vertex_inputs: vec![VertexInput { location: 0, name: "position".to_owned(), ty: "vec4".to_owned() }],
+                vertex_inputs: vec![VertexInput {
+                    location: 0,
+                    component: 0,
+                    name: "position".to_owned(),
+                    ty: "vec4".to_owned(),
+                    used: true,
+                }],
                 ..full_screen(vec![])
             },
+            "sized" => full_screen(vec![Binding {
+                kind: BindingKind::StorageBlock { readable: true, writable: false, bytes: 24 },
+                ..block("tiles", 0, true, false, Stages::FRAGMENT_SHADER)
+            }]),
+            "instanced" => {
+                let input = |location, component, name: &str, ty: &str, used| VertexInput {
+                    location,
+                    component,
+                    name: name.to_owned(),
+                    ty: ty.to_owned(),
+                    used,
+                };
+                let (turn, unused) = (input(1, 0, "turn", "mat4", true), input(5, 0, "uv", "vec2", false));
+                let vertex_inputs = vec![input(0, 0, "position", "vec2", true), turn, unused];
+                ShaderInterface { vertex_inputs, ..full_screen(vec![]) }
+            }
+            "leftover" => {
+                let mut interface = lit(false);
+                interface.vertex_inputs[1] =
+                    VertexInput { used: false, name: "tint".to_owned(), ..interface.vertex_inputs[1].clone() };
+                interface
+            }
             "pulled" => full_screen(vec![block("particles", 0, true, false, Stages::VERTEX_SHADER)]),
             "no_color" => ShaderInterface::default(),
             "vec3" => ShaderInterface { outputs: outputs(1, float, 3), ..ShaderInterface::default() },
@@ -438,7 +474,7 @@ impl ShaderInterfaces for Table {
                 set: 0,
                 binding: 0,
                 name: "tiles".to_owned(),
-                kind: BindingKind::StorageBlock { readable: true, writable: true },
+                kind: BindingKind::StorageBlock { readable: true, writable: true, bytes: 0 },
                 length: None,
                 adapts: false,
                 stages: Stages::FRAGMENT_SHADER,
@@ -446,7 +482,7 @@ impl ShaderInterfaces for Table {
             "misplaced" => {
                 let mut interface = lit(false);
                 interface.bindings[0].binding = 7;
-                interface.bindings[1].kind = BindingKind::StorageBlock { readable: true, writable: true };
+                interface.bindings[1].kind = BindingKind::StorageBlock { readable: true, writable: true, bytes: 0 };
                 interface.bindings[2].name = "base_colour_texture".to_owned();
                 interface.vertex_inputs[0].name = "positions".to_owned();
                 interface.vertex_inputs[1].ty = "ivec3".to_owned();

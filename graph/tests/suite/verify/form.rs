@@ -179,7 +179,8 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[3].shape = Shape::D3, "`screen`: is three-dimensional and can't be an attachment"),
         (|plan| scope(plan, 0).samples = 1, "`color`: has another sample count than its scope"),
         (|plan| scope(plan, 0).color[0].clear = None, "has a clear value exactly if its load is CLEAR"),
-        (|plan| scope(plan, 0).color[0].clear = Some([f32::NAN; 4]), "has a clear value that is not finite"),
+        (|plan| scope(plan, 0).color[0].clear = Some([f64::NAN; 4]), "has a clear value that its format doesn't hold"),
+        (|plan| scope(plan, 0).color[0].clear = Some([1e39; 4]), "has a clear value that its format doesn't hold"),
         (|plan| scope(plan, 1).color[0].clear = Some([0.0; 4]), "has a clear value exactly if its load is CLEAR"),
         (|plan| scope(plan, 0).depth = None, "pass `opaque` tests depth without a depth attachment"),
         (|plan| scope(plan, 0).passes[0].blend.clear(), "doesn't say how each colour attachment is blended"),
@@ -307,11 +308,9 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
     assert!(changed("\"white_point\"", "\"white_point\" \"").starts_with("not a Plan: "));
     assert!(matches!(Plan::from_json(""), Err(PlanError::Syntax(_))));
     assert!(matches!(Plan::from_json(&"[".repeat(100_000)), Err(PlanError::Syntax(_))));
-    for number in ["1e39", "1e999"] {
-        assert!(changed("0.0", number).contains("number out of range"));
-    }
+    assert!(changed("0.0", "1e999").contains("number out of range"));
     let mut plan = plan;
-    scope(&mut plan, 0).color[0].clear = Some([f32::NAN; 4]);
+    scope(&mut plan, 0).color[0].clear = Some([f64::NAN; 4]);
     assert_eq!(plan.to_json().unwrap_err().to_string(), "a clear value in steps[0] is not a finite number");
 }
 

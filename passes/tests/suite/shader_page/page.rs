@@ -139,7 +139,7 @@ fn rows(shader: &Shader, binding: &Binding) -> Vec<[String; 4]> {
             block.members.iter().map(|member| row(&member.name)).collect()
         }
         BindingKind::UniformBlock(block) => row("uniform", format!("a buffer of {} bytes", block.bytes)),
-        BindingKind::StorageBlock { readable, writable } => {
+        BindingKind::StorageBlock { readable, writable, .. } => {
             let access = match (readable, writable) {
                 (_, false) => "read",
                 (false, true) => "written",
