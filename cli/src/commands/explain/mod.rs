@@ -35,7 +35,8 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     let profile = device::choose(arguments.device.as_deref(), &read)?;
     let mut pipeline = planning::load(&arguments.pipeline, &read)?;
-    let scene = arguments.scene.as_deref().map(|file| inputs::scene(file, &read)).transpose()?;
+    let scene =
+        arguments.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, &read)).transpose()?;
     let facts = scene.as_ref().map(Scene::facts);
     let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
