@@ -172,6 +172,14 @@ fn compiled(program: &Path) -> ShaderProblem {
 
 fn unusable(program: &Path) -> String {
     match compiled(program) {
+        ShaderProblem::Machine { what } => what,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// That a shader can't be used, though nothing is wrong with the helper.
+fn unsupported(program: &Path) -> String {
+    match compiled(program) {
         ShaderProblem::Unsupported { what } => what,
         other => panic!("{other:?}"),
     }
@@ -196,12 +204,20 @@ fn a_program_that_is_no_helper_is_an_error_and_nothing_waits_for_it() {
         unusable(&program(folder.path(), "echo 'a line of a program that knows nothing of helpers'"))
             .contains("can't be")
     );
-    let text = broken(&program(folder.path(), "exit 7")).text;
-    assert!(text.contains("the GLSL compiler crashed") && text.contains('7'), "{text}");
-    let killed = broken(&program(folder.path(), "kill -KILL $$"));
-    assert_eq!(killed.text, "shipped:plain.frag: the GLSL compiler crashed (SIGKILL)");
-    assert_eq!(killed.limit, None);
-    let quote = killed.quote.expect("the shader's file");
+    // The system or a person ended it, or it ended itself: no shader is to blame.
+    let again = ", and so did the one that took its place";
+    for (lines, how) in [("exit 7", "exit status: 7"), ("kill -KILL $$", "SIGKILL"), ("kill -TERM $$", "SIGTERM")] {
+        fs::remove_file(folder.path().join("starts")).expect("it was started");
+        let said = unusable(&program(folder.path(), lines));
+        assert_eq!(said, format!("the helper process that compiles shaders died ({how}){again}"));
+        assert_eq!(starts(folder.path()), 2, "it is asked again once");
+    }
+    assert!(unusable(Path::new("/bin/false")).contains("died (exit status: 1)"));
+    assert!(unusable(Path::new("/bin/true")).contains("it ended, which a helper doesn't"));
+    let crashed = broken(&program(folder.path(), "kill -SEGV $$"));
+    assert_eq!(crashed.text, "shipped:plain.frag: the GLSL compiler crashed (SIGSEGV)");
+    assert_eq!(crashed.limit, None);
+    let quote = crashed.quote.expect("the shader's file");
     assert_eq!((&*quote.file, quote.line, &*quote.text), ("shipped:plain.frag", 1, "#version 460"));
     // It reads nothing and says nothing.
     let late = broken(&program(folder.path(), "exec sleep 1000"));
@@ -215,6 +231,31 @@ fn a_program_that_is_no_helper_is_an_error_and_nothing_waits_for_it() {
 }
 
 #[test]
+fn a_helper_that_died_between_two_shaders_is_started_anew() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a folder");
+    // Each process answers one question and dies at the next.
+    let answer = "{\"CompileFailure\":{\"Messages\":[\"said by the helper\"]}}";
+    let says = format!(
+        "head -c 4 > /dev/null\nprintf '\\{:03o}\\0\\0\\0%s' '{answer}'\nsleep 0.3\nkill -KILL $$",
+        answer.len()
+    );
+    let helper = Helper::program(program(folder.path(), &says), Limits::default()).with_cache(None);
+    for number in 1..=2 {
+        // A library keeps what it was told.
+        let library = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+        let mut library = library.with_helper(&helper);
+        match library.draw_shader("plain", Draw::FullScreen, &Variant::default()).expect_err("the helper says so") {
+            ShaderProblem::DoesNotCompile { messages } => assert_eq!(messages[0].text, "said by the helper"),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(starts(folder.path()), number);
+        // It is dead by now.
+        std::thread::sleep(Duration::from_millis(600));
+    }
+}
+
+#[test]
 fn a_helper_without_a_compiler_is_told_and_precompiled_shaders_need_none() {
     let _alone = alone();
     let folder = tempfile::tempdir().expect("a folder");
@@ -225,7 +266,7 @@ fn a_helper_without_a_compiler_is_told_and_precompiled_shaders_need_none() {
         "shipped:plain.frag: it must be compiled, and the program {} was built without the feature `shader-compiler`",
         without.display()
     );
-    assert_eq!(unusable(&without), format!("{said}; no folder of precompiled shaders was named"));
+    assert_eq!(unsupported(&without), format!("{said}; no folder of precompiled shaders was named"));
 
     let precompiled = PrecompiledShaders::in_folder(folder.path().join("spirv"));
     let library = || ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());

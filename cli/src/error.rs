@@ -4,11 +4,10 @@ use crate::command_line::options;
 use crate::picture::{DecodingError, EncodingError};
 use crate::system::{Exit, links, text};
 use framewright_graph::base;
-use framewright_graph::base::{Diagnostic, NoFile, Sources, for_shell};
+use framewright_graph::base::{Diagnostic, NoText, Sources, for_shell, is_of_machine};
 use framewright_graph::shader::ShaderProblem;
 use framewright_graph::vulkan::Format;
 use framewright_passes::scene::SceneError;
-use framewright_passes::scene::gltf::{GltfError, Problem};
 use framewright_vulkan::Blame;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,13 +25,8 @@ pub(crate) enum Error {
     #[error("the {what} `{}` is larger than {}", text::path(path), text::bytes(*limit))]
     TooLarge { what: &'static str, path: PathBuf, limit: u64 },
     /// A file isn't text.
-    #[error("the {what} `{}` is not text: byte {at} is not UTF-8", text::path(path))]
-    NotText {
-        what: &'static str,
-        path: PathBuf,
-        /// The first byte that isn't, from 0.
-        at: usize,
-    },
+    #[error("the {what} `{}` is not text: {why}", text::path(path))]
+    NotText { what: &'static str, path: PathBuf, why: NoText },
     /// The pipeline lies outside the folder that `--root` names.
     #[error(
         "`{}` lies outside of `{}`, which `--root` names: name a folder that the pipeline lies in",
@@ -46,6 +40,9 @@ pub(crate) enum Error {
     /// The scene is wrong.
     #[error("{0}")]
     Scene(Box<SceneError>),
+    /// The scene has mistakes, and none is passed over.
+    #[error("`{}` has mistakes, and `--strict` passes over none:\n  {}", text::path(path), text::escape_lines(&mistakes.join("\n  ")))]
+    SceneMistakes { path: PathBuf, mistakes: Vec<String> },
     /// Another error of the library that this command is made of.
     #[error("{}", text::escape_lines(&.0.to_string()))]
     Library(Box<framewright::Error>),
@@ -282,12 +279,9 @@ impl From<framewright::Error> for Error {
             Face::Missing { what, path, shipped } => Error::Missing { what, path, shipped },
             Face::Unreadable { what, path, source } => Error::Read { what, path, source },
             Face::TooLarge { what, path, limit } => Error::TooLarge { what, path, limit },
-            Face::NotText { what, path, at } => Error::NotText { what, path, at },
+            Face::NotText { what, path, why } => Error::NotText { what, path, why },
             Face::OutsideRoot { pipeline, root } => Error::OutsideRoot { pipeline, root },
-            Face::Mistakes { mistakes } => {
-                let exit = if mistakes.denied { Exit::Environment } else { Exit::Found };
-                Error::mistakes(mistakes.sources, mistakes.diagnostics, exit)
-            }
+            Face::Mistakes { mistakes } => Error::mistakes(mistakes.sources, mistakes.diagnostics, Exit::Found),
             Face::Scene(problem) => Error::Scene(problem),
             Face::Vulkan(problem) => Error::Vulkan(problem),
             other => Error::Library(Box::new(other)),
@@ -344,7 +338,8 @@ impl Error {
     #[must_use]
     pub(crate) fn exit(&self) -> Exit {
         match self {
-            Error::Read { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => Exit::Environment,
+            Error::Read { source, .. } if is_of_machine(source) => Exit::Environment,
+            Error::Scene(problem) if problem.is_of_machine() => Exit::Environment,
             Error::Missing { .. }
             | Error::Read { .. }
             | Error::TooLarge { .. }
@@ -369,22 +364,15 @@ impl Error {
             | Error::AlreadyExists { .. }
             | Error::CustomPass { .. }
             | Error::Unwritable(_)
+            | Error::Scene(_)
+            | Error::SceneMistakes { .. }
             | Error::Json(_)
             | Error::Library(_)
             | Error::Plan(_) => Exit::Found,
             // What has no output at all is wrong itself.
             Error::NoOutput { outputs, .. } if outputs.is_empty() => Exit::Found,
+            Error::Mistakes { mistakes } if mistakes.diagnostics.iter().any(|it| it.of_machine) => Exit::Environment,
             Error::Mistakes { mistakes } => mistakes.exit,
-            Error::Scene(problem) => match &**problem {
-                SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
-                    Exit::Environment
-                }
-                SceneError::Gltf {
-                    error: GltfError { problem: Problem::File { problem: NoFile::Denied { .. }, .. }, .. },
-                    ..
-                } => Exit::Environment,
-                _ => Exit::Found,
-            },
             Error::Vulkan(problem) => match problem.blame() {
                 Blame::Environment => Exit::Environment,
                 Blame::Files | Blame::Program => Exit::Found,

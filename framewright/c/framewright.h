@@ -196,7 +196,7 @@ typedef struct {
 typedef struct {
     // sizeof(FramewrightRendererOptions).
     size_t struct_size;
-    // How many frames may be on their way before a new one waits for the oldest; 0 counts as 1.
+    // How many frames may be on their way before a new one waits for the oldest, at most 16; 0 counts as 1.
     uint32_t frames_in_flight;
     // Folders of shaders beside that of the pipeline.
     FramewrightNames shaders;
@@ -235,7 +235,7 @@ typedef struct {
     uint32_t objects;
     // How many triangles all objects have.
     uint64_t triangles;
-    // The most radiance that a pixel can show before any effect, linear.
+    // The most radiance that a pixel can show before any effect, linear; finite.
     double peak_radiance;
     // The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
     double depth_range;
@@ -344,6 +344,10 @@ FramewrightStatus framewright_device_adopt(const FramewrightAdoptedDevice *progr
 
 // Reads a scene from a file (`.ron`, `.gltf`, `.glb`); where there is none, the shipped scene of that name.
 FramewrightStatus framewright_scene_load(const char *path, FramewrightScene **scene);
+
+// The mistakes in the file of a scene that were passed over, by their numbers from 0, each with what was left out or changed; NULL behind
+// the last one, and for NULL. They live as long as the handle.
+const char *framewright_scene_mistake(const FramewrightScene *scene, size_t number);
 
 // Frees the handle of a scene. Renderers that show it go on.
 void framewright_scene_free(FramewrightScene *scene);

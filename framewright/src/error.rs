@@ -1,6 +1,6 @@
 //! Everything that can go wrong between a pipeline file and a frame, as data.
 
-use framewright_graph::base::{self, Diagnostic, Sources, amount, escape};
+use framewright_graph::base::{self, Diagnostic, NoText, Sources, amount, escape};
 use framewright_graph::verify::Violation;
 use framewright_passes::scene::SceneError;
 use std::fmt;
@@ -43,14 +43,14 @@ pub enum Error {
         limit: u64,
     },
     /// A file isn't text.
-    #[error("the {what} `{}` is not text: byte {at} is not UTF-8", shown(path))]
+    #[error("the {what} `{}` is not text: {why}", shown(path))]
     NotText {
         /// The kind of file.
         what: &'static str,
         /// The file.
         path: PathBuf,
-        /// The first byte that isn't, from 0.
-        at: usize,
+        /// The encoding that it has, or the first byte that isn't text.
+        why: NoText,
     },
     /// The pipeline lies outside of the folder that its files may lie in: see [`Reach::Within`](crate::Reach::Within).
     #[error("`{}` lies outside of `{}`: name a folder that the pipeline lies in", shown(pipeline), shown(root))]
@@ -96,8 +96,14 @@ pub struct Mistakes {
     pub sources: Sources,
     /// At least one mistake.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether a file is there and the user has no right to read it: then nothing is wrong with the files.
-    pub denied: bool,
+}
+
+impl Mistakes {
+    /// Whether nothing is wrong with the files: the machine doesn't let one be read, or lacks something.
+    #[must_use]
+    pub fn is_of_machine(&self) -> bool {
+        self.diagnostics.iter().any(|mistake| mistake.of_machine)
+    }
 }
 
 impl fmt::Debug for Error {
@@ -108,7 +114,7 @@ impl fmt::Debug for Error {
 
 impl Error {
     pub(crate) fn mistakes(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
-        let mistakes = Mistakes { sources: sources.clone(), diagnostics, denied: false };
+        let mistakes = Mistakes { sources: sources.clone(), diagnostics };
         Error::Mistakes { mistakes: Box::new(mistakes) }
     }
 

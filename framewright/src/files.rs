@@ -1,7 +1,7 @@
 //! The files of a pipeline: found on disk, else among those that are shipped.
 
 use crate::error::Error;
-use framewright_graph::base::{FilePath, ReadFiles, Root, Sources};
+use framewright_graph::base::{FilePath, ReadFiles, Root, Sources, text_of};
 use framewright_graph::language::{Found, LARGEST_FILE, PipelineFiles, Shipped};
 use framewright_passes::scene::{self, Scene, SceneError};
 use framewright_passes::shipped;
@@ -206,10 +206,8 @@ fn bytes(what: &'static str, path: &Path, read: &ReadFiles, recorded: &'static s
 pub(crate) fn settings(path: &Path, read: &ReadFiles) -> Result<String, Error> {
     const WHAT: &str = "settings file";
     let bytes = bytes(WHAT, path, read, "the settings file itself")?;
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Error::NotText { what: WHAT, path: path.to_owned(), at }
-    })
+    let text = text_of(&bytes).map_err(|why| Error::NotText { what: WHAT, path: path.to_owned(), why })?;
+    Ok(text.to_owned())
 }
 
 /// File name and text of the shipped file that `path` asks for.

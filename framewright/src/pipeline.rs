@@ -33,15 +33,11 @@ struct NamedFiles {
     textures: TextureFiles,
     /// The paths of pictures that are named.
     pictures: BTreeSet<Arc<str>>,
-    /// Whether the user has no right to read one of the files.
-    denied: bool,
 }
 
 impl Files for NamedFiles {
     fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
-        let found = self.files.read(from, path);
-        self.denied |= found.as_ref().is_err_and(|unread| unread.denied);
-        found
+        self.files.read(from, path)
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
@@ -57,7 +53,7 @@ impl PipelineFile {
     /// [`Error::Mistakes`] with all mistakes that don't depend on settings, scene or device.
     pub fn read(self) -> Result<Pipeline, Error> {
         let textures = textures(self.root(), &self.read);
-        let mut named = NamedFiles { files: self.files, textures, pictures: BTreeSet::new(), denied: false };
+        let mut named = NamedFiles { files: self.files, textures, pictures: BTreeSet::new() };
         let mut sources = Sources::default();
         let read = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
         match read {
@@ -66,7 +62,7 @@ impl PipelineFile {
                 Ok(Pipeline { document, sources: Arc::new(sources), textures, pictures })
             }
             Err(diagnostics) => {
-                let mistakes = crate::Mistakes { sources, diagnostics, denied: named.denied };
+                let mistakes = crate::Mistakes { sources, diagnostics };
                 Err(Error::Mistakes { mistakes: Box::new(mistakes) })
             }
         }

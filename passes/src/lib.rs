@@ -2,6 +2,7 @@
 //!
 //! - [`scene`]: scenes as plain data, read from our own RON format or from GLB.
 //! - [`facts`]: the facts of a scene that pipeline files can use.
+//! - [`open_exr`]: pictures of OpenEXR files.
 //! - [`shipped`]: the shaders, carried within the binary.
 //! - [`srgb`]: the curve of sRGB.
 //! - [`texture_files`]: pictures for the textures of a frame.
@@ -10,6 +11,7 @@
 
 pub mod draw;
 pub mod facts;
+pub mod open_exr;
 pub mod scene;
 pub mod shipped;
 pub mod srgb;

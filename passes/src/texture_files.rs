@@ -1,15 +1,17 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
+use crate::open_exr::OpenExr;
 use crate::srgb;
-use framewright_graph::base::{NoFile, Root};
+use framewright_graph::base::{NoFile, Root, is_of_machine};
 use framewright_graph::frame::{
     ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
 };
 use framewright_graph::vulkan::{Format, Numeric};
 use half::f16;
+use image::codecs::hdr::HdrDecoder;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
-use std::fs;
-use std::io::{BufReader, Read};
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::PathBuf;
 
 /// Texels along a side of a picture. A strip for a three-dimensional image is longer than textures of other kinds.
@@ -38,7 +40,11 @@ enum Texels {
     Floats(Vec<f32>),
 }
 
-type Decoder = Box<dyn ImageDecoder>;
+/// A picture whose size is known, and whose texels aren't decoded yet.
+enum Opened {
+    OpenExr(OpenExr<BufReader<File>>),
+    Other(Box<dyn ImageDecoder>, ImageFormat),
+}
 
 impl TextureFiles {
     /// Files that `root` lets be read.
@@ -52,7 +58,6 @@ impl TextureFiles {
     /// # Errors
     /// If the file lies outside of the folder, can't be read or is too large.
     pub fn bytes(&self, path: &str) -> Result<Vec<u8>, TextureProblem> {
-        let unreadable = |error: std::io::Error| TextureProblem::Unreadable { reason: error.to_string() };
         let mut bytes = Vec::new();
         let file = self.root.open(&self.locate(path)?).map_err(unreadable)?;
         file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -61,79 +66,130 @@ impl TextureFiles {
 
     /// The file behind a path.
     fn locate(&self, path: &str) -> Result<PathBuf, TextureProblem> {
-        let unreadable = |reason: String| TextureProblem::Unreadable { reason };
         let found = self.root.locate(path).map_err(|problem| match problem {
             NoFile::Outside { .. } => TextureProblem::Outside,
-            NoFile::Unreadable { reason } | NoFile::Denied { reason } => unreadable(reason),
-            other => unreadable(format!("it {other}")),
+            NoFile::Unreadable { reason } => TextureProblem::Unreadable { reason },
+            NoFile::Denied { reason } | NoFile::Machine { reason } => TextureProblem::Machine { reason },
+            other => TextureProblem::Unreadable { reason: format!("it {other}") },
         })?;
-        let bytes = fs::metadata(&found).map_err(|error| unreadable(error.to_string()))?.len();
+        let bytes = fs::metadata(&found).map_err(unreadable)?.len();
         if bytes > MOST_BYTES {
-            return Err(unreadable(format!("it has {bytes} bytes, more than the {MOST_BYTES} of a texture")));
+            let reason = format!("it has {bytes} bytes, more than the {MOST_BYTES} of a texture");
+            return Err(TextureProblem::Unreadable { reason });
         }
         Ok(found)
     }
 
-    /// The decoder of a picture whose size is within the limits, and its kind.
-    fn open(&self, path: &str) -> Result<(Decoder, ImageFormat), TextureProblem> {
-        let file = self
-            .root
-            .open(&self.locate(path)?)
-            .map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
-        let mut reader = ImageReader::new(BufReader::new(file))
-            .with_guessed_format()
-            .map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
-        let format = reader.format().ok_or_else(|| damaged("neither PNG nor JPEG, HDR or EXR"))?;
-        let mut limits = Limits::no_limits();
-        limits.max_alloc = Some(MOST_DECODED);
-        reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(damaged)?;
-        let (width, height) = decoder.dimensions();
+    /// Opens a picture whose size is within the limits.
+    fn open(&self, path: &str) -> Result<Opened, TextureProblem> {
+        let file = self.root.open(&self.locate(path)?).map_err(unreadable)?;
+        let mut reader = ImageReader::new(BufReader::new(file)).with_guessed_format().map_err(unreadable)?;
+        let format = reader.format();
+        let file = reader.into_inner();
+        let opened = match format {
+            Some(ImageFormat::OpenExr) => Opened::OpenExr(OpenExr::open(file).map_err(damaged)?),
+            Some(format) => {
+                reader = ImageReader::with_format(file, format);
+                reader.limits(most_memory());
+                Opened::Other(Box::new(reader.into_decoder().map_err(damaged)?), format)
+            }
+            None => Opened::Other(radiance(file)?, ImageFormat::Hdr),
+        };
+        let (stored, [width, height]) = (opened.stored(), opened.extent());
         let texels = u64::from(width) * u64::from(height);
         if width == 0 || height == 0 {
             return Err(damaged("it is empty"));
         }
-        if width.max(height) > MOST_SIDE || texels > MOST_TEXELS {
+        if width.max(height) > MOST_SIDE || texels.max(stored) > MOST_TEXELS {
             return Err(TextureProblem::TooLarge { extent: [width, height], side: MOST_SIDE, texels: MOST_TEXELS });
         }
-        Ok((Box::new(decoder), format))
+        Ok(opened)
+    }
+}
+
+/// The memory that a decoder may take.
+fn most_memory() -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MOST_DECODED);
+    limits
+}
+
+/// The decoder of a Radiance file that doesn't begin with `#?RADIANCE`: other programs write their own name there, such as `#?RGBE`.
+fn radiance(mut file: BufReader<File>) -> Result<Box<dyn ImageDecoder>, TextureProblem> {
+    const LONGEST: u64 = 80;
+    let none = || damaged("neither PNG nor JPEG, HDR or EXR");
+    file.rewind().map_err(unreadable)?;
+    let mut first = Vec::new();
+    file.by_ref().take(LONGEST).read_until(b'\n', &mut first).map_err(unreadable)?;
+    let name = first.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&first).strip_prefix(b"#?").ok_or_else(none)?;
+    if !name.ends_with(b"\n") {
+        return Err(none());
+    }
+    // It stands behind its first line now.
+    let whole = io::Cursor::new(b"#?RADIANCE\n").chain(file);
+    let mut decoder = HdrDecoder::new(whole).map_err(damaged)?;
+    decoder.set_limits(most_memory()).map_err(damaged)?;
+    Ok(Box::new(decoder))
+}
+
+impl Opened {
+    fn extent(&self) -> [u32; 2] {
+        match self {
+            Opened::OpenExr(file) => file.extent,
+            Opened::Other(decoder, _) => decoder.dimensions().into(),
+        }
+    }
+
+    /// Texels that the file holds, of which not all need be shown.
+    fn stored(&self) -> u64 {
+        match self {
+            Opened::OpenExr(file) => file.stored,
+            Opened::Other(..) => 0,
+        }
+    }
+
+    /// Whether it holds light in floating point.
+    fn is_light(&self) -> bool {
+        matches!(self, Opened::OpenExr(_) | Opened::Other(_, ImageFormat::Hdr))
+    }
+
+    fn texels(self) -> Result<Texels, TextureProblem> {
+        let decoder = match self {
+            Opened::OpenExr(file) => return file.texels().map(Texels::Floats).map_err(damaged),
+            Opened::Other(decoder, _) => decoder,
+        };
+        let decoded = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+        Ok(match decoded.color() {
+            ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
+                Texels::Bytes(decoded.into_rgba8().into_raw())
+            }
+            words if is_of_words(words) => Texels::Words(decoded.into_rgba16().into_raw()),
+            _ => Texels::Floats(decoded.into_rgba32f().into_raw()),
+        })
     }
 }
 
 impl Textures for TextureFiles {
     fn info(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
-        let (decoder, kind) = self.open(&file.path)?;
-        let (width, height) = decoder.dimensions();
-        let format = match (kind, decoder.color_type(), file.color_space) {
-            (ImageFormat::Hdr | ImageFormat::OpenExr, ..) => Format::R16G16B16A16_SFLOAT,
-            (_, ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16, _) => {
-                Format::R16G16B16A16_UNORM
-            }
-            (.., ColorSpace::Srgb) => Format::R8G8B8A8_SRGB,
-            (.., ColorSpace::Linear) => Format::R8G8B8A8_UNORM,
+        let opened = self.open(&file.path)?;
+        let format = match (&opened, file.color_space) {
+            _ if opened.is_light() => Format::R16G16B16A16_SFLOAT,
+            (Opened::Other(decoder, _), _) if is_of_words(decoder.color_type()) => Format::R16G16B16A16_UNORM,
+            (_, ColorSpace::Srgb) => Format::R8G8B8A8_SRGB,
+            (_, ColorSpace::Linear) => Format::R8G8B8A8_UNORM,
         };
-        check_space(kind, file, format)?;
-        Ok(TextureInfo { extent: [width, height], format })
+        check_space(opened.is_light(), file, format)?;
+        Ok(TextureInfo { extent: opened.extent(), format })
     }
 
     fn texels(&mut self, file: &TextureFile, format: Format, extent: [u32; 3]) -> Result<Vec<u8>, TextureProblem> {
-        let (decoder, kind) = self.open(&file.path)?;
-        check_space(kind, file, format)?;
-        let (width, height) = decoder.dimensions();
-        let expected = picture_extent(extent);
-        if expected != [width, height] {
-            return Err(TextureProblem::Size { found: [width, height], expected, strip: extent[2] > 1 });
+        let opened = self.open(&file.path)?;
+        check_space(opened.is_light(), file, format)?;
+        let (found, expected) = (opened.extent(), picture_extent(extent));
+        if expected != found {
+            return Err(TextureProblem::Size { found, expected, strip: extent[2] > 1 });
         }
-        let decoded = DynamicImage::from_decoder(decoder).map_err(damaged)?;
-        let texels = match decoded.color() {
-            ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
-                Texels::Bytes(decoded.into_rgba8().into_raw())
-            }
-            ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
-                Texels::Words(decoded.into_rgba16().into_raw())
-            }
-            _ => Texels::Floats(decoded.into_rgba32f().into_raw()),
-        };
+        let texels = opened.texels()?;
         // Encoded values stay so where the format decodes them.
         let decodes = file.color_space == ColorSpace::Srgb && format.numeric() != Numeric::Srgb;
         let mut bytes = Vec::new();
@@ -153,14 +209,22 @@ impl Textures for TextureFiles {
     }
 }
 
+fn is_of_words(color: ColorType) -> bool {
+    matches!(color, ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16)
+}
+
+fn unreadable(error: io::Error) -> TextureProblem {
+    let reason = error.to_string();
+    if is_of_machine(&error) { TextureProblem::Machine { reason } } else { TextureProblem::Unreadable { reason } }
+}
+
 fn damaged(reason: impl std::fmt::Display) -> TextureProblem {
     TextureProblem::Damaged { reason: reason.to_string() }
 }
 
 /// Light in floating point is never encoded.
-fn check_space(kind: ImageFormat, file: &TextureFile, format: Format) -> Result<(), TextureProblem> {
-    let floats = matches!(kind, ImageFormat::Hdr | ImageFormat::OpenExr);
-    let why = if floats && file.color_space == ColorSpace::Srgb {
+fn check_space(is_light: bool, file: &TextureFile, format: Format) -> Result<(), TextureProblem> {
+    let why = if is_light && file.color_space == ColorSpace::Srgb {
         Some("HDR and EXR hold linear light: say `color_space: Linear`")
     } else {
         format_problem(file, format)

@@ -20,6 +20,7 @@ pub fn empty_scene() -> Scene {
         camera: Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE }),
         cameras: Vec::new(),
         notes: Vec::new(),
+        mistakes: Vec::new(),
     }
 }
 

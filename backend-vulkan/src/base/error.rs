@@ -295,6 +295,8 @@ impl Error {
             | Error::SurfaceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,
+            Error::Shader { problem: ShaderProblem::Machine { .. }, .. } => Blame::Environment,
+            Error::Texture { problem, .. } if problem.is_of_machine() => Blame::Environment,
             Error::AtStep { error, .. } => error.blame(),
             Error::Shader { .. }
             | Error::Texture { .. }
@@ -403,6 +405,8 @@ fn problem_text(problem: &ShaderProblem) -> String {
         ShaderProblem::DoesNotCompile { messages } => {
             format!("doesn't compile: {}", list(&messages.iter().map(ToString::to_string).collect::<Vec<_>>()))
         }
-        ShaderProblem::Unsupported { what } => format!("can't be used: {}", escape(what)),
+        ShaderProblem::Unsupported { what } | ShaderProblem::Machine { what } => {
+            format!("can't be used: {}", escape(what))
+        }
     }
 }

@@ -18,5 +18,6 @@ pub(crate) use convert::Clear;
 pub(crate) use kept_files::{bytes_in, digest, shrink, used_now};
 pub(crate) use named::{by, named, numbers};
 pub(crate) use platform::{
-    apart_from_interrupts, in_words, limit_this_process, take_standard_output, with_usual_rights,
+    ChildInput, apart_from_interrupts, in_words, is_crash, limit_this_process, start_with_input, take_standard_output,
+    with_usual_rights,
 };

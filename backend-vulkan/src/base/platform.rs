@@ -3,7 +3,7 @@
 use std::fs::{DirBuilder, File, Metadata, OpenOptions};
 use std::io;
 use std::path::PathBuf;
-use std::process::{Command, ExitStatus};
+use std::process::{Child, Command, ExitStatus};
 
 /// Has a file opened without waiting and without following a link in its place: nobody may write to a pipe of that name, ever.
 /// Windows has no such pipes in folders, and makes links for administrators alone.
@@ -48,6 +48,48 @@ pub(crate) fn with_usual_rights(file: &mut tempfile::Builder<'_, '_>) {
 /// The folder of the user's caches where `XDG_CACHE_HOME` names none: `~/.cache`, on Windows `%LOCALAPPDATA%`.
 pub(super) fn caches_of_user(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
     if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("HOME").map(|home| home.join(".cache")) }
+}
+
+/// This program's end of the standard input of a process that it starts.
+#[cfg(unix)]
+pub(crate) type ChildInput = std::os::unix::net::UnixStream;
+/// This program's end of the standard input of a process that it starts.
+#[cfg(not(unix))]
+pub(crate) type ChildInput = std::process::ChildStdin;
+
+/// Starts a process and gives its standard input. On Unix that is a socket: writing to a pipe whose reader has died ends every program that
+/// doesn't ignore the signal for it, and programs in C don't.
+///
+/// # Errors
+/// Those of the system.
+pub(crate) fn start_with_input(mut command: Command) -> io::Result<(Child, ChildInput)> {
+    #[cfg(unix)]
+    {
+        let (own, of_child) = ChildInput::pair()?;
+        let child = command.stdin(std::os::fd::OwnedFd::from(of_child)).spawn()?;
+        Ok((child, own))
+    }
+    #[cfg(not(unix))]
+    {
+        let mut child = command.stdin(std::process::Stdio::piped()).spawn()?;
+        let input = child.stdin.take().ok_or(io::ErrorKind::BrokenPipe)?;
+        Ok((child, input))
+    }
+}
+
+/// Whether a process ended by a mistake of its own, such as one in memory. Others end it by other signals, and it ends itself by an exit code.
+pub(crate) fn is_crash(status: ExitStatus) -> bool {
+    #[cfg(unix)]
+    {
+        let signal = std::os::unix::process::ExitStatusExt::signal(&status);
+        let own = [libc::SIGABRT, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGSEGV, libc::SIGSYS, libc::SIGTRAP];
+        signal.is_some_and(|signal| own.contains(&signal))
+    }
+    // Windows tells a crash by a code with its highest bit set.
+    #[cfg(not(unix))]
+    {
+        status.code().is_some_and(i32::is_negative)
+    }
 }
 
 /// Has Ctrl-C interrupt this program and not the one that it starts.

@@ -188,7 +188,7 @@ impl<T> SelfTestRun<T> {
 fn outcome_of(end: &NoAnswer) -> Outcome {
     match end {
         NoAnswer::Died(how) if ["SIGHUP", "SIGINT", "SIGKILL", "SIGTERM"].contains(&how.as_str()) => Outcome::NotDone,
-        NoAnswer::Died(_) | NoAnswer::Stack(_) => Outcome::Finding,
+        NoAnswer::Crashed(_) | NoAnswer::Died(_) | NoAnswer::Stack(_) => Outcome::Finding,
         NoAnswer::TooLong(_) => Outcome::TooLong,
         NoAnswer::Memory(_) | NoAnswer::Cancelled | NoAnswer::Unusable(_) => Outcome::NotDone,
     }
@@ -237,7 +237,7 @@ mod tests {
             assert!(tested.found.is_none() && tested.why.is_some());
             tested.end
         };
-        for ended in [NoAnswer::Died("SIGSEGV".to_owned()), NoAnswer::Stack(1 << 20)] {
+        for ended in [NoAnswer::Crashed("SIGSEGV".to_owned()), NoAnswer::Stack(1 << 20)] {
             assert_eq!(no_answer(Err(ended)), Outcome::Finding);
         }
         assert_eq!(no_answer(Err(NoAnswer::TooLong(Duration::from_secs(1)))), Outcome::TooLong);

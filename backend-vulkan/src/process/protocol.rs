@@ -88,6 +88,8 @@ pub(crate) struct IncludedFile {
     pub(crate) shown: String,
     /// GLSL.
     pub(crate) text: String,
+    /// What tells the file from others, if it says `#pragma once`: included again it has no text.
+    pub(crate) once: Option<u64>,
 }
 
 /// Why a stage doesn't compile.

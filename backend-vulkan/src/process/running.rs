@@ -2,11 +2,11 @@
 
 use super::limits::Limits;
 use super::protocol::{self, ARGUMENT, Answer, LARGEST_FRAME, LARGEST_SPIRV, MARK, Request};
-use crate::base::{Cancel, SLICE, apart_from_interrupts, in_words};
+use crate::base::{Cancel, ChildInput, SLICE, apart_from_interrupts, in_words, is_crash, start_with_input};
 use std::io::{BufReader, Read};
 use std::panic::resume_unwind;
 use std::path::Path;
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{Child, ChildStderr, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::{Duration, Instant};
@@ -33,8 +33,11 @@ pub(crate) enum NoAnswer {
     /// The process ran out of memory.
     #[error("needed more memory than {} MiB, which is its limit", .0 >> 20)]
     Memory(u64),
-    /// The process died of something else.
+    /// The process made a mistake in memory or the like.
     #[error("crashed ({0})")]
+    Crashed(String),
+    /// Something else ended the process, or it ended itself.
+    #[error("died ({0})")]
     Died(String),
     /// The program asked for the wait to be given up.
     #[error("was cancelled")]
@@ -42,6 +45,13 @@ pub(crate) enum NoAnswer {
     /// The program can't be started, or isn't a helper.
     #[error("can't be started: {0}")]
     Unusable(String),
+}
+
+impl NoAnswer {
+    /// Whether another process may answer the same question.
+    pub(crate) fn may_be_chance(&self) -> bool {
+        matches!(self, NoAnswer::Crashed(_) | NoAnswer::Died(_) | NoAnswer::Unusable(_))
+    }
 }
 
 /// A process that was started. It is ended with this, and ends by itself when this process does.
@@ -57,7 +67,7 @@ pub(super) struct Running {
 /// Both directions of the talk with a helper.
 #[derive(Debug)]
 pub(super) struct Streams {
-    to: ChildStdin,
+    to: ChildInput,
     from: BufReader<ChildStdout>,
 }
 
@@ -100,14 +110,12 @@ impl Running {
         }
         let mut command = Command::new(program);
         command.args([ARGUMENT, &limits.memory.unwrap_or(0).to_string(), &limits.stack.to_string()]).env(MARK, "1");
-        command.stdin(Stdio::piped()).stdout(Stdio::piped());
-        command.stderr(Stdio::piped());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
         // Ctrl-C is for the program, which then ends its helper.
         apart_from_interrupts(&mut command);
         let unusable = |error: io::Error| NoAnswer::Unusable(format!("{shown}: {error}"));
-        let mut child = command.spawn().map_err(unusable)?;
-        let (to, from, said) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
-        let (Some(to), Some(from), Some(said)) = (to, from, said) else {
+        let (mut child, to) = start_with_input(command).map_err(unusable)?;
+        let (Some(from), Some(said)) = (child.stdout.take(), child.stderr.take()) else {
             return Err(NoAnswer::Unusable(format!("{shown}: no pipes")));
         };
         let streams = Streams { to, from: BufReader::new(from) };
@@ -171,6 +179,7 @@ impl Running {
             Some(memory) if said.contains("bad_alloc") || said.contains("memory allocation of") => {
                 NoAnswer::Memory(memory)
             }
+            _ if is_crash(status) => NoAnswer::Crashed(in_words(status)),
             _ => NoAnswer::Died(in_words(status)),
         }
     }

@@ -1,12 +1,13 @@
 //! GLSL to SPIR-V through shaderc.
 
 use super::compile::{Includes, MAX_INCLUDES};
-use crate::process::{CompileFailure, CompileJob, IncludedFile, LARGEST_SPIRV, ShaderStage};
+use crate::process::{CompileFailure, CompileJob, LARGEST_SPIRV, ShaderStage};
 use shaderc::{
     CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
     SpirvVersion, TargetEnv,
 };
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 /// A file may include others this deep.
@@ -29,6 +30,7 @@ pub(super) fn compile(
     let compiler = compiler().map_err(|error| CompileFailure::Internal(format!("it doesn't start: {error}")))?;
     let (stage, includes) = (*stage, RefCell::new(includes));
     let included = Cell::new(0);
+    let once = RefCell::new(BTreeSet::new());
     let mut options = CompileOptions::new().map_err(|error| CompileFailure::Internal(error.to_string()))?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_forced_version_profile(460, GlslProfile::Core);
@@ -51,8 +53,9 @@ pub(super) fn compile(
         if depth > MAX_INCLUDE_DEPTH || included.get() > MAX_INCLUDES {
             return Err(format!("more than {MAX_INCLUDE_DEPTH} includes deep or {MAX_INCLUDES} in all: a circle?"));
         }
-        let IncludedFile { shown, text } = (*includes.borrow_mut())(includer, requested)?;
-        Ok(ResolvedInclude { resolved_name: shown, content: text })
+        let file = (*includes.borrow_mut())(includer, requested)?;
+        let again = file.once.is_some_and(|file| !once.borrow_mut().insert(file));
+        Ok(ResolvedInclude { resolved_name: file.shown, content: if again { String::new() } else { file.text } })
     });
     let kind = match stage {
         ShaderStage::Vertex => ShaderKind::Vertex,

@@ -43,15 +43,14 @@ impl Compilers {
         source: &SourceFile,
         files: &ShaderFiles,
     ) -> Result<Compiled, ShaderProblem> {
-        let unsupported = |what: String| ShaderProblem::Unsupported { what };
         let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
         let file = precompiled.file(job, source, files);
-        if let Some(spirv) = PrecompiledShaders::read(&file).map_err(unsupported)? {
+        if let Some(spirv) = PrecompiledShaders::read(&file)? {
             let verdict = judge(&spirv);
             return Ok(Compiled { spirv, verdict });
         }
         let compiled = self.compile_now(job, source, files)?;
-        precompiled.add(&file, &compiled.spirv).map_err(unsupported)?;
+        precompiled.add(&file, &compiled.spirv).map_err(|what| ShaderProblem::Machine { what })?;
         Ok(compiled)
     }
 
@@ -63,20 +62,34 @@ impl Compilers {
     ) -> Result<Compiled, ShaderProblem> {
         // Which files the compiler's names stand for, and what they hold.
         let mut known = HashMap::from([(source.shown.clone(), (source.path.clone(), source.text.clone()))]);
+        let mut refused = None;
         let mut includes = |from: &str, name: &str| -> Result<IncludedFile, String> {
             let from = known.get(from).map_or_else(|| source.path.clone(), |(path, _)| FilePath::clone(path));
-            let found = files.included(&from, name)?;
-            let SourceFile { path, shown, text } =
-                found.ok_or_else(|| format!("looked for it in {}", files.places(&from).join(", ")))?;
+            let found = files.included(&from, name).map_err(|no| {
+                if no.of_machine {
+                    refused.get_or_insert(no.what.clone());
+                }
+                no.what
+            });
+            let SourceFile { path, shown, text, once } =
+                found?.ok_or_else(|| format!("looked for it in {}", files.places(&from).join(", ")))?;
             known.insert(shown.clone(), (path, text.clone()));
-            Ok(IncludedFile { shown, text })
+            // The stage's own file is there already.
+            let text = if once.is_some() && once == source.once { String::new() } else { text };
+            Ok(IncludedFile { shown, text, once })
         };
         let compiled = match &mut self.compiler {
             Compiler::Here => compile(job, &mut includes),
             Compiler::Helper(helper, cache) => {
-                compile_cached(helper, cache.as_mut(), job, &mut includes).map_err(|end| no_answer(source, &end))?
+                let mut ask = || compile_cached(helper, cache.as_mut(), job, &mut includes);
+                // It may have died since the file before, of something that has nothing to do with this one.
+                let answer = ask().or_else(|end| if end.may_be_chance() { ask() } else { Err(end) });
+                answer.map_err(|end| no_answer(source, &end))?
             }
         };
+        if let Some(what) = refused {
+            return Err(ShaderProblem::Machine { what });
+        }
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
             CompileFailure::NoCompiler => ShaderProblem::Unsupported { what: self.no_compiler(source) },
@@ -140,9 +153,14 @@ fn no_answer(source: &SourceFile, end: &NoAnswer) -> ShaderProblem {
         NoAnswer::TooLong(_) => Some(OutsideChoice::ShaderTime),
         NoAnswer::Stack(_) => Some(OutsideChoice::ShaderStack),
         NoAnswer::Memory(_) => Some(OutsideChoice::ShaderMemory),
-        NoAnswer::Died(_) | NoAnswer::Cancelled => None,
+        NoAnswer::Crashed(_) | NoAnswer::Cancelled => None,
+        NoAnswer::Died(_) => {
+            let what =
+                format!("the helper process that compiles shaders {end}, and so did the one that took its place");
+            return ShaderProblem::Machine { what };
+        }
         NoAnswer::Unusable(_) => {
-            return ShaderProblem::Unsupported { what: format!("the helper process that compiles shaders {end}") };
+            return ShaderProblem::Machine { what: format!("the helper process that compiles shaders {end}") };
         }
     };
     of_file(source, &end.to_string(), limit)

@@ -1,6 +1,9 @@
 //! Where shader sources are found: folders on disk, and the texts that are shipped with the program.
 
-use framewright_graph::base::{FilePath, NoFile, Root};
+use super::text::{is_once, without_comments};
+use crate::base::digest;
+use framewright_graph::base::{FileIdentity, FilePath, NoFile, NoText, Root, text_of, without_mark};
+use framewright_graph::shader::ShaderProblem;
 use std::fs;
 use std::path::PathBuf;
 
@@ -27,14 +30,37 @@ pub(super) struct SourceFile {
     pub(super) shown: String,
     /// GLSL.
     pub(super) text: String,
+    /// What tells it from other files, if it says `#pragma once`.
+    pub(super) once: Option<u64>,
+}
+
+/// Why a file that is there is no shader.
+#[derive(Debug, Clone)]
+pub(super) struct NoShader {
+    /// The reason, in words.
+    pub(super) what: String,
+    /// Whether nothing is wrong with the file: the machine doesn't let it be read.
+    pub(super) of_machine: bool,
+}
+
+impl From<String> for NoShader {
+    fn from(what: String) -> NoShader {
+        NoShader { what, of_machine: false }
+    }
+}
+
+impl From<NoShader> for ShaderProblem {
+    fn from(NoShader { what, of_machine }: NoShader) -> ShaderProblem {
+        if of_machine { ShaderProblem::Machine { what } } else { ShaderProblem::Unsupported { what } }
+    }
 }
 
 impl ShaderFiles {
     /// The file `name` of a pipeline (`lit.frag`), or else the shipped file of that name; `None` if there is neither.
     ///
     /// # Errors
-    /// If the name leads out of the folders, or a file of that name can't be a shader: what is wrong with it, in words.
-    pub(super) fn find(&self, name: &FilePath) -> Result<Option<SourceFile>, String> {
+    /// If the name leads out of the folders, or a file of that name can't be a shader.
+    pub(super) fn find(&self, name: &FilePath) -> Result<Option<SourceFile>, NoShader> {
         let own = match name {
             FilePath::Own(own) => self.on_disk(own)?,
             FilePath::Shipped(_) => None,
@@ -47,7 +73,7 @@ impl ShaderFiles {
     ///
     /// # Errors
     /// Those of [`ShaderFiles::find`].
-    pub(super) fn included(&self, from: &FilePath, name: &str) -> Result<Option<SourceFile>, String> {
+    pub(super) fn included(&self, from: &FilePath, name: &str) -> Result<Option<SourceFile>, NoShader> {
         let whole = match from {
             FilePath::Own(_) => FilePath::Own("".into()),
             FilePath::Shipped(_) => FilePath::Shipped("".into()),
@@ -65,22 +91,23 @@ impl ShaderFiles {
     }
 
     /// The file of that path in the first folder that has one.
-    fn on_disk(&self, path: &str) -> Result<Option<SourceFile>, String> {
+    fn on_disk(&self, path: &str) -> Result<Option<SourceFile>, NoShader> {
         for root in &self.roots {
             let shown = root.folder().join(path).display().to_string();
-            let bytes = match root.locate(path).and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
-                Ok(bytes) => bytes,
+            let read = root.locate(path).and_then(|found| Ok((root.read(&found, MAX_SOURCE_BYTES)?, found)));
+            let (bytes, found) = match read {
+                Ok(read) => read,
                 Err(NoFile::Missing) => continue,
                 Err(NoFile::TooLarge { bytes, limit }) => {
-                    return Err(format!("{shown} has {bytes} bytes, more than the {limit} of a shader"));
+                    return Err(format!("{shown} has {bytes} bytes, more than the {limit} of a shader").into());
                 }
-                Err(other) => return Err(format!("{shown} {other}")),
+                Err(other) => {
+                    return Err(NoShader { what: format!("{shown} {other}"), of_machine: other.is_of_machine() });
+                }
             };
-            let text = String::from_utf8(bytes).map_err(|_| format!("{shown} is not UTF-8 text"))?;
-            if text.contains('\0') {
-                return Err(format!("{shown} contains a zero byte"));
-            }
-            return Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text }));
+            let text = text(&bytes, &shown)?;
+            let once = FileIdentity::of(&found).filter(|_| is_once(&text)).map(|file| digest(&file));
+            return Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text, once }));
         }
         Ok(None)
     }
@@ -88,7 +115,8 @@ impl ShaderFiles {
     fn shipped(&self, name: &str) -> Option<SourceFile> {
         let (name, text) = self.shipped.iter().find(|(shipped, _)| *shipped == name)?;
         let path = FilePath::Shipped((*name).into());
-        Some(SourceFile { shown: path.to_string(), path, text: (*text).to_owned() })
+        let once = is_once(text).then(|| digest(name));
+        Some(SourceFile { shown: path.to_string(), path, text: (*text).to_owned(), once })
     }
 
     /// Whether files in that folder may be read.
@@ -128,4 +156,24 @@ impl ShaderFiles {
         names.dedup();
         names
     }
+}
+
+/// The text of a shader's file. In comments any byte may stand, as those of old encodings do.
+fn text(bytes: &[u8], shown: &str) -> Result<String, NoShader> {
+    let text = match text_of(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(NoText::Byte { .. }) => {
+            let text = without_mark(&String::from_utf8_lossy(bytes)).to_owned();
+            let odd = without_comments(&text).lines().position(|line| line.contains(char::REPLACEMENT_CHARACTER));
+            if let Some(line) = odd {
+                return Err(format!("{shown}:{}: this is not UTF-8, which only comments may hold", line + 1).into());
+            }
+            text
+        }
+        Err(encoding @ NoText::Encoding(_)) => return Err(format!("{shown} is not text: {encoding}").into()),
+    };
+    if text.contains('\0') {
+        return Err(format!("{shown} contains a zero byte").into());
+    }
+    Ok(text)
 }

@@ -239,7 +239,7 @@ impl ShaderLibrary {
         if let Some(known) = self.sources.get(file) {
             return known.clone();
         }
-        let found = self.files.find(&FilePath::of_text(file)).map_err(|what| ShaderProblem::Unsupported { what });
+        let found = self.files.find(&FilePath::of_text(file)).map_err(ShaderProblem::from);
         let source = found.map(|found| {
             found.map(|found| {
                 let mentioned = Mentioned::by_stage(&self.files, &found);

@@ -1,11 +1,13 @@
 //! Stages that were compiled ahead, as files of SPIR-V: programs need no compiler then.
 
-use super::files::{ShaderFiles, SourceFile};
+use super::files::{NoShader, ShaderFiles, SourceFile};
 use super::text::included;
 use crate::base::with_usual_rights;
 use crate::process::{CompileJob, LARGEST_SPIRV, ShaderStage};
+use framewright_graph::base::{ReadFiles, is_of_machine};
+use framewright_graph::shader::ShaderProblem;
 use sha2::{Digest, Sha256};
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -66,11 +68,14 @@ impl PrecompiledShaders {
     /// The SPIR-V in the file of a stage; `None` if there is no such file.
     ///
     /// # Errors
-    /// In words: the file is no SPIR-V, or can't be read.
-    pub(super) fn read(file: &Path) -> Result<Option<Vec<u32>>, String> {
+    /// The file is no SPIR-V, or can't be read.
+    pub(super) fn read(file: &Path) -> Result<Option<Vec<u32>>, ShaderProblem> {
         let problem = |what: &str| format!("the precompiled shader {} {what}", file.display());
-        let unreadable = |error: io::Error| problem(&format!("can't be read: {error}"));
-        let opened = match File::open(file) {
+        let unreadable = |error: io::Error| {
+            let what = problem(&format!("can't be read: {error}"));
+            NoShader { what, of_machine: is_of_machine(&error) }
+        };
+        let opened = match ReadFiles::default().open("a precompiled shader", file) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             opened => opened.map_err(unreadable)?,
         };
@@ -80,7 +85,7 @@ impl PrecompiledShaders {
         let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
         match words.first() {
             Some(&MAGIC) if rest.is_empty() && bytes.len() <= LARGEST_SPIRV => Ok(Some(words)),
-            _ => Err(problem("is no SPIR-V")),
+            _ => Err(NoShader::from(problem("is no SPIR-V")).into()),
         }
     }
 

@@ -49,26 +49,31 @@ struct Inclusion {
     /// Its name there.
     name: String,
     text: u64,
+    /// The inclusion before that it repeats, if the file says that it is included once.
+    repeats: Option<usize>,
 }
 
 /// The files that a compilation includes.
 pub(super) struct Inclusions {
     /// The name of each file that messages show, the stage's own first.
     shown: Vec<String>,
+    once: Vec<Option<u64>>,
     list: Vec<Inclusion>,
 }
 
 impl Inclusions {
     /// None so far.
     pub(super) fn of(job: &CompileJob) -> Inclusions {
-        Inclusions { shown: vec![job.shown.clone()], list: Vec::new() }
+        Inclusions { shown: vec![job.shown.clone()], once: Vec::new(), list: Vec::new() }
     }
 
     /// Adds a file that the file `from` includes as `name`.
     pub(super) fn add(&mut self, from: &str, name: &str, file: &IncludedFile) {
         let from = self.shown.iter().position(|shown| shown == from).unwrap_or(0);
-        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&file.text) });
+        let repeats = repeated(&self.once, file.once);
+        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&file.text), repeats });
         self.shown.push(file.shown.clone());
+        self.once.push(file.once);
     }
 }
 
@@ -92,10 +97,14 @@ impl SpirvCache {
         if !(whole && header.compiler == self.compiler && header.job == digest_of(job)) {
             return None;
         }
-        let mut shown = vec![job.shown.clone()];
-        for Inclusion { from, name, text } in &header.includes {
+        let (mut shown, mut once) = (vec![job.shown.clone()], Vec::new());
+        for Inclusion { from, name, text, repeats } in &header.includes {
             let found = includes(shown.get(*from)?, name).ok().filter(|found| digest(&found.text) == *text)?;
+            if repeated(&once, found.once) != *repeats {
+                return None;
+            }
             shown.push(found.shown);
+            once.push(found.once);
         }
         used_now(&path);
         let spirv = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
@@ -127,6 +136,11 @@ impl SpirvCache {
     fn path(&self, job: &CompileJob) -> PathBuf {
         self.folder.join(format!("{:016x}", digest(&(&self.compiler, digest_of(job)))))
     }
+}
+
+/// Which of the files that were included before a file is, if it says that it is included once.
+fn repeated(before: &[Option<u64>], file: Option<u64>) -> Option<usize> {
+    file.and_then(|file| before.iter().position(|before| *before == Some(file)))
 }
 
 /// The digest of all that a stage is compiled from, but what it includes.

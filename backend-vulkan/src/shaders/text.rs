@@ -123,6 +123,24 @@ fn named_in(text: &str) -> Vec<String> {
     named.collect()
 }
 
+/// Whether a text says that it is included once at most, outside of all conditions.
+pub(super) fn is_once(text: &str) -> bool {
+    if !text.contains("once") {
+        return false;
+    }
+    let mut conditions = 0_usize;
+    without_comments(text).lines().any(|line| {
+        let mut words = line.trim_start().strip_prefix('#').unwrap_or_default().split_whitespace();
+        match words.next() {
+            Some("if" | "ifdef" | "ifndef") => conditions += 1,
+            Some("endif") => conditions = conditions.saturating_sub(1),
+            Some("pragma") => return conditions == 0 && words.next() == Some("once") && words.next().is_none(),
+            _ => {}
+        }
+        false
+    })
+}
+
 /// The words of a text without comments: names, and numbers that begin with a digit.
 pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
@@ -154,7 +172,8 @@ mod tests {
 
     /// How often files are read for a stage with this text, whose files hold `text` each.
     fn reads(stage: String, text: impl Fn(&str) -> String) -> usize {
-        let found = |name: &str, text: String| SourceFile { path: name.into(), shown: name.to_owned(), text };
+        let found =
+            |name: &str, text: String| SourceFile { path: name.into(), shown: name.to_owned(), text, once: None };
         let mut reads = 0;
         included_by(&found("stage.frag", stage), |_, name| {
             reads += 1;
@@ -176,6 +195,18 @@ mod tests {
             |beginning: &str| (0..1000).map(|at| format!("#include \"{beginning}{at}\"\n")).collect::<String>();
         assert_eq!(reads(others("a"), |_| String::new()), MAX_INCLUDES);
         assert_eq!(reads("#include \"a\"".to_owned(), |name| others(name)), MAX_INCLUDES);
+    }
+
+    #[test]
+    fn a_text_is_included_once_where_it_says_so_outside_of_comments_and_conditions() {
+        for once in ["#pragma once", " # pragma  once // really\n", "#version 460\n#if A\n#endif\n#pragma once\n"] {
+            assert!(is_once(once), "{once}");
+        }
+        for not in
+            ["// #pragma once", "/*\n#pragma once\n*/", "#pragma once_more", "#if A\n#pragma once\n#endif", "once"]
+        {
+            assert!(!is_once(not), "{not}");
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::command_line::explaining::ExplainArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 pub(crate) use crate::command_line::pipeline::{CachingArguments, PipelineArguments, PlanningArguments, ShaderLimits};
+use crate::command_line::scenes::SceneArguments;
 use crate::command_line::serving::ServeArguments;
 use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE, Dump, OutputFile, Size, dump, output_file};
 use crate::command_line::windows::WindowArguments;
@@ -134,6 +135,8 @@ pub(crate) struct InspectArguments {
     /// Scene whose facts conditions see; without one they see a scene that holds everything.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,
@@ -187,6 +190,8 @@ pub(crate) struct RunArguments {
     /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,
@@ -274,6 +279,8 @@ pub(crate) struct FactsArguments {
     /// Scene: a .glb or .gltf file, or a scene of our own in RON; if there is none by that name, a shipped scene's name.
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Answer for programs.
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,7 @@
 //! The command line of `framewright diff`.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
+use super::scenes::SceneArguments;
 use super::values::{Assignment, DEFAULT_SIZE, Size, assignment};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
@@ -23,6 +24,8 @@ pub(crate) struct DiffArguments {
     /// Scene whose facts conditions see; without one they see a scene that holds everything.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,

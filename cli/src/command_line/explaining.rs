@@ -1,6 +1,7 @@
 //! What `framewright explain` takes.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
+use super::scenes::SceneArguments;
 use super::values::{AnswerFormat, DEFAULT_SIZE, Size};
 use clap::Args;
 use std::ffi::OsString;
@@ -18,6 +19,8 @@ pub(crate) struct ExplainArguments {
     /// Scene whose facts conditions see; without one they see a scene that holds everything.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,

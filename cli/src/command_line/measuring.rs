@@ -1,6 +1,7 @@
 //! The command line of `framewright measure`.
 
 use super::args::PipelineArguments;
+use super::scenes::SceneArguments;
 use super::values::{DEFAULT_SIZE, Size, Sweep, sweep};
 use clap::Args;
 use std::ffi::OsString;
@@ -14,6 +15,8 @@ pub(crate) struct MeasureArguments {
     /// Scene to draw, as it stands at its first frame: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,

@@ -9,6 +9,7 @@ pub(crate) mod measuring;
 pub(crate) mod merging;
 pub(crate) mod options;
 mod pipeline;
+pub(crate) mod scenes;
 pub(crate) mod serving;
 pub(crate) mod values;
 pub(crate) mod windows;

@@ -1,6 +1,7 @@
 //! What `framewright serve` takes.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
+use super::scenes::SceneArguments;
 use super::values::{DEFAULT_SIZE, Size};
 use clap::Args;
 use std::ffi::OsString;
@@ -14,6 +15,8 @@ pub(crate) struct ServeArguments {
     /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Port of this machine's loopback address, 127.0.0.1; 0 takes any that is free.
     #[arg(long, value_name = "P", default_value_t = 7117)]
     pub(crate) port: u16,

@@ -1,6 +1,7 @@
 //! What `framewright window` takes.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
+use super::scenes::SceneArguments;
 use super::values::{DEFAULT_SIZE, Size};
 use clap::Args;
 use std::ffi::OsString;
@@ -14,6 +15,8 @@ pub(crate) struct WindowArguments {
     /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: SceneArguments,
     /// Size of the window in pixels, when it opens.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,

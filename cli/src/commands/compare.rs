@@ -39,17 +39,19 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     outputs::prepare(heat_map.into_iter(), &read)?;
     let reference = inputs::picture(&arguments.reference, &read)?;
     let test = inputs::picture(&arguments.picture, &read)?;
-    for (path, picture) in [(&arguments.reference, &reference), (&arguments.picture, &test)] {
-        if !picture.left_out.is_empty() {
-            let what = text::escape(&picture.left_out.join(", "));
-            text::say(&format!("note: not compared of `{}`: {what}", text::path(path)));
-        }
-    }
+    // Before anything is decoded: a few bytes may stand for any size.
     if reference.extent != test.extent {
         return Err(Error::Sizes {
             reference: (arguments.reference.clone(), reference.extent),
             picture: (arguments.picture.clone(), test.extent),
         });
+    }
+    let (reference, test) = (reference.decoded()?, test.decoded()?);
+    for (path, picture) in [(&arguments.reference, &reference), (&arguments.picture, &test)] {
+        if !picture.left_out.is_empty() {
+            let what = text::escape(&picture.left_out.join(", "));
+            text::say(&format!("note: not compared of `{}`: {what}", text::path(path)));
+        }
     }
     let busy = progress::busy("comparing");
     let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);

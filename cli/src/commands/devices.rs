@@ -131,16 +131,16 @@ fn table(devices: &[(Opened, DeviceSummary)]) -> String {
     table.load_preset(ASCII_MARKDOWN).set_header(header);
     for (opened, device) in devices {
         let usable = match opened {
-            _ if !device.missing.is_empty() => format!("no: it lacks {}", text::escape(&device.missing.join(", "))),
+            _ if !device.missing.is_empty() => format!("no: it lacks {}", text::cell(&device.missing.join(", "))),
             Ok(_) => "yes".to_owned(),
             Err(_) => "no: it can't be opened".to_owned(),
         };
         table.add_row([
             device.index.to_string(),
-            text::escape(&device.name),
-            text::escape(&device.driver),
+            text::cell(&device.name),
+            text::cell(&device.driver),
             device.kind.to_owned(),
-            text::escape(&device.vulkan),
+            text::cell(&device.vulkan),
             device.queues.join(", "),
             if device.local_read { "yes" } else { "no" }.to_owned(),
             usable,

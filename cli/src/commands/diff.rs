@@ -82,7 +82,7 @@ fn plan(
     };
     let profile = device::choose(chosen.device.as_deref(), read)?;
     let mut loaded = planning::load(&pipeline, read)?;
-    let scene = chosen.scene.as_deref().map(|file| inputs::scene(file, read)).transpose()?;
+    let scene = chosen.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, read)).transpose()?;
     let view = View {
         facts: scene.as_ref().map(Scene::facts),
         size: chosen.size,

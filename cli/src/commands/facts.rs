@@ -31,7 +31,7 @@ struct Entry<'a> {
 /// # Errors
 /// If the scene can't be read.
 pub(crate) fn facts(arguments: &FactsArguments) -> Result<Exit, Error> {
-    let found = inputs::scene(&arguments.scene, &ReadFiles::default())?.explained();
+    let found = inputs::scene(&arguments.scene, arguments.reading.strict, &ReadFiles::default())?.explained();
     let shown = if arguments.json {
         text::json(&Answer { format_version: 1, facts: found.iter().map(entry).collect() })?
     } else {

@@ -34,7 +34,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
     let mut pipeline = planning::load(&arguments.pipeline, &read)?;
-    let scene = arguments.scene.as_deref().map(|file| inputs::scene(file, &read)).transpose()?;
+    let scene =
+        arguments.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, &read)).transpose()?;
     spare()?;
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);

@@ -5,15 +5,15 @@ use crate::error::Error;
 use crate::picture::Light;
 use crate::system::text;
 use framewright::{FileOptions, PipelineFile, Reach};
-use framewright_graph::base::ReadFiles;
+use framewright_graph::base::{ReadFiles, text_of};
 use framewright_graph::language::Shipped;
 use framewright_passes::scene::Scene;
 use framewright_passes::shipped;
 use std::io::Read;
 use std::path::Path;
 
-/// A picture's file has at most this many bytes: those of the largest picture without compression.
-const LARGEST_PICTURE: usize = 1 << 32;
+/// A picture's file has at most this many bytes: those of the largest picture without compression, and some.
+const LARGEST_PICTURE: usize = (1 << 30) + (1 << 24);
 
 /// The role of a file that the command line names.
 #[derive(Debug, Clone, Copy)]
@@ -81,28 +81,51 @@ pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
 }
 
 /// Reads a scene; where there is no such file, a shipped one of that name, and says so. Says too what the file holds that
-/// isn't drawn.
+/// isn't drawn, and which mistakes in it were passed over.
 ///
 /// # Errors
-/// If there is neither, or the file is no scene.
-pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
+/// If there is neither, or the file is no scene; if it has a mistake and is read strictly.
+pub(crate) fn scene(path: &Path, strict: bool, read: &ReadFiles) -> Result<Scene, Error> {
     let (scene, is_shipped) = framewright::find_scene(path, read)?;
     if is_shipped {
         say_shipped("scene", path);
     }
-    for note in &scene.notes {
+    if strict && !scene.mistakes.is_empty() {
+        return Err(Error::SceneMistakes { path: path.to_owned(), mistakes: scene.mistakes });
+    }
+    for note in scene.mistakes.iter().chain(&scene.notes) {
         text::say(&format!("note: {}: {}", text::path(path), text::escape(note)));
     }
     Ok(scene)
 }
 
-/// Reads a picture.
+/// A picture's file whose size is known.
+pub(crate) struct PictureFile<'p> {
+    path: &'p Path,
+    bytes: Vec<u8>,
+    /// Width and height in pixels.
+    pub(crate) extent: [usize; 2],
+}
+
+/// Reads a picture's file, and looks at its header.
 ///
 /// # Errors
 /// If it can't be read, or is no picture.
-pub(crate) fn picture(path: &Path, read: &ReadFiles) -> Result<Light, Error> {
-    let file = bytes(FileRole::PICTURE, path, LARGEST_PICTURE, read)?;
-    Light::decode(&file).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })
+pub(crate) fn picture<'p>(path: &'p Path, read: &ReadFiles) -> Result<PictureFile<'p>, Error> {
+    let bytes = bytes(FileRole::PICTURE, path, LARGEST_PICTURE, read)?;
+    let extent = Light::extent_of(&bytes).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })?;
+    Ok(PictureFile { path, bytes, extent })
+}
+
+impl PictureFile<'_> {
+    /// Decodes it.
+    ///
+    /// # Errors
+    /// If it is damaged.
+    pub(crate) fn decoded(self) -> Result<Light, Error> {
+        let no_light = |problem| Error::NoLight { path: self.path.to_owned(), problem };
+        Light::decode(&self.bytes).map_err(no_light)
+    }
 }
 
 /// Reads the bytes of a picture that belongs to results.
@@ -118,11 +141,9 @@ pub(crate) fn measured_picture(path: &Path, read: &ReadFiles) -> Result<Vec<u8>,
 /// # Errors
 /// If it can't be read, is too large or isn't text.
 pub(crate) fn text(what: FileRole, path: &Path, limit: usize, read: &ReadFiles) -> Result<String, Error> {
-    String::from_utf8(bytes(what, path, limit, read)?).map_err(|error| Error::NotText {
-        what: what.name,
-        path: path.to_owned(),
-        at: error.utf8_error().valid_up_to(),
-    })
+    let bytes = bytes(what, path, limit, read)?;
+    let text = text_of(&bytes).map_err(|why| Error::NotText { what: what.name, path: path.to_owned(), why })?;
+    Ok(text.to_owned())
 }
 
 fn bytes(what: FileRole, path: &Path, limit: usize, read: &ReadFiles) -> Result<Vec<u8>, Error> {

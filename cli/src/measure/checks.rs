@@ -3,7 +3,6 @@
 use super::subjects::Choice;
 use crate::command_line::values::Size;
 use crate::error::Error;
-use crate::picture::Light;
 use crate::planning::{Loaded, View, inputs};
 use crate::system::Exit;
 use framewright_graph::base::Sources;
@@ -39,7 +38,7 @@ pub(super) fn values(pipeline: &Loaded, choices: &[Choice]) -> Result<(), Error>
 /// # Errors
 /// [`Error::Sizes`].
 pub(super) fn sizes(
-    (file, reference): (&Path, &Light),
+    (file, reference): (&Path, [usize; 2]),
     pipeline: &mut Loaded,
     baseline: &Choice,
     choices: &[Choice],
@@ -51,9 +50,9 @@ pub(super) fn sizes(
         }
         seen.push(choice.size);
         if let Some((image, extent)) = output(pipeline, choice)
-            && extent != reference.extent
+            && extent != reference
         {
-            let reference = (file.to_owned(), reference.extent);
+            let reference = (file.to_owned(), reference);
             return Err(Error::Sizes { reference, picture: (image.into(), extent) });
         }
     }

@@ -39,12 +39,20 @@ pub(super) enum Given {
 }
 
 impl Given {
-    /// Reads the picture, if one is named.
-    pub(super) fn of(arguments: &MeasureArguments, read: &ReadFiles) -> Result<Given, Error> {
+    /// Reads the picture, if one is named; `fits` makes sure that it has the right size before it is decoded.
+    pub(super) fn of(
+        arguments: &MeasureArguments,
+        read: &ReadFiles,
+        fits: impl FnOnce([usize; 2]) -> Result<(), Error>,
+    ) -> Result<Given, Error> {
         match arguments.reference.to_str() {
             Some(AUTO) => Ok(Given::Auto),
             Some(NONE) => Ok(Given::None),
-            _ => inputs::picture(&arguments.reference, read).map(Given::Picture),
+            _ => {
+                let picture = inputs::picture(&arguments.reference, read)?;
+                fits(picture.extent)?;
+                picture.decoded().map(Given::Picture)
+            }
         }
     }
 

@@ -40,10 +40,9 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
         return Err(Error::Sweep { what });
     }
     checks::values(&pipeline, &choices)?;
-    let given = Given::of(arguments, &read)?;
-    if let Given::Picture(picture) = &given {
-        checks::sizes((&arguments.reference, picture), &mut pipeline, &baseline, &choices)?;
-    }
+    let given = Given::of(arguments, &read, |extent| {
+        checks::sizes((&arguments.reference, extent), &mut pipeline, &baseline, &choices)
+    })?;
     if arguments.flicker.is_some() && !matches!(given, Given::Auto) {
         let what =
             "flicker is measured against references of each frame: leave out --reference or --flicker".to_owned();

@@ -113,7 +113,7 @@ pub(crate) fn choices(
         if let Some(known) = scenes.get(path) {
             return Ok(Rc::clone(known));
         }
-        let moving = inputs::scene(path, read)?;
+        let moving = inputs::scene(path, arguments.reading.strict, read)?;
         let (file, digest) = (path.to_string_lossy().into_owned(), Digest::of_value(&moving));
         let subject = Rc::new(Subject { file, digest, scene: moving.still_at(0), moving });
         scenes.insert(path.to_owned(), Rc::clone(&subject));

@@ -2,7 +2,7 @@
 
 use super::results::{Cost, Outcome, Results};
 use crate::metric::Errors;
-use crate::system::text;
+use crate::system::text::cell;
 
 /// The table.
 #[must_use]
@@ -13,7 +13,7 @@ pub(super) fn table(results: &Results) -> String {
     let mebibytes = |bytes: u64| format!("{:.1}", bytes as f64 / f64::from(1 << 20));
     for row in &results.rows {
         let values = row.choice.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ");
-        let choice = if values.is_empty() { "(as it is)".to_owned() } else { text::escape(&values) };
+        let choice = if values.is_empty() { "(as it is)".to_owned() } else { cell(&values) };
         match &row.outcome {
             Outcome::Measured(measured) => {
                 let Cost { gpu_milliseconds: time, gpu_ratio: ratio, transient_bytes, moved_bytes, .. } = measured.cost;
@@ -35,7 +35,7 @@ pub(super) fn table(results: &Results) -> String {
             }
             Outcome::Failed(why) => {
                 let first = why.lines().next().unwrap_or_default();
-                table.add_row([choice, format!("failed: {}", text::escape(first))]);
+                table.add_row([choice, format!("failed: {}", cell(first))]);
             }
         }
     }

@@ -1,16 +1,18 @@
 //! Pictures read from files, as linear light.
 
-use exr::prelude::{AnyChannels, FlatSamples, Layer, MetaData, ReadChannels, ReadLayers, read};
+use framewright_passes::open_exr::OpenExr;
 use framewright_passes::srgb;
-use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+use png::{BitDepth, ColorType, Decoder, Limits, Reader, Transformations};
 use std::io::Cursor;
 
 /// The bytes that a file begins with.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 const OPEN_EXR: [u8; 4] = exr::meta::magic_number::BYTES;
 
-/// A picture has at most this many pixels: 16,384 on each side.
-const MOST_PIXELS: u64 = 1 << 28;
+/// A picture has at most this many pixels: 8,192 on each side.
+const MOST_PIXELS: u64 = 1 << 26;
+/// Bytes that a PNG's decoder may take beside the picture.
+const MOST_BESIDE: usize = 1 << 26;
 
 /// A picture of linear light with the primaries of Rec. 709.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +35,7 @@ pub(crate) enum DecodingError {
     Neither,
     /// A size that no device draws.
     #[error("it has {width} × {height} pixels, and at most {MOST_PIXELS} are compared")]
-    TooLarge { width: u64, height: u64 },
+    TooLarge { width: usize, height: usize },
     /// A signal for HDR displays.
     #[error("it holds an HDR10 signal: write the picture before its encoding as an .exr file, and compare that")]
     Hdr10,
@@ -44,8 +46,8 @@ pub(crate) enum DecodingError {
     #[error(transparent)]
     Png(#[from] png::DecodingError),
     /// The OpenEXR decoder's words.
-    #[error(transparent)]
-    OpenExr(#[from] exr::error::Error),
+    #[error("{0}")]
+    OpenExr(String),
 }
 
 impl Light {
@@ -63,6 +65,20 @@ impl Light {
         }
     }
 
+    /// The width and height that a file's header says, however large. Nothing is decoded.
+    ///
+    /// # Errors
+    /// Those of [`Light::decode`] that show there.
+    pub(crate) fn extent_of(file: &[u8]) -> Result<[usize; 2], DecodingError> {
+        if file.starts_with(PNG) {
+            Ok(opened_png(file)?.1)
+        } else if file.starts_with(&OPEN_EXR) {
+            Ok(opened_exr(file)?.1)
+        } else {
+            Err(DecodingError::Neither)
+        }
+    }
+
     /// The picture rounded to the nearest of `steps` steps from black to white, in the curve of sRGB: as a file of integers holds it.
     #[must_use]
     pub(crate) fn in_steps(mut self, steps: u16) -> Light {
@@ -74,13 +90,20 @@ impl Light {
     }
 }
 
+/// A PNG whose header was read, and its size.
+fn opened_png(file: &[u8]) -> Result<(Reader<Cursor<&[u8]>>, [usize; 2]), DecodingError> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(file), Limits { bytes: MOST_BESIDE });
+    decoder.set_transformations(Transformations::EXPAND);
+    let reader = decoder.read_info()?;
+    let extent = [reader.info().width, reader.info().height].map(|side| side as usize);
+    Ok((reader, extent))
+}
+
 /// A PNG holds values in the curve of sRGB.
 fn of_png(file: &[u8]) -> Result<Light, DecodingError> {
-    let mut decoder = Decoder::new_with_limits(Cursor::new(file), Limits { bytes: usize::MAX });
-    decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info()?;
+    let (mut reader, extent) = opened_png(file)?;
+    sized(extent)?;
     let info = reader.info();
-    let extent = sized(info.width.into(), info.height.into())?;
     if info.coding_independent_code_points.is_some_and(|points| points.transfer_function == 16) {
         return Err(DecodingError::Hdr10);
     }
@@ -104,50 +127,39 @@ fn of_png(file: &[u8]) -> Result<Light, DecodingError> {
     Ok(Light { extent, texels: texels.take(extent[0] * extent[1]).collect(), is_light: false, left_out })
 }
 
-/// An OpenEXR file holds linear light. Of several layers the first one counts.
-fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
-    let headers = MetaData::read_from_buffered(Cursor::new(file), false)?.headers;
-    for header in &headers {
-        sized(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
+/// An OpenEXR file whose header was read, and its size.
+fn opened_exr(file: &[u8]) -> Result<(OpenExr<Cursor<&[u8]>>, [usize; 2]), DecodingError> {
+    let opened = OpenExr::open(Cursor::new(file)).map_err(DecodingError::OpenExr)?;
+    if !opened.is_color() {
+        return Err(DecodingError::NoColors);
     }
-    let layers = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
-    let image = layers.non_parallel().from_buffered(Cursor::new(file))?;
-    let Layer { size, channel_data: AnyChannels { list }, .. } = image.layer_data;
-    let channel = |name: &str| list.iter().find(|it| it.name.eq(name)).map(|it| &it.sample_data);
-    let values = |samples: &FlatSamples| samples.values_as_f32().collect::<Vec<f32>>();
-    let (texels, seen): (Vec<[f32; 3]>, &[&str]) = match (["R", "G", "B"].map(channel), channel("Y")) {
-        ([Some(red), Some(green), blue], _) => {
-            let (red, green) = (values(red).into_iter(), values(green));
-            // An image of two components has no blue.
-            let blue = blue.map_or_else(|| vec![0.0; green.len()], values);
-            (red.zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect(), &["R", "G", "B"])
-        }
-        (_, Some(grey)) => (values(grey).into_iter().map(|grey| [grey; 3]).collect(), &["Y"]),
-        _ => return Err(DecodingError::NoColors),
-    };
-    let is_one = |samples: &FlatSamples| samples.values_as_f32().all(|value| value == 1.0);
-    let others = list.iter().filter(|it| seen.iter().all(|name| !it.name.eq(name)));
-    let others = others.filter(|it| !(it.name.eq("A") && is_one(&it.sample_data)));
-    let mut left_out: Vec<String> = others.map(|it| format!("channel {}", it.name)).collect();
-    let rounded = |it: &exr::prelude::AnyChannel<FlatSamples>| match &it.sample_data {
-        FlatSamples::U32(values) => values.iter().any(|value| *value > 1 << 24),
-        _ => false,
-    };
-    if list.iter().any(rounded) {
-        left_out.push("the last bits of integers above 16,777,216".to_owned());
-    }
-    if headers.len() > 1 {
-        left_out.push(format!("{} of {} layers", headers.len() - 1, headers.len()));
-    }
-    Ok(Light { extent: [size.width(), size.height()], texels, is_light: true, left_out })
+    let extent = opened.extent.map(|side| side as usize);
+    Ok((opened, extent))
 }
 
-fn sized(width: u64, height: u64) -> Result<[usize; 2], DecodingError> {
-    let pixels = width.checked_mul(height).filter(|pixels| *pixels <= MOST_PIXELS);
-    match (pixels, usize::try_from(width), usize::try_from(height)) {
-        (Some(_), Ok(width), Ok(height)) => Ok([width, height]),
-        _ => Err(DecodingError::TooLarge { width, height }),
+/// An OpenEXR file holds linear light. Of several layers the first one with colours counts.
+fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
+    let (opened, extent) = opened_exr(file)?;
+    sized(extent)?;
+    sized([usize::try_from(opened.stored).unwrap_or(usize::MAX), 1])?;
+    let (mut left_out, integers) = (opened.left_out.clone(), opened.integers);
+    let texels = opened.texels().map_err(DecodingError::OpenExr)?;
+    let (texels, _) = texels.as_chunks::<4>();
+    if texels.iter().any(|texel| texel[3] != 1.0) {
+        left_out.push("channel A".to_owned());
     }
+    // 32-bit floats hold all integers up to here.
+    if integers && texels.iter().flatten().any(|value| *value >= 16_777_216.0) {
+        left_out.push("the last bits of integers above 16,777,216".to_owned());
+    }
+    let texels = texels.iter().map(|[red, green, blue, _]| [*red, *green, *blue]).collect();
+    Ok(Light { extent, texels, is_light: true, left_out })
+}
+
+/// Makes sure that a picture isn't larger than what is compared.
+fn sized([width, height]: [usize; 2]) -> Result<(), DecodingError> {
+    let pixels = (width as u64).checked_mul(height as u64).filter(|pixels| *pixels <= MOST_PIXELS);
+    if pixels.is_some() { Ok(()) } else { Err(DecodingError::TooLarge { width, height }) }
 }
 
 #[cfg(test)]
@@ -202,7 +214,7 @@ mod tests {
         for file in [depth, written(FileFormat::Png, Format::R8_UNORM, [4, 4], &[7; 16])] {
             (0..file.len()).for_each(|length| assert!(Light::decode(&file[..length]).is_err(), "{length}"));
         }
-        assert!(matches!(sized(1 << 15, 1 << 14), Err(DecodingError::TooLarge { .. })));
-        assert!(matches!(sized(u64::MAX, 2), Err(DecodingError::TooLarge { .. })));
+        assert!(matches!(sized([1 << 14, 1 << 13]), Err(DecodingError::TooLarge { .. })));
+        assert!(matches!(sized([usize::MAX, 2]), Err(DecodingError::TooLarge { .. })));
     }
 }

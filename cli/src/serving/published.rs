@@ -6,10 +6,12 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A state of the page. Later states have higher numbers.
+/// A state of the page. The server counts them; before the first one the number is 0.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Published {
     pub(super) version: u64,
+    /// The server that numbers them.
+    pub(super) server: Arc<str>,
     /// The state as JSON: `live` is a [`Live`], `page` the data of the page of the last good frame, or null.
     pub(super) json: Arc<str>,
     /// PNG files of the last good frame, by their addresses.
@@ -20,6 +22,8 @@ pub(crate) struct Published {
 #[derive(Debug, Serialize)]
 pub(super) struct Live<'a> {
     pub(super) format_version: u32,
+    /// What tells this server from earlier ones of the same address.
+    pub(super) server: &'a str,
     pub(super) version: u64,
     /// The number of the last good frame: as long as it stays, `page` does.
     pub(super) frame: u64,

@@ -3,7 +3,8 @@
 //! | address | answer |
 //! |---|---|
 //! | `GET /` | the page |
-//! | `GET /state/N` | the state, as soon as its number is above N; 204 if that takes long |
+//! | `GET /state/N` | the state, as soon as its number is another one than N; 204 if that takes long |
+//! | `GET /state/SERVER/N` | the same; at once, if N is a number of another server |
 //! | `GET /picture/…` | a picture of the last good frame |
 //! | `POST /choose` | takes a [`Choice`] as JSON |
 
@@ -60,7 +61,11 @@ pub(crate) fn start(
     let shared = Shared { address, page: page.into(), shown, choices };
     let routes = Router::new()
         .route("/", get(whole_page))
-        .route("/state/{after}", get(state))
+        .route("/state/{after}", get(|shared, Path(after): Path<u64>| state(shared, None, after)))
+        .route(
+            "/state/{server}/{after}",
+            get(|shared, Path((server, after)): Path<(String, u64)>| state(shared, Some(server), after)),
+        )
         .route("/picture/{*name}", get(picture))
         .route("/choose", post(choose))
         // Browsers ask for an icon, and complain where there is no answer.
@@ -112,8 +117,12 @@ async fn whole_page(State(shared): State<Shared>) -> impl IntoResponse {
     ([(CONTENT_TYPE, "text/html; charset=utf-8")], shared.page)
 }
 
-async fn state(State(mut shared): State<Shared>, Path(after): Path<u64>) -> Response {
-    let newer = shared.shown.wait_for(|shown| shown.version > after);
+async fn state(State(mut shared): State<Shared>, server: Option<String>, after: u64) -> Response {
+    // A browser that outlived a server at the same address knows numbers of that one.
+    let newer = shared.shown.wait_for(|shown| {
+        let is_own = server.as_ref().is_none_or(|server| **server == *shown.server);
+        shown.version != if is_own { after } else { 0 }
+    });
     match timeout(LONGEST_WAIT, newer).await {
         Ok(Ok(shown)) => ([(CONTENT_TYPE, "application/json")], shown.json.to_string()).into_response(),
         Ok(Err(_)) => StatusCode::SERVICE_UNAVAILABLE.into_response(),

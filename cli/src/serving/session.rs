@@ -18,8 +18,9 @@ use framewright_passes::scene::{Scene, SceneError};
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
 /// Files that never rest are read all the same, after this many waits.
 const MOST_WAITS: u32 = 20;
@@ -35,6 +36,8 @@ pub(crate) struct Session<'a> {
     chosen: BTreeMap<String, String>,
     /// The preset that was chosen in the page.
     preset: Option<String>,
+    /// What tells this server from earlier ones of the same address.
+    server: Arc<str>,
     /// The number of the last state.
     version: u64,
     /// Whether a frame was drawn, or tried.
@@ -78,8 +81,8 @@ impl<T> Held<T> {
 impl<'a> Session<'a> {
     /// One that has drawn nothing.
     pub(crate) fn new(arguments: &'a ServeArguments, device: &'a Device, helper: Helper) -> Session<'a> {
-        // Numbers go on where an earlier server of the same address stopped: browsers ask for later ones.
-        let version = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_millis() as u64);
+        // Each has other random keys.
+        let server = format!("{:016x}", RandomState::new().hash_one(()));
         Session {
             arguments,
             device,
@@ -88,7 +91,8 @@ impl<'a> Session<'a> {
             pipeline: Held::nothing(),
             chosen: BTreeMap::new(),
             preset: None,
-            version,
+            server: server.into(),
+            version: 0,
             begun: false,
             good: Good::default(),
             wrong: Wrong { mistakes: json!([]), ..Wrong::default() },
@@ -158,6 +162,7 @@ impl<'a> Session<'a> {
         self.version += 1;
         let live = Live {
             format_version: 1,
+            server: &self.server,
             version: self.version,
             frame: self.good.version,
             busy,
@@ -173,7 +178,12 @@ impl<'a> Session<'a> {
         let live = serde_json::to_string(&live)?;
         let page = self.good.page.as_deref().unwrap_or("null");
         let json = format!("{{\"live\":{live},\"page\":{page}}}").into();
-        Ok(Published { version: self.version, json, pictures: Arc::clone(&self.good.pictures) })
+        Ok(Published {
+            version: self.version,
+            server: Arc::clone(&self.server),
+            json,
+            pictures: Arc::clone(&self.good.pictures),
+        })
     }
 
     fn drawn(&mut self) -> Result<Good, Error> {
@@ -195,7 +205,8 @@ impl<'a> Session<'a> {
     fn read_scene(&mut self) -> Result<(), Error> {
         if self.scene.value.is_none() || self.scene.read.changed() {
             self.scene = Held::nothing();
-            self.scene.value = Some(inputs::scene(&self.arguments.scene, &self.scene.read)?);
+            self.scene.value =
+                Some(inputs::scene(&self.arguments.scene, self.arguments.reading.strict, &self.scene.read)?);
         }
         Ok(())
     }

@@ -20,6 +20,13 @@ pub(crate) fn path(path: &Path) -> String {
     escape(&path.to_string_lossy())
 }
 
+/// Text as [`escape`] shows it, in a cell of a table in Markdown.
+#[must_use]
+pub(crate) fn cell(text: &str) -> String {
+    let shown = escape(text);
+    if shown.contains('|') { shown.replace('\\', "\\\\").replace('|', "\\|") } else { shown }
+}
+
 /// A value as indented JSON with a final line break, fit for a terminal.
 ///
 /// # Errors

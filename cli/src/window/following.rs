@@ -44,13 +44,13 @@ impl Following {
     }
 
     /// Reads the scene anew if a file of it has changed.
-    pub(super) fn scene(&mut self, path: &Path) -> Option<Result<Scene, Error>> {
+    pub(super) fn scene(&mut self, path: &Path, strict: bool) -> Option<Result<Scene, Error>> {
         if !self.scene.changed() {
             return None;
         }
         std::thread::sleep(AT_REST);
         self.scene = ReadFiles::default();
-        Some(inputs::scene(path, &self.scene))
+        Some(inputs::scene(path, strict, &self.scene))
     }
 
     /// The files that the scene was read from.

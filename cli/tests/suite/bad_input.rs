@@ -18,10 +18,7 @@ fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {
 
 #[test]
 fn a_folder_is_no_pipeline() {
-    Place::new()
-        .run(&["check", "."])
-        .exits(1)
-        .says("error: the pipeline `.` can't be read: Is a directory (os error 21)");
+    Place::new().run(&["check", "."]).exits(1).says("error: the pipeline `.` can't be read: it is a folder");
 }
 
 #[test]
@@ -388,4 +385,94 @@ fn depth_that_the_device_does_not_filter_is_refused_with_its_place() {
     // Without a word it isn't filtered.
     place.file("p.ron", depth("Depth", r#""depth""#));
     place.run(&["check", "p.ron"]).exits(0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_a_file_is_refused_at_once_whatever_the_file_is() {
+    let place = Place::new();
+    for pipe in ["pipe.ron", "pipe.json", "pipe.gltf", "pipe.png", "pipe.frag", "swept/results.json"] {
+        std::fs::create_dir_all(place.path("swept")).expect("a folder");
+        let made = std::process::Command::new("mkfifo").arg(place.path(pipe)).status().expect("mkfifo");
+        assert!(made.success());
+    }
+    place.file("plain.ron", FORWARD);
+    let of = |rest: &str| format!("Pipeline(version: 1, {rest})");
+    place.file("includes.ron", of("include: [\"pipe.ron\"], images: [], passes: [], outputs: []"));
+    place.file("extends.ron", of("extends: \"pipe.ron\""));
+    let drawn = "images: [(name: \"o\", format: R8G8B8A8_UNORM, size: Output)], outputs: [\"o\"]";
+    let pass = |shader: &str| format!("passes: [(name: \"p\", draw: FullScreen(\"{shader}\"), color: [\"o\"])]");
+    place.file("shader.ron", of(&format!("{drawn}, {}", pass("pipe"))));
+    let textures = "textures: [(name: \"t\", file: \"pipe.png\")]";
+    place.file("texture.ron", of(&format!("{drawn}, {textures}, {}", pass("plain"))));
+    let commands: [&[&str]; 15] = [
+        &["check", "pipe.ron"],
+        &["check", "plain.ron", "--settings", "pipe.ron"],
+        &["check", "plain.ron", "--extend", "pipe.ron"],
+        &["check", "plain.ron", "--budget", "pipe.ron"],
+        &["check", "plain.ron", "--device", "pipe.ron"],
+        &["check", "plain.ron", "--interface", "pipe.ron"],
+        &["check", "includes.ron"],
+        &["check", "extends.ron"],
+        &["check", "shader.ron"],
+        &["check", "texture.ron"],
+        &["inspect", "plain.ron", "--scene", "pipe.gltf"],
+        &["facts", "pipe.ron"],
+        &["diff", "plain.ron", "pipe.json"],
+        &["choose", "swept", "--max-ms", "5"],
+        &["schema", "pipe.ron"],
+    ];
+    for command in commands {
+        place.run(command).exits(1).mentions("regular file");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_is_taken_in_every_text_and_utf_16_is_told() {
+    let place = Place::new();
+    let marked = |name: &str, text: &str| place.file(name, format!("\u{feff}{text}"));
+    marked("marked.ron", FORWARD);
+    marked("settings.ron", "Settings(version: 1, set: {\"msaa\": 1})");
+    marked("budget.ron", "Budget(version: 1)");
+    marked("extension.ron", "Extension(version: 1, about: \"nothing\", changes: [])");
+    marked("scene.ron", include_str!("../../../examples/scenes/spheres_and_cubes.ron"));
+    place.run(&["check", "marked.ron"]).exits(0);
+    place.run(&["check", "marked.ron", "--settings", "settings.ron", "--extend", "extension.ron"]).exits(0);
+    place.run(&["check", "marked.ron", "--budget", "budget.ron"]).exits(0);
+    place.run(&["facts", "scene.ron"]).exits(0);
+    let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    for text in [FORWARD.to_owned(), format!("\u{feff}{FORWARD}")] {
+        place.file("wide.ron", wide(&text));
+        for command in [
+            &["check", "wide.ron"][..],
+            &["check", "forward", "--settings", "wide.ron"],
+            &["check", "forward", "--budget", "wide.ron"],
+            &["check", "forward", "--device", "wide.ron"],
+            &["check", "forward", "--extend", "wide.ron"],
+            &["facts", "wide.ron"],
+        ] {
+            place.run(command).exits(1).mentions("it is UTF-16: save it as UTF-8");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn too_many_open_files_are_no_mistake_of_a_file() {
+    let place = Place::new();
+    place.file("mine.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(0.5); }\n");
+    place.file(
+        "mine.ron",
+        "Pipeline(version: 1, images: [(name: \"o\", format: R8G8B8A8_UNORM, size: Output)],\n\
+            passes: [(name: \"p\", draw: FullScreen(\"mine\"), color: [\"o\"])], outputs: [\"o\"])",
+    );
+    let mut codes = Vec::new();
+    for most in 4..12 {
+        let line = format!("ulimit -n {most}; XDG_CACHE_HOME=none exec \"$0\" check mine.ron");
+        let mut shell = std::process::Command::new("sh");
+        let outcome = outcome(shell.args(["-c", &line, env!("CARGO_BIN_EXE_framewright")]).current_dir(place.path("")));
+        assert!(matches!(outcome.code, Some(0 | 3)), "{most}: {:?} {}", outcome.code, outcome.err);
+        codes.push(outcome.code);
+    }
+    assert_eq!((codes.first(), codes.last()), (Some(&Some(3)), Some(&Some(0))), "{codes:?}");
 }

@@ -1,5 +1,6 @@
 //! `compare`: metrics agree with their published implementations, planted errors move them, and limits decide (NU-2).
 
+use crate::testing::shell::shell;
 use crate::testing::{Place, repository};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -30,6 +31,61 @@ fn light(place: &Place, name: &str, color: [f32; 3], others: &[[f32; 3]]) {
         }),
     );
     exr::prelude::WritableImage::write(&image).to_file(place.path(name)).expect("written");
+}
+
+/// A PNG of one grey, which is small whatever its size.
+fn grey(place: &Place, name: &str, side: u32) {
+    let file = std::fs::File::create(place.path(name)).expect("made");
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), side, side);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header().expect("written");
+    let mut stream = writer.stream_writer().expect("begun");
+    let row = vec![0; side as usize];
+    (0..side).for_each(|_| std::io::Write::write_all(&mut stream, &row).expect("written"));
+    stream.finish().expect("written");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn sizes_are_compared_before_anything_is_decoded() {
+    let place = Place::new();
+    grey(&place, "small.png", 16);
+    grey(&place, "large.png", 16384);
+    let limited = |line: &str| {
+        let line = format!("ulimit -v 400000; exec \"$0\" {line}");
+        shell(&place, "sh", &["-c", &line, env!("CARGO_BIN_EXE_framewright")], &[])
+    };
+    let sizes = "only pictures of one size are compared";
+    limited("compare small.png large.png").exits(1).mentions(sizes);
+    limited("compare large.png small.png").exits(1).mentions(sizes);
+    limited("compare large.png large.png")
+        .exits(1)
+        .mentions("has 16384 × 16384 pixels, and at most 67108864 are compared");
+    // An .exr file that says that it is as large.
+    light(&place, "light.exr", [0.5; 3], &[]);
+    let mut file = std::fs::read(place.path("light.exr")).expect("read");
+    for window in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+        let at = file.windows(window.len()).position(|it| it == window).expect("it is there") + window.len() + 4;
+        file[at + 8..at + 16].copy_from_slice(&[16383_u32.to_le_bytes(); 2].concat());
+    }
+    place.file("large.exr", file);
+    limited("compare small.png large.exr").exits(1).mentions(sizes);
+    limited("compare large.exr large.exr").exits(1);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_at_once() {
+    let place = Place::new();
+    grey(&place, "small.png", 16);
+    let made = std::process::Command::new("mkfifo").arg(place.path("pipe.png")).status().expect("mkfifo");
+    assert!(made.success());
+    for file in ["/dev/zero", "pipe.png"] {
+        for pair in [["small.png", file], [file, "small.png"]] {
+            let said = format!("the picture `{file}` can't be read: it is a pipe or a device, not a regular file");
+            place.run(&["compare", pair[0], pair[1]]).exits(1).mentions(&said);
+        }
+    }
 }
 
 #[test]

@@ -37,6 +37,62 @@ fn inspect_and_facts_tell_what_a_scene_says_that_is_not_drawn() {
     }
 }
 
+/// The scene with another triangle, whose corners don't make whole triangles, and a factor above 1.
+fn with_mistakes(place: &Place) {
+    let mut scene: Value = serde_json::from_str(SCENE).expect("JSON");
+    let bad = serde_json::json!({"attributes": {"POSITION": 0}, "indices": 3});
+    scene["meshes"][0]["primitives"].as_array_mut().expect("a list").insert(0, bad);
+    scene["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = serde_json::json!([1.5, 1, 1, 1]);
+    place.file("wrong.gltf", scene.to_string());
+}
+
+const MISTAKES: [&str; 2] = [
+    "material 0: a base colour factor is 1.5; expected 0 to 1, so it is taken as 1",
+    "mesh 0, primitive 0: refers to accessor 3, but there are only 1, so it is left out",
+];
+
+#[test]
+fn mistakes_in_a_scene_are_notes_and_with_strict_an_error_in_every_command_that_reads_one() {
+    let place = place();
+    with_mistakes(&place);
+    let commands: [&[&str]; 5] = [
+        &["inspect", "forward", "--scene", "wrong.gltf"],
+        &["explain", "forward", "opaque", "--scene", "wrong.gltf"],
+        &["diff", "forward", "forward", "--scene", "wrong.gltf"],
+        &["facts", "wrong.gltf"],
+        &["facts", "--json", "wrong.gltf"],
+    ];
+    for command in commands {
+        let outcome = place.run(command).exits(0);
+        for mistake in MISTAKES {
+            assert!(outcome.err.contains(&format!("note: wrong.gltf: {mistake}\n")), "{command:?}: {}", outcome.err);
+        }
+        let outcome = place.run(&[command, &["--strict"]].concat()).exits(1);
+        let said =
+            format!("error: `wrong.gltf` has mistakes, and `--strict` passes over none:\n  {}", MISTAKES.join("\n  "));
+        assert!(outcome.err.contains(&said), "{command:?}: {}", outcome.err);
+    }
+    // What is right and isn't drawn is no mistake.
+    place.run(&["facts", "scene.gltf", "--strict"]).exits(0).mentions("are ignored");
+    for command in ["run", "serve", "window", "measure"] {
+        let help = place.run(&[command, "--help"]).exits(0).out;
+        assert!(help.contains("--strict"), "{command}: {help}");
+    }
+}
+
+#[test]
+fn a_scene_with_nothing_to_draw_says_so_and_is_drawn_all_the_same() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = place();
+    // As a file whose mesh is compressed has it.
+    place.file("empty.gltf", SCENE.replace("\"bufferView\": 0, ", ""));
+    let run = ["run", "forward", "--scene", "empty.gltf", "--size", "16x16", "-o", "sky.png"];
+    let nothing = "there is nothing to draw: no triangle of the file has an area";
+    place.run_with(&variables, &run).exits(0).mentions(&format!("note: empty.gltf: {nothing}\n"));
+    assert!(place.path("sky.png").exists());
+    place.run_with(&variables, &[&run[..], &["--strict"]].concat()).exits(1).mentions(nothing);
+}
+
 #[test]
 fn run_tells_what_a_scene_says_that_is_not_drawn_and_reports_it() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };

@@ -161,6 +161,70 @@ fn scenes_shaders_and_files_that_were_missing_are_watched_too() {
     assert_eq!(back["live"]["mistakes"], serde_json::json!([]), "{}", back["live"]["message"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_folder_a_pipe_and_a_device_in_place_of_a_file_are_told_and_what_takes_their_place_is_read() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = begun();
+    let server = Server::start(&place, &variables, &SMALL);
+    let mut state = server.state_after(0);
+    let make_pipe = |path: &std::path::Path| {
+        assert!(std::process::Command::new("mkfifo").arg(path).status().expect("mkfifo").success());
+    };
+    let odd: [(&str, &dyn Fn(&std::path::Path)); 3] = [
+        ("it is a folder", &|path| std::fs::create_dir(path).expect("made")),
+        ("it is a pipe or a device", &make_pipe),
+        ("it is a pipe or a device", &|path| std::os::unix::fs::symlink("/dev/zero", path).expect("linked")),
+    ];
+    for file in ["scene.ron", "first.ron"] {
+        for (said, make) in &odd {
+            let path = place.path(file);
+            let contents = std::fs::read(&path).expect("it is there");
+            std::fs::remove_file(&path).expect("removed");
+            make(&path);
+            let message = |state: &Value| state["live"]["message"].as_str().expect("text").to_owned();
+            let mut wrong = server.state_after(version(&state));
+            // It may have been seen while it was gone.
+            while !message(&wrong).contains(said) {
+                wrong = server.state_after(version(&wrong));
+            }
+            match std::fs::symlink_metadata(&path).expect("there").is_dir() {
+                true => std::fs::remove_dir(&path).expect("removed"),
+                false => std::fs::remove_file(&path).expect("removed"),
+            }
+            put(&place, file, contents);
+            state = server.state_after(version(&wrong));
+            while !message(&state).is_empty() {
+                state = server.state_after(version(&state));
+            }
+        }
+    }
+}
+
+#[test]
+fn states_are_counted_and_numbers_of_another_server_are_answered_at_once() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = begun();
+    let server = Server::start(&place, &variables, &SMALL);
+    let state = server.state_after(0);
+    let number = version(&state);
+    assert!((1..10).contains(&number), "{number}");
+    let named = state["live"]["server"].as_str().expect("a text");
+    let asked = |address: &str| {
+        let (head, body) = server.ask(&format!("GET /state/{address}"), &server.own(), "");
+        assert!(head.starts_with("HTTP/1.1 200"), "{head}");
+        version(&serde_json::from_slice(&body).expect("JSON"))
+    };
+    // What a browser knows that outlived a server at this address: lower numbers, higher ones, and the same.
+    for known in [0, number - 1, number, number + 1, 1_796_000_000_000] {
+        assert_eq!(asked(&format!("0123456789abcdef/{known}")), number);
+    }
+    assert_eq!(asked(&format!("{}", number + 5)), number);
+    // Of its own it tells another state.
+    edit(&place, "scene.ron", "Scene(", "Scenery(");
+    assert!(asked(&format!("{named}/{number}")) > number);
+}
+
 #[test]
 fn while_a_scene_is_wrong_each_edit_of_the_pipeline_is_looked_at_once() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };

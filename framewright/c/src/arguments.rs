@@ -36,6 +36,7 @@ fn null(what: &str) -> Problem {
 /// # Safety
 /// It is NULL or valid for `'a`.
 pub(crate) unsafe fn reference<'a, T>(pointer: *const T, what: &str) -> Result<&'a T, Problem> {
+    aligned(pointer, what)?;
     // SAFETY: the caller's word.
     unsafe { pointer.as_ref() }.ok_or_else(|| null(what))
 }
@@ -65,6 +66,9 @@ pub(crate) unsafe fn optional_text<'a>(pointer: *const c_char, what: &str) -> Re
     Ok(Some(text))
 }
 
+/// A list has at most this many values: a count beyond it was never set, or counts something else.
+const MOST_VALUES: usize = 1 << 16;
+
 /// `count` values; NULL is right if there are none.
 ///
 /// # Safety
@@ -73,9 +77,30 @@ pub(crate) unsafe fn list<'a, T>(pointer: *const T, count: usize, what: &str) ->
     match (pointer.is_null(), count) {
         (_, 0) => Ok(&[]),
         (true, _) => Err(null(what)),
-        // SAFETY: the caller's word.
-        (false, _) => Ok(unsafe { std::slice::from_raw_parts(pointer, count) }),
+        (false, 1..=MOST_VALUES) => {
+            aligned(pointer, what)?;
+            // SAFETY: the caller's word.
+            Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
+        }
+        (false, _) => Err(Problem::Misuse(format!("`{what}` has {count} values, and at most {MOST_VALUES} are taken"))),
     }
+}
+
+/// Makes sure that a value can stand where a pointer leads to.
+fn aligned<T>(pointer: *const T, what: &str) -> Result<(), Problem> {
+    if pointer.is_aligned() {
+        return Ok(());
+    }
+    let of = align_of::<T>();
+    Err(Problem::Misuse(format!("`{what}` is no pointer to such a value: its address is no multiple of {of}")))
+}
+
+/// A number from 0 on.
+pub(crate) fn from_0(number: f64, what: &str) -> Result<f64, Problem> {
+    if number.is_finite() && number >= 0.0 {
+        return Ok(number);
+    }
+    Err(Problem::Misuse(format!("`{what}` is {number}: a number from 0 on is wanted, and not infinity")))
 }
 
 impl FramewrightNames {
@@ -100,6 +125,7 @@ pub(crate) unsafe fn structure<T: Structure>(pointer: *const T, what: &str) -> R
     if pointer.is_null() {
         return Ok(T::DEFAULT);
     }
+    aligned(pointer, what)?;
     // SAFETY: the caller's word: it leads to its size at least.
     let size = unsafe { pointer.cast::<usize>().read() };
     if size != size_of::<T>() {
@@ -163,6 +189,7 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
 /// # Safety
 /// That of [`output`].
 unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut MaybeUninit<T>, Problem> {
+    aligned(pointer, what)?;
     // SAFETY: the caller's word; whatever stands there, it is no value yet.
     unsafe { pointer.cast::<MaybeUninit<T>>().as_mut() }.ok_or_else(|| null(what))
 }

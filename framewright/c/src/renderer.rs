@@ -1,6 +1,8 @@
 //! Renderers: a pipeline, and what was chosen for it.
 
-use crate::arguments::{FramewrightNames, Structure, free, handle, optional_text, output, reference, structure, text};
+use crate::arguments::{
+    FramewrightNames, Structure, free, from_0, handle, optional_text, output, reference, structure, text,
+};
 use crate::device::FramewrightDevice;
 use crate::last_error::call;
 use crate::passes::{Callback, FramewrightRecord};
@@ -26,6 +28,9 @@ pub enum FramewrightChange {
 /// A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
 pub struct FramewrightRenderer(Mutex<State>);
 
+/// Frames that may be on their way: each has memory of its own.
+const MOST_FRAMES: u32 = 16;
+
 /// What a renderer holds.
 pub(crate) struct State {
     pub(crate) renderer: Renderer,
@@ -48,7 +53,7 @@ pub(crate) struct State {
 pub struct FramewrightRendererOptions {
     /// sizeof(FramewrightRendererOptions).
     pub struct_size: usize,
-    /// How many frames may be on their way before a new one waits for the oldest; 0 counts as 1.
+    /// How many frames may be on their way before a new one waits for the oldest, at most 16; 0 counts as 1.
     pub frames_in_flight: u32,
     /// Folders of shaders beside that of the pipeline.
     pub shaders: FramewrightNames,
@@ -96,7 +101,7 @@ pub struct FramewrightFacts {
     pub objects: u32,
     /// How many triangles all objects have.
     pub triangles: u64,
-    /// The most radiance that a pixel can show before any effect, linear.
+    /// The most radiance that a pixel can show before any effect, linear; finite.
     pub peak_radiance: f64,
     /// The farthest distance divided by the nearest one, which formats of depth follow; 0: not known.
     pub depth_range: f64,
@@ -192,7 +197,13 @@ pub unsafe extern "C" fn framewright_renderer_open(
         let (device, pipeline, given) =
             unsafe { (reference(device, "device")?, text(pipeline, "pipeline")?, structure(options, "options")?) };
         let mut options = RendererOptions::default();
-        options.executor.frames_in_flight = given.frames_in_flight.max(1);
+        options.executor.frames_in_flight = match given.frames_in_flight {
+            frames @ ..=MOST_FRAMES => frames.max(1),
+            frames => {
+                let what = format!("`frames_in_flight` is {frames}, and at most {MOST_FRAMES} may be on their way");
+                return Err(Problem::Misuse(what));
+            }
+        };
         options.helper.clone_from(&device.helper);
         // SAFETY: the caller's word.
         unsafe {
@@ -272,7 +283,7 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
     scene: *const FramewrightScene,
 ) -> FramewrightStatus {
     // SAFETY: the caller's word.
-    let scene = unsafe { scene.as_ref() }.map(|scene| scene.0.clone());
+    let scene = unsafe { scene.as_ref() }.map(|scene| scene.scene.clone());
     // SAFETY: the caller's word.
     unsafe {
         with(renderer, |state| {
@@ -320,10 +331,10 @@ pub unsafe extern "C" fn framewright_renderer_set_facts(
                 point_lights: given.point_lights,
                 objects: given.objects,
                 triangles: given.triangles,
-                peak_radiance: given.peak_radiance,
-                depth_range: (given.depth_range > 0.0).then_some(given.depth_range),
+                peak_radiance: from_0(given.peak_radiance, "peak_radiance")?,
+                depth_range: Some(from_0(given.depth_range, "depth_range")?).filter(|range| *range > 0.0),
                 exposure: 1.0,
-                size: if given.size > 0.0 { given.size } else { Facts::UNKNOWN.size },
+                size: Some(from_0(given.size, "size")?).filter(|size| *size > 0.0).unwrap_or(Facts::UNKNOWN.size),
             };
             state.renderer.set_facts((!facts.is_null()).then_some(known));
             Ok(())

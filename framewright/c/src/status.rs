@@ -73,6 +73,7 @@ fn status(error: &Error) -> FramewrightStatus {
             FramewrightStatus::File
         }
         Error::UnknownOutput { .. } => FramewrightStatus::Misuse,
+        Error::Mistakes { mistakes } if mistakes.is_of_machine() => FramewrightStatus::Machine,
         Error::Stereo { .. } => FramewrightStatus::Machine,
         Error::Vulkan(error) => status_of_vulkan(error),
         _ => FramewrightStatus::Mistakes,

@@ -27,6 +27,8 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// The choice outside of all files that may mend the mistake.
     pub choice: Option<OutsideChoice>,
+    /// Whether nothing is wrong with the files: the machine doesn't let one be read, or lacks something.
+    pub of_machine: bool,
 }
 
 /// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
@@ -107,6 +109,12 @@ impl Diagnostic {
     pub fn choice(mut self, choice: OutsideChoice) -> Diagnostic {
         self.choice = Some(choice);
         self
+    }
+
+    /// With the machine to blame, and not the files.
+    #[must_use]
+    pub fn of_machine(self) -> Diagnostic {
+        Diagnostic { of_machine: true, ..self }
     }
 
     /// With a way to mend the mistake.

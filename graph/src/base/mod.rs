@@ -2,8 +2,10 @@
 
 pub mod amount;
 mod diagnostic;
+mod encoding;
 mod file_path;
 mod json;
+mod machine;
 mod near_names;
 mod number;
 mod read_files;
@@ -14,12 +16,14 @@ mod source;
 
 pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
 pub(crate) use diagnostic::{MOST_KEPT, keep};
+pub use encoding::{NoText, other_encoding, text_of, without_mark};
 pub use file_path::{FilePath, for_shell};
 pub use json::to_json;
+pub use machine::is_of_machine;
 pub(crate) use near_names::without_quotes;
 pub use near_names::{nearest, suggestion};
 pub(crate) use number::shown_number;
-pub use read_files::ReadFiles;
+pub use read_files::{FileIdentity, ReadFiles};
 pub use render::{escape, render};
 pub use root::{NoFile, Root};
 pub(crate) use shorten::enumerated;

@@ -19,7 +19,7 @@ pub struct ReadFiles {
 #[derive(Debug, Default)]
 struct Records {
     /// The kinds of files that were read.
-    read: HashMap<Identity, &'static str>,
+    read: HashMap<FileIdentity, &'static str>,
     /// Every path that was read or looked for, and what was there then.
     paths: HashMap<PathBuf, Option<Stamp>>,
 }
@@ -34,7 +34,10 @@ struct Stamp {
     inode: (u64, u64, i64, i64),
 }
 
-/// One file on disk.
+/// One file on disk, by whatever name it was found.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct FileIdentity(Identity);
+
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Identity {
     /// Its path without links. The file may have been replaced by another since it was read.
@@ -48,10 +51,18 @@ impl ReadFiles {
     /// Opens a file for reading and records it as `what`, such as `a texture`.
     ///
     /// # Errors
-    /// Those of opening it.
+    /// Those of opening it; if it is no regular file: nobody may write to a pipe, and a device may have no end.
     pub fn open(&self, what: &'static str, path: &Path) -> io::Result<File> {
-        let file = File::open(path).inspect_err(|_| self.seek(path))?;
-        self.record(what, path, &file.metadata()?);
+        let opened = || -> io::Result<(File, Metadata)> {
+            // Opening a pipe waits for somebody who writes to it.
+            regular(&fs::metadata(path)?)?;
+            let file = File::open(path)?;
+            let metadata = file.metadata()?;
+            regular(&metadata)?;
+            Ok((file, metadata))
+        };
+        let (file, metadata) = opened().inspect_err(|_| self.seek(path))?;
+        self.record(what, path, &metadata);
         Ok(file)
     }
 
@@ -91,13 +102,15 @@ impl ReadFiles {
     }
 
     fn record(&self, what: &'static str, path: &Path, metadata: &Metadata) {
-        if metadata.is_file() {
-            let mut records = self.lock();
+        let mut records = self.lock();
+        // What is no regular file now may be one later.
+        let stamp = metadata.is_file().then(|| Stamp::of(metadata));
+        if stamp.is_some() {
             for identity in identities(path, metadata) {
                 records.read.entry(identity).or_insert(what);
             }
-            records.paths.entry(path.to_owned()).or_insert_with(|| Some(Stamp::of(metadata)));
         }
+        records.paths.entry(path.to_owned()).or_insert(stamp);
     }
 
     fn lock(&self) -> MutexGuard<'_, Records> {
@@ -126,7 +139,25 @@ impl Stamp {
     }
 }
 
-fn identities(path: &Path, metadata: &Metadata) -> impl Iterator<Item = Identity> {
+impl FileIdentity {
+    /// The identity of the file at `path`; `None`: there is none.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<FileIdentity> {
+        // The last one is the same for all names of the file.
+        identities(path, &fs::metadata(path).ok()?).last()
+    }
+}
+
+/// Makes sure that it is a regular file.
+fn regular(metadata: &Metadata) -> io::Result<()> {
+    match metadata {
+        file if file.is_file() => Ok(()),
+        folder if folder.is_dir() => Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")),
+        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is a pipe or a device, not a regular file")),
+    }
+}
+
+fn identities(path: &Path, metadata: &Metadata) -> impl Iterator<Item = FileIdentity> {
     #[cfg(unix)]
     let inode = {
         use std::os::unix::fs::MetadataExt;
@@ -137,7 +168,7 @@ fn identities(path: &Path, metadata: &Metadata) -> impl Iterator<Item = Identity
         let _ = metadata;
         None
     };
-    fs::canonicalize(path).ok().map(Identity::Path).into_iter().chain(inode)
+    fs::canonicalize(path).ok().map(Identity::Path).into_iter().chain(inode).map(FileIdentity)
 }
 
 #[cfg(test)]
@@ -164,8 +195,7 @@ mod tests {
             fs::hard_link(&read, &hard).expect("linked");
             assert_eq!(files.read_as(&link), Some("the scene"));
             assert_eq!(files.read_as(&hard), Some("the scene"));
-            // A device is read and written by the same name.
-            files.open("the scene", Path::new("/dev/null")).expect("opened");
+            files.open("the scene", Path::new("/dev/null")).expect_err("a device");
             assert_eq!(files.read_as(Path::new("/dev/null")), None);
         }
     }
@@ -208,5 +238,64 @@ mod tests {
         fs::remove_dir(at("missing")).expect("removed");
         fs::write(at("missing"), "").expect("written");
         assert!(files.changed(), "made");
+    }
+
+    /// What isn't there, a folder, a pipe and a device.
+    #[cfg(unix)]
+    fn no_files() -> Vec<(&'static str, fn(&Path))> {
+        let pipe = |path: &Path| {
+            let made = std::process::Command::new("mkfifo").arg(path).status().expect("mkfifo");
+            assert!(made.success());
+        };
+        let device = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).expect("linked");
+        vec![
+            ("missing", |_| ()),
+            ("a folder", |path| fs::create_dir(path).expect("made")),
+            ("a pipe", pipe),
+            ("a device", device),
+        ]
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_regular_file_is_refused_at_once_and_seen_when_it_becomes_one() {
+        for (what, make) in no_files() {
+            for expected in [false, true] {
+                let folder = tempfile::tempdir().expect("a folder");
+                let path = folder.path().join("file");
+                make(&path);
+                let files = ReadFiles::default();
+                // As a server does it: all files are recorded before one is read.
+                if expected {
+                    files.expect("a file", &path);
+                } else {
+                    files.open("a file", &path).expect_err(what);
+                }
+                assert!(!files.changed() && files.read_as(&path).is_none(), "{what}");
+                match fs::symlink_metadata(&path) {
+                    Ok(metadata) if metadata.is_dir() => fs::remove_dir(&path).expect("removed"),
+                    Ok(_) => fs::remove_file(&path).expect("removed"),
+                    Err(_) => {}
+                }
+                fs::write(&path, "a").expect("written");
+                assert!(files.changed(), "{what}, {expected}");
+                files.open("a file", &path).expect("a file by now");
+            }
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_has_one_identity_by_all_its_names() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [file, link, hard, other] = ["file", "link", "hard", "other"].map(|name| folder.path().join(name));
+        fs::write(&file, "a").expect("written");
+        fs::write(&other, "a").expect("written");
+        std::os::unix::fs::symlink(&file, &link).expect("linked");
+        fs::hard_link(&file, &hard).expect("linked");
+        let identity = |path: &Path| FileIdentity::of(path).expect("a file");
+        assert!(identity(&file) == identity(&link) && identity(&file) == identity(&hard));
+        assert_ne!(identity(&file), identity(&other));
+        assert_eq!(FileIdentity::of(&folder.path().join("missing")), None);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The only place of this library that reads files from disk.
 
-use super::ReadFiles;
+use super::{ReadFiles, is_of_machine};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -53,6 +53,12 @@ pub enum NoFile {
         /// The system's words.
         reason: String,
     },
+    /// The machine doesn't let it be read, such as where too many files are open.
+    #[error("can't be read: {reason}")]
+    Machine {
+        /// The system's words.
+        reason: String,
+    },
     /// The system can't read it for another reason.
     #[error("can't be read: {reason}")]
     Unreadable {
@@ -61,11 +67,22 @@ pub enum NoFile {
     },
 }
 
+impl NoFile {
+    /// Whether nothing is wrong with the file: the machine doesn't let it be read.
+    #[must_use]
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self, NoFile::Denied { .. } | NoFile::Machine { .. })
+    }
+}
+
 impl From<io::Error> for NoFile {
     fn from(error: io::Error) -> NoFile {
         match error.kind() {
             io::ErrorKind::NotFound => NoFile::Missing,
+            // It has become one since it was looked at.
+            io::ErrorKind::IsADirectory => NoFile::NotRegular,
             io::ErrorKind::PermissionDenied => NoFile::Denied { reason: error.to_string() },
+            _ if is_of_machine(&error) => NoFile::Machine { reason: error.to_string() },
             _ => NoFile::Unreadable { reason: error.to_string() },
         }
     }

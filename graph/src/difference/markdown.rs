@@ -53,7 +53,7 @@ fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '@' => escaped.push_str("&#64;"),
             '#' => escaped.push_str("&#35;"),
-            '\\' | '*' | '_' | '[' | ']' | '|' | '~' | '`' | '!' => {
+            '\\' | '*' | '_' | '[' | ']' | '|' | '~' | '`' | '!' | '$' => {
                 escaped.push('\\');
                 escaped.push(letter);
             }

@@ -179,6 +179,9 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
             Diagnostic { quotes, help: (!rest.is_empty()).then_some(rest), choice, ..broken }
         }
         ShaderProblem::Unsupported { what } => Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")),
+        ShaderProblem::Machine { what } => {
+            Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")).of_machine()
+        }
     }
 }
 

@@ -47,6 +47,12 @@ pub enum TextureProblem {
         /// The system's words.
         reason: String,
     },
+    /// The machine doesn't let it be read.
+    #[error("can't be read: {reason}")]
+    Machine {
+        /// The system's words.
+        reason: String,
+    },
     /// The path leads out of the folder.
     #[error("leads out of the folder of the pipeline's files")]
     Outside,
@@ -90,6 +96,14 @@ pub enum TextureProblem {
     /// No provider of textures was given.
     #[error("can't be read: no textures are provided here")]
     NotProvided,
+}
+
+impl TextureProblem {
+    /// Whether nothing is wrong with the file: the machine doesn't let it be read.
+    #[must_use]
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self, TextureProblem::Machine { .. })
+    }
 }
 
 /// Where textures come from: files on disk, or a table in a test.

@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::mistakes::{in_order, never_none};
-use crate::base::{Diagnostic, FilePath, Sources, Span};
+use crate::base::{Diagnostic, FilePath, NoText, Sources, Span, text_of, without_mark};
 use crate::language::compose::extend;
-use crate::language::compose::files::{Files, Found, LARGEST_FILE, NoFiles, no_pipeline, odd_byte};
+use crate::language::compose::files::{Files, Found, LARGEST_FILE, NoFiles, no_pipeline};
 use crate::language::compose::layers::Layer;
 use crate::language::compose::loader::{self, Loader};
 use crate::ron::{Reader, Tree};
@@ -53,16 +53,18 @@ pub fn read_extended(
     if bytes.len() > LARGEST_FILE {
         return Err(vec![too_large(&shown, bytes.len())]);
     }
-    match String::from_utf8(bytes) {
+    match text_of(&bytes) {
         Ok(text) => read_all(sources, files, (&shown, &relative, text), extensions),
-        Err(error) => {
-            let message = format!("this is not a text file: {}", odd_byte(&error));
-            let valid = error.utf8_error().valid_up_to();
-            let mut bytes = error.into_bytes();
-            bytes.truncate(valid);
-            let file = sources.add(shown, &relative, String::from_utf8_lossy(&bytes).into_owned());
+        Err(why) => {
+            let valid = match why {
+                NoText::Encoding(_) => 0,
+                NoText::Byte { at, .. } => at,
+            };
+            let text = String::from_utf8_lossy(&bytes[..valid]).into_owned();
+            let file = sources.add(shown, &relative, text);
             let at = u32::try_from(valid).unwrap_or(u32::MAX);
-            Err(vec![Diagnostic::new(Span::new(file, at, at), message).help("a pipeline is RON text in UTF-8")])
+            let wrong = Diagnostic::new(Span::new(file, at, at), format!("this is not a text file: {why}"));
+            Err(vec![wrong.help("a pipeline is RON text in UTF-8")])
         }
     }
 }
@@ -90,13 +92,13 @@ pub fn read_with(
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
-    read_all(sources, files, (shown, &relative.into(), text), Vec::new())
+    read_all(sources, files, (shown, &relative.into(), without_mark(&text)), Vec::new())
 }
 
 fn read_all(
     sources: &mut Sources,
     files: &mut dyn Files,
-    (shown, relative, text): (&str, &FilePath, String),
+    (shown, relative, text): (&str, &FilePath, &str),
     extensions: Vec<Found>,
 ) -> Result<Document, Vec<Diagnostic>> {
     let text: Arc<str> = text.into();

@@ -259,6 +259,11 @@ pub enum ShaderProblem {
         /// The reason, in words.
         what: String,
     },
+    /// Nothing is known of it: the machine doesn't let it be read or compiled.
+    Machine {
+        /// The reason, in words.
+        what: String,
+    },
 }
 
 /// A message of the compiler about a shader. Text from files inside is not yet escaped.

@@ -2,7 +2,7 @@
 
 use super::model::Scene;
 use super::{gltf, limits, text};
-use framewright_graph::base::{Diagnostic, ReadFiles, Root, Sources, render};
+use framewright_graph::base::{Diagnostic, NoText, ReadFiles, Root, Sources, is_of_machine, render, text_of};
 use std::path::{Path, PathBuf};
 
 /// Why a file is no scene. The sentences name the file as it was given, escaped.
@@ -31,12 +31,12 @@ pub enum SceneError {
         limit: u64,
     },
     /// A `.ron` file that isn't text.
-    #[error("{}: this is not UTF-8 text: byte {at} can't be read", shown(path))]
+    #[error("{}: this is not text: {why}", shown(path))]
     NotText {
         /// The file.
         path: PathBuf,
-        /// The first byte that isn't text.
-        at: usize,
+        /// The encoding that it has, or the first byte that isn't text.
+        why: NoText,
     },
     /// A `.ron` file with mistakes; rendered with their places.
     #[error("{}", render(sources, mistakes))]
@@ -54,6 +54,18 @@ pub enum SceneError {
         /// The mistake.
         error: gltf::GltfError,
     },
+}
+
+impl SceneError {
+    /// Whether nothing is wrong with the files: the machine doesn't let one be read.
+    #[must_use]
+    pub fn is_of_machine(&self) -> bool {
+        match self {
+            SceneError::Unreadable { source, .. } => is_of_machine(source),
+            SceneError::Gltf { error, .. } => error.is_of_machine(),
+            _ => false,
+        }
+    }
 }
 
 /// Reads the scene in a file: glTF ([`super::gltf`]) where its name ends in `.glb` or `.gltf`, our own format
@@ -83,11 +95,8 @@ pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError>
             scene.map_err(|error| SceneError::Gltf { path: path.into(), error })
         }
         Some("ron") => {
-            let not_text = |error: std::string::FromUtf8Error| SceneError::NotText {
-                path: path.into(),
-                at: error.utf8_error().valid_up_to(),
-            };
-            let text = String::from_utf8(bytes(limits::TEXT_BYTES)?).map_err(not_text)?;
+            let bytes = bytes(limits::TEXT_BYTES)?;
+            let text = text_of(&bytes).map_err(|why| SceneError::NotText { path: path.into(), why })?.to_owned();
             let mut sources = Sources::default();
             let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
             text::read(&mut sources, &path.to_string_lossy(), &name, text)
@@ -97,7 +106,7 @@ pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError>
     }
 }
 
-/// The whole file, if it isn't larger than `limit`. Pipes and devices have no size, so the bytes read count.
+/// The whole file, if it isn't larger than `limit`. Some systems' own files tell no size, so the bytes read count.
 fn bytes(path: &Path, limit: u64, read: &ReadFiles) -> Result<Vec<u8>, SceneError> {
     use std::io::Read;
     let mut bytes = Vec::new();

@@ -51,6 +51,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         camera: camera.unwrap_or_else(|| Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE })),
         cameras: Vec::new(),
         notes: Vec::new(),
+        mistakes: Vec::new(),
     }
 }
 

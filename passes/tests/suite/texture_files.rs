@@ -97,6 +97,98 @@ fn exr_and_hdr_hold_light_beyond_one_and_are_never_srgb() {
     }
 }
 
+/// An OpenEXR file of 2×1 texels whose channels hold these values.
+fn exr(channels: &[(&str, [f32; 2])]) -> Vec<u8> {
+    use exr::prelude::*;
+    let channel = |(name, values): &(&str, [f32; 2])| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
+    let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = channels.iter().map(channel).collect();
+    let mut file = Cursor::new(Vec::new());
+    let image = exr::image::Image::from_channels((2, 1), AnyChannels::sort(channels));
+    image.write().non_parallel().to_buffered(&mut file).expect("it is written");
+    file.into_inner()
+}
+
+#[test]
+fn every_set_of_channels_that_is_a_picture_is_read() {
+    let [a, b, c, half] = [[0.25, 4.0], [2.0, 3.0], [5.0, 6.0], [0.5, 0.75]];
+    let cases: [(&[(&str, [f32; 2])], [[f32; 4]; 2]); 9] = [
+        (&[("Y", a)], [[0.25, 0.25, 0.25, 1.0], [4.0, 4.0, 4.0, 1.0]]),
+        (&[("Y", a), ("A", half)], [[0.25, 0.25, 0.25, 0.5], [4.0, 4.0, 4.0, 0.75]]),
+        (&[("Z", a)], [[0.25, 0.25, 0.25, 1.0], [4.0, 4.0, 4.0, 1.0]]),
+        (&[("R", a)], [[0.25, 0.25, 0.25, 1.0], [4.0, 4.0, 4.0, 1.0]]),
+        (&[("A", half)], [[0.5, 0.5, 0.5, 1.0], [0.75, 0.75, 0.75, 1.0]]),
+        (&[("R", a), ("G", b)], [[0.25, 2.0, 0.0, 1.0], [4.0, 3.0, 0.0, 1.0]]),
+        (&[("R", a), ("G", b), ("B", c)], [[0.25, 2.0, 5.0, 1.0], [4.0, 3.0, 6.0, 1.0]]),
+        (&[("R", a), ("G", b), ("B", c), ("A", half)], [[0.25, 2.0, 5.0, 0.5], [4.0, 3.0, 6.0, 0.75]]),
+        (&[("R", a), ("G", b), ("B", c), ("Z", half)], [[0.25, 2.0, 5.0, 1.0], [4.0, 3.0, 6.0, 1.0]]),
+    ];
+    for (channels, expected) in cases {
+        let (_folder, mut textures) = folder(&[("a.exr", exr(channels))]);
+        let file = file("a.exr", Linear);
+        let format = Format::R16G16B16A16_SFLOAT;
+        assert_eq!(textures.info(&file), Ok(TextureInfo { extent: [2, 1], format }), "{channels:?}");
+        let texels = textures.texels(&file, Format::R32G32B32A32_SFLOAT, [2, 1, 1]).expect("texels");
+        let values: Vec<f32> = texels.as_chunks().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
+        assert_eq!(values, expected.as_flattened(), "{channels:?}");
+    }
+    let refused = |channels: &[(&str, [f32; 2])]| {
+        let (_folder, mut textures) = folder(&[("a.exr", exr(channels))]);
+        textures.info(&file("a.exr", Linear)).expect_err("no colours").to_string()
+    };
+    let said = refused(&[("Y", a), ("RY", b), ("BY", c)]);
+    assert!(
+        said.ends_with("it holds luminance and chroma, or fewer values than texels: save it as R, G and B"),
+        "{said}"
+    );
+    let said = refused(&[("u", a), ("v", b)]);
+    assert!(
+        said.contains("its channels are u, v: R, G and B are read, R and G, Y, and one channel of any name"),
+        "{said}"
+    );
+}
+
+#[test]
+fn luminance_with_fewer_values_of_chroma_is_refused_by_what_it_is() {
+    // The list of channels in the header: name, kind, three bytes, and the distance of values across and down.
+    let mut chroma = exr(&[("BY", [0.0; 2]), ("RY", [0.0; 2]), ("Y", [1.0; 2])]);
+    let at = chroma.windows(3).position(|name| name == b"BY\0").expect("the channel");
+    chroma[at + 3 + 8] = 2;
+    let (_folder, mut textures) = folder(&[("a.exr", chroma)]);
+    let said = textures.info(&file("a.exr", Linear)).expect_err("luminance and chroma").to_string();
+    assert!(said.contains("luminance and chroma") && said.contains("save it as R, G and B"), "{said}");
+}
+
+#[test]
+fn a_radiance_file_may_begin_with_the_name_of_any_program() {
+    let light = floats(9, 2, |x, y| [0.25 + x as f32, 4.0, y as f32]);
+    let usual = encoded(&light, ImageFormat::Hdr);
+    let rest = usual.strip_prefix(b"#?RADIANCE").expect("the usual name");
+    let texels = |bytes: Vec<u8>| {
+        let (_folder, mut textures) = folder(&[("a.hdr", bytes)]);
+        let file = file("a.hdr", Linear);
+        assert_eq!(textures.info(&file)?.extent, [9, 2]);
+        textures.texels(&file, Format::R32G32B32A32_SFLOAT, [9, 2, 1])
+    };
+    let expected = texels(usual.clone()).expect("texels");
+    for name in ["#?RGBE", "#?AUTOPANO", "\u{feff}#?RADIANCE", "#?"] {
+        assert_eq!(texels([name.as_bytes(), rest].concat()).as_ref(), Ok(&expected), "{name}");
+    }
+    let no = texels([b"#!RGBE", rest].concat()).expect_err("no picture").to_string();
+    assert_eq!(no, "is no picture that can be read: neither PNG nor JPEG, HDR or EXR");
+    let long = [&b"#?"[..], &[b'a'; 1000], rest].concat();
+    assert!(texels(long).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn no_pipe_is_waited_for_and_no_device_read() {
+    let (folder, mut textures) = folder(&[]);
+    let made = std::process::Command::new("mkfifo").arg(folder.path().join("pipe.png")).status().expect("mkfifo");
+    assert!(made.success());
+    let said = textures.info(&file("pipe.png", Linear)).expect_err("a pipe").to_string();
+    assert_eq!(said, "can't be read: it is not a regular file");
+}
+
 #[test]
 fn a_strip_becomes_slices() {
     // Red to the right, green downwards, blue from square to square.

@@ -61,7 +61,7 @@ fn plan(arguments: &ExplainArguments, read: &ReadFiles) -> Result<Plan, Error> {
     }
     let profile = device::choose(device.as_deref(), read)?;
     let mut pipeline = planning::load(&arguments.pipeline, read)?;
-    let scene = scene.as_deref().map(|file| inputs::scene(file, read)).transpose()?;
+    let scene = scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, read)).transpose()?;
     let facts = scene.as_ref().map(Scene::facts);
     let view = View { facts, size: *size, rotation: arguments.planning.rotate, dump: &[] };
     Ok(pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan)

@@ -47,7 +47,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     spare()?;
     let choice = device::to_draw_on(arguments.device.as_deref())?;
     let mut subject = Subject::read(arguments, &read)?;
-    let scene = inputs::scene(&arguments.scene, &read)?;
+    let scene = inputs::scene(&arguments.scene, arguments.reading.strict, &read)?;
     spare()?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
@@ -98,7 +98,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         recording_milliseconds: over(|frame| frame.recording_milliseconds),
         passes: timings::rows(&plan, &frames),
         notes: plan.notes.clone(),
-        scene_notes: scene.notes.clone(),
+        scene_notes: scene.mistakes.iter().chain(&scene.notes).cloned().collect(),
         validation: None,
         files: arguments.written().map(shown).collect(),
     };

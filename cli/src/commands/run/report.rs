@@ -198,8 +198,8 @@ impl Report {
         table.load_preset(ASCII_MARKDOWN).set_header(["step", "pass", "draws", "culled", "GPU ms"]);
         for row in &self.passes {
             let name = match row.inserted {
-                Some(word) => format!("({word} {})", text::escape(&row.name)),
-                None => text::escape(&row.name),
+                Some(word) => format!("({word} {})", text::cell(&row.name)),
+                None => text::cell(&row.name),
             };
             let count = |count: u32| if row.kind == WorkKind::Draw { count.to_string() } else { String::new() };
             let (draws, culled) = (count(row.draws), count(row.culled));

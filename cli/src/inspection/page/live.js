@@ -1,5 +1,5 @@
 /** The page of `framewright serve`: it asks its server for the state, shows it, and asks for the next. */
-const live = { version: 0, frame: 0, state: null, bar: null, view: null };
+const live = { server: "none", version: 0, frame: 0, state: null, bar: null, view: null };
 
 /** What is going on, and what is wrong: above all views. */
 function addLiveBar() {
@@ -151,7 +151,7 @@ async function follow() {
   for (;;) {
     let told = null;
     try {
-      const answer = await fetch("state/" + live.version);
+      const answer = await fetch("state/" + live.server + "/" + live.version);
       if (answer.status === 200) told = await answer.json();
       else if (answer.status !== 204) throw new Error(answer.statusText);
     } catch {
@@ -160,6 +160,8 @@ async function follow() {
       continue;
     }
     if (told) {
+      // Another server counts anew.
+      if (told.live.server !== live.server) Object.assign(live, { server: told.live.server, frame: 0, outputs: null });
       live.version = told.live.version;
       showState(told.live, told.page);
     } else showStatus();

@@ -277,10 +277,16 @@ fn settings_that_failed_once_are_not_chosen() {
     };
     let black = image::RgbImage::new(16, 8);
     black.save(place.path("black.png")).expect("written");
-    let cube = crate::testing::repository("examples/sweeps/one_unlit_cube.ron");
-    let scenes = format!("@scene=spheres_and_cubes,{}", cube.display());
-    let sweep = ["--sweep", "scale=1.0,2.0", "--sweep", &scenes, "--reference", "black.png", "-o", "swept"];
-    run(&sweep).exits(0);
+    // A name that would end a cell of the table.
+    std::fs::copy(crate::testing::repository("examples/sweeps/one_unlit_cube.ron"), place.path("cu|be.ron"))
+        .expect("copied");
+    let scenes = "@scene=spheres_and_cubes,cu|be.ron";
+    let sweep = ["--sweep", "scale=1.0,2.0", "--sweep", scenes, "--reference", "black.png", "-o", "swept"];
+    let table = run(&sweep).exits(0).out;
+    assert_eq!(table.matches("@scene=cu\\|be.ron").count(), 2, "{table}");
+    let bars = |line: &str| line.replace("\\|", "").matches('|').count();
+    let columns: Vec<_> = table.lines().filter(|line| line.starts_with('|')).map(bars).collect();
+    assert!(columns.len() == 6 && columns.iter().all(|bars| *bars == columns[0]), "{table}");
     let all = results(&place, "swept");
     let outcomes = all["rows"].as_array().expect("rows").iter().map(|row| {
         assert_eq!(row["choice"]["scale"], row["settings"]["scale"]);
@@ -293,7 +299,7 @@ fn settings_that_failed_once_are_not_chosen() {
     let chosen = place.run(&["choose", "swept", "--max-ms", "10000"]).exits(0).out;
     assert!(chosen.starts_with("best: scale=1\n") && chosen.contains("left out: 1 that can't be drawn\n"), "{chosen}");
     // What is measured under another form of the same value stays.
-    let again = ["--sweep", "scale=1,2", "--sweep", &scenes, "--reference", "black.png", "-o", "swept"];
+    let again = ["--sweep", "scale=1,2", "--sweep", scenes, "--reference", "black.png", "-o", "swept"];
     let said = run(&again).exits(0).err;
     assert!(said.contains("note: 3 choices are measured already"), "{said}");
     run(&["--sweep", "scale=2,2.0", "--reference", "none", "-o", "other"])

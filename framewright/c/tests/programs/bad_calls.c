@@ -1,6 +1,8 @@
 /* Calls that are wrong: each has its status and its words, and the handles go on. Needs a folder to write in. */
 
 #include <framewright.h>
+#include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +32,26 @@ static void write_file(const char *path, const char *text) {
     fclose(file);
 }
 
+/* Counts that were never set, or that count something else. */
+static const size_t too_many[] = {SIZE_MAX, SIZE_MAX / 2, SIZE_MAX / 8, UINT32_MAX, 1u << 20};
+#define COUNTS (sizeof too_many / sizeof *too_many)
+
+static void counts(FramewrightRenderer *renderer) {
+    FramewrightChoice choice = {.name = "screen"};
+    FramewrightSemaphore semaphore = {.value = 1};
+    VkImage image = VK_NULL_HANDLE;
+    for (size_t i = 0; i < COUNTS; ++i) {
+        FramewrightSubmission images = {.struct_size = sizeof images, .images = &choice, .image_count = too_many[i]};
+        WRONG(framewright_renderer_submit(renderer, &images, NULL), MISUSE, "`images` has ");
+        FramewrightSubmission waits = {.struct_size = sizeof waits, .waits = &semaphore, .wait_count = too_many[i]};
+        WRONG(framewright_renderer_submit(renderer, &waits, NULL), MISUSE, "`waits` has ");
+        FramewrightSubmission signals = {.struct_size = sizeof signals, .signals = &semaphore, .signal_count = too_many[i]};
+        WRONG(framewright_renderer_submit(renderer, &signals, NULL), MISUSE, "`signals` has ");
+        WRONG(framewright_renderer_import_images(renderer, "screen", &image, too_many[i]), MISUSE, "`images` has ");
+    }
+    WRONG(framewright_renderer_set_facts(renderer, (const FramewrightFacts *)1), MISUSE, "`facts` is no pointer");
+}
+
 static void devices(FramewrightDevice **device) {
     FramewrightDevice *none = (FramewrightDevice *)device;
     WRONG(framewright_device_open(NULL, NULL), MISUSE, "`device` is NULL");
@@ -49,6 +71,10 @@ static void devices(FramewrightDevice **device) {
     program.physical_device = (VkPhysicalDevice)device;
     program.device = (VkDevice)device;
     program.queues = queues;
+    for (size_t i = 0; i < COUNTS; ++i) {
+        program.queue_count = too_many[i];
+        WRONG(framewright_device_adopt(&program, &none), MISUSE, "`queues` has ");
+    }
     program.queue_count = 2;
     WRONG(framewright_device_adopt(&program, &none), MISUSE, "`queues[1].queue` of `program` is NULL");
     WRONG(framewright_device_findings(NULL, ignore, NULL), MISUSE, "`device` is NULL");
@@ -67,6 +93,13 @@ static void scenes(FramewrightScene **scene) {
     write_file("scene.ron", "Scene(\n    version: 1,\n    camra: (),\n)\n");
     WRONG(framewright_scene_load("scene.ron", scene), MISTAKES, "scene.ron:3:5");
     framewright_scene_free(NULL);
+    HOLDS(framewright_scene_mistake(NULL, 0) == NULL);
+    write_file("wrong.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 4}]}");
+    FINE(framewright_scene_load("wrong.gltf", scene));
+    HOLDS(strstr(framewright_scene_mistake(*scene, 0), "node 0: refers to mesh 4") != NULL);
+    HOLDS(strstr(framewright_scene_mistake(*scene, 1), "there is nothing to draw") != NULL);
+    HOLDS(framewright_scene_mistake(*scene, 2) == NULL && framewright_scene_mistake(*scene, SIZE_MAX) == NULL);
+    framewright_scene_free(*scene);
     FINE(framewright_scene_load("spheres_and_cubes", scene));
 }
 
@@ -82,6 +115,22 @@ static void pipelines(const FramewrightDevice *device) {
     options.struct_size = sizeof options;
     options.shaders.count = 1;
     WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`shaders` is NULL");
+    const char *name = "a";
+    const FramewrightNames none = {0};
+    for (size_t i = 0; i < COUNTS; ++i) {
+        const FramewrightNames many = {.names = &name, .count = too_many[i]};
+        options.shaders = many;
+        WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`shaders` has ");
+        options.shaders = none;
+        options.settings = many;
+        WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`settings` has ");
+        options.settings = none;
+        options.extensions = many;
+        WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`extensions` has ");
+        options.extensions = none;
+    }
+    options.frames_in_flight = UINT32_MAX;
+    WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "at most 16 may be on their way");
 
     write_file("mine.ron", "Pipeline(\n    version: 1,\n    extends: \"forwards.ron\",\n)\n");
     WRONG(framewright_renderer_open(device, "mine.ron", NULL, &renderer), MISTAKES, "mine.ron:3:14");
@@ -101,6 +150,23 @@ static void renderers(FramewrightRenderer *renderer, const FramewrightScene *sce
     WRONG(framewright_renderer_set_rotation(renderer, 4), MISUSE, "there is no `rotation` of the number 4");
     FramewrightFacts facts = {.struct_size = 4};
     WRONG(framewright_renderer_set_facts(renderer, &facts), MISUSE, "sizeof(FramewrightFacts)");
+    facts.struct_size = sizeof facts;
+    const double odd[] = {NAN, -NAN, INFINITY, -INFINITY, -1.0};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; ++i) {
+        facts.peak_radiance = odd[i];
+        WRONG(framewright_renderer_set_facts(renderer, &facts), MISUSE, "`peak_radiance` is ");
+        facts.peak_radiance = 1.0;
+        facts.depth_range = odd[i];
+        WRONG(framewright_renderer_set_facts(renderer, &facts), MISUSE, "`depth_range` is ");
+        facts.depth_range = 0.0;
+    }
+    /* The largest of everything is fine. */
+    memset(&facts, 0xff, sizeof facts);
+    facts.struct_size = sizeof facts;
+    facts.peak_radiance = facts.depth_range = 1e308;
+    FINE(framewright_renderer_set_facts(renderer, &facts));
+    FINE(framewright_renderer_set_facts(renderer, NULL));
+    counts(renderer);
 
     FramewrightTexels texels;
     WRONG(framewright_renderer_read(renderer, "screen", &texels), MISUSE, "there is none yet");

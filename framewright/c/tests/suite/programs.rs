@@ -2,7 +2,7 @@
 
 use crate::testing::{Program, has, has_headers, text};
 use framewright_tests::render::{self, Setup, in_repository};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Output;
 
 const EXTENT: [u32; 2] = [320, 180];
@@ -114,6 +114,30 @@ fn programs_in_c_free_all_that_they_are_given() {
 fn wrong_calls_have_their_status_and_their_words() {
     let Some(program) = program("framewright/c/tests/programs/bad_calls.c") else { return };
     succeeded(&program.run(&[], &[]));
+}
+
+/// The command, which serves as a helper, where it was built.
+fn helper() -> Option<PathBuf> {
+    let command = std::env::current_exe().expect("a path").parent()?.parent()?.join("framewright");
+    if !command.exists() {
+        eprintln!("SKIPPED: cargo build -p framewright-cli");
+    }
+    command.exists().then_some(command)
+}
+
+#[cfg(unix)]
+#[test]
+fn a_helper_that_dies_ends_no_program_and_spoils_no_shader() {
+    let Some(program) = program("framewright/c/tests/programs/dead_helper.c") else { return };
+    let cache = tempfile::tempdir().expect("a folder");
+    let variables = [("XDG_CACHE_HOME", cache.path().to_str().expect("a text"))];
+    for useless in ["/bin/false", "/bin/true", "/nowhere"] {
+        let said = succeeded(&program.run(&[useless, "useless"], &variables));
+        assert!(said.contains("the helper process that compiles shaders"), "{said}");
+    }
+    let Some(helper) = helper() else { return };
+    let said = succeeded(&program.run(&[helper.to_str().expect("a text"), "useful"], &variables));
+    assert_eq!(said, "191\n");
 }
 
 #[test]

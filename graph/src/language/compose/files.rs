@@ -36,13 +36,13 @@ pub struct Unread {
     pub help: Option<String>,
     /// The choice outside of all files that would mend it.
     pub choice: Option<OutsideChoice>,
-    /// Whether the file is there, but the user has no right to read it: then nothing is wrong with the files.
-    pub denied: bool,
+    /// Whether nothing is wrong with the files: the machine doesn't let the file be read.
+    pub of_machine: bool,
 }
 
 impl From<String> for Unread {
     fn from(why: String) -> Unread {
-        Unread { why, help: None, choice: None, denied: false }
+        Unread { why, help: None, choice: None, of_machine: false }
     }
 }
 
@@ -67,12 +67,6 @@ impl Files for NoFiles {
     }
 }
 
-/// The first byte that is not UTF-8, in words.
-pub(crate) fn odd_byte(error: &std::string::FromUtf8Error) -> String {
-    let at = error.utf8_error().valid_up_to();
-    format!("byte {at} is 0x{:02X}, which is not UTF-8", error.as_bytes().get(at).copied().unwrap_or_default())
-}
-
 /// The mistake in a text that shows at once that it is no pipeline.
 pub(crate) fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
     let span = |start: usize, end: usize| {
@@ -83,11 +77,8 @@ pub(crate) fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
         let empty = Diagnostic::new(span(0, text.len()), "the file is empty");
         return Some(empty.help("a pipeline begins with `Pipeline(version: 1,`"));
     }
-    if let Some(at) = text.find('\0') {
+    text.find('\0').map(|at| {
         let zero = Diagnostic::new(span(at, at + 1), format!("this is not a text file: byte {at} is 0x00"));
-        return Some(zero.help("a pipeline is RON text in UTF-8"));
-    }
-    let mark = text.starts_with('\u{feff}');
-    let begins = || Diagnostic::new(span(0, 3), "the file begins with a byte order mark");
-    mark.then(|| begins().help("save it as UTF-8 without one"))
+        zero.help("a pipeline is RON text in UTF-8")
+    })
 }

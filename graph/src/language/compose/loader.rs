@@ -1,8 +1,8 @@
 //! The texts of files that others name.
 
-use super::files::{Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread, no_pipeline, odd_byte};
+use super::files::{Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread, no_pipeline};
 use super::origins::Origins;
-use crate::base::{Diagnostic, FilePath, Sources, Span};
+use crate::base::{Diagnostic, FilePath, Sources, Span, text_of};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
 use crate::language::entries::textures::Pictures;
 use crate::ron::{Leaf, Reader, Tree};
@@ -47,7 +47,12 @@ impl<'a> Loader<'a> {
             return None;
         }
         let found = self.files.read(from, path);
-        let wrong = |Unread { why, help, choice, .. }| Diagnostic { help, choice, ..Diagnostic::new(span, why) };
+        let wrong = |Unread { why, help, choice, of_machine }| Diagnostic {
+            help,
+            choice,
+            of_machine,
+            ..Diagnostic::new(span, why)
+        };
         found.map_err(|unread| reader.report(wrong(unread))).ok()
     }
 
@@ -67,15 +72,14 @@ impl<'a> Loader<'a> {
             reader.report(Diagnostic::new(span, message));
             return None;
         }
-        let text = match String::from_utf8(bytes) {
-            Ok(text) => text,
-            Err(error) => {
-                let message = format!("`{shown}` is not a text file: {}", odd_byte(&error));
+        let text: Arc<str> = match text_of(&bytes) {
+            Ok(text) => text.into(),
+            Err(why) => {
+                let message = format!("`{shown}` is not a text file: {why}");
                 reader.report(Diagnostic::new(span, message));
                 return None;
             }
         };
-        let text: Arc<str> = text.into();
         let file = self.sources.add(shown, &relative, text.clone());
         self.origins.add(file, span, words);
         if let Some(error) = no_pipeline(file, &text) {

@@ -45,22 +45,22 @@ fn look(
         let Some(color_space) = color_space(&mut silent, fields.color_space) else { continue };
         let span = fields.file.span();
         let from = span.file().and_then(|file| sources.file(file)).map(|file| &file.path);
+        let wrong = |problem: &dyn std::fmt::Display| Diagnostic::new(span, format!("`{path}` {problem}"));
         let picture = match from.unwrap_or(&"".into()).beside(&path) {
-            Ok(FilePath::Own(path)) => {
-                let file = TextureFile { path, color_space };
+            Ok(FilePath::Own(own)) => {
+                let file = TextureFile { path: own, color_space };
                 info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
-                    let outside = problem == TextureProblem::Outside;
-                    let help = outside.then(|| WITHIN_ROOT.to_owned());
-                    (problem.to_string(), help, outside.then_some(OutsideChoice::Root))
+                    let wrong = Diagnostic { of_machine: problem.is_of_machine(), ..wrong(&problem) };
+                    match problem {
+                        TextureProblem::Outside => wrong.help(WITHIN_ROOT).choice(OutsideChoice::Root),
+                        _ => wrong,
+                    }
                 })
             }
-            Ok(FilePath::Shipped(_)) => Err(("can't be read: no textures are shipped".to_owned(), None, None)),
-            Err(problem) => Err((problem.to_string(), None, None)),
+            Ok(FilePath::Shipped(_)) => Err(wrong(&"can't be read: no textures are shipped")),
+            Err(problem) => Err(wrong(&problem)),
         };
-        let picture = picture.map_err(|(why, help, choice)| {
-            reader.report(Diagnostic { help, choice, ..Diagnostic::new(span, format!("`{path}` {why}")) });
-        });
-        let picture = picture.ok();
+        let picture = picture.map_err(|wrong| reader.report(wrong)).ok();
         pictures.insert(span, picture);
     }
 }

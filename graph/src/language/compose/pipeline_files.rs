@@ -101,7 +101,7 @@ impl Files for PipelineFiles {
                     why: format!("there is no file `{path}` among those that are shipped"),
                     help: self.near(path),
                     choice: None,
-                    denied: false,
+                    of_machine: false,
                 });
             }
         };
@@ -114,21 +114,20 @@ impl Files for PipelineFiles {
                     why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
                     help: self.near(path),
                     choice: None,
-                    denied: false,
+                    of_machine: false,
                 })
             }
             Err(outside @ NoFile::Outside { .. }) => Err(Unread {
                 why: format!("`{path}` {outside}, from which nothing may be read"),
                 help: Some(WITHIN_ROOT.to_owned()),
                 choice: Some(OutsideChoice::Root),
-                denied: false,
+                of_machine: false,
             }),
-            Err(denied @ NoFile::Denied { .. }) => Err(Unread {
-                why: format!("`{path}` {denied}"),
-                help: Some(format!("chmod u+r {}", for_shell(&root.folder().join(&named)))),
-                choice: None,
-                denied: true,
-            }),
+            Err(refused) if refused.is_of_machine() => {
+                let rights = matches!(refused, NoFile::Denied { .. });
+                let allow = || format!("chmod u+r {}", for_shell(&root.folder().join(&named)));
+                Err(Unread { help: rights.then(allow), of_machine: true, ..unread(refused) })
+            }
             Err(other) => Err(unread(other)),
         }
     }

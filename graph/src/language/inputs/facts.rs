@@ -217,6 +217,7 @@ impl Facts {
             Fact::PointLights => FactValue::Integer(self.point_lights as i64),
             Fact::Lights => FactValue::Integer(self.suns as i64 + self.point_lights as i64),
             Fact::Objects => FactValue::Integer(self.objects as i64),
+            Fact::Triangles if self.triangles > i64::MAX as u64 => FactValue::Integer(i64::MAX),
             Fact::Triangles => FactValue::Integer(self.triangles.cast_signed()),
         }
     }

@@ -5,7 +5,7 @@ use super::external::External;
 use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 use framewright_graph::base::Root;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 
 /// The document with its data.
 pub(super) struct Data<'a> {
@@ -14,6 +14,8 @@ pub(super) struct Data<'a> {
     binary: Option<&'a [u8]>,
     /// The bytes behind the URI of each buffer, read on first use.
     read: Vec<OnceCell<Vec<u8>>>,
+    /// Bytes of elements that were read so far.
+    taken: Cell<u64>,
 }
 
 /// The type of an accessor's elements.
@@ -60,7 +62,19 @@ impl<'a> Data<'a> {
     /// A document with the file's binary chunk, if it has one, and the folder that it lies in.
     pub(super) fn new(document: &'a Document, binary: Option<&'a [u8]>, beside: Option<&'a Root>) -> Data<'a> {
         let read = document.buffers.iter().map(|_| OnceCell::new()).collect();
-        Data { document, external: External::new(beside), binary, read }
+        Data { document, external: External::new(beside), binary, read, taken: Cell::new(0) }
+    }
+
+    /// Bytes of elements that were read so far.
+    pub(super) fn taken(&self) -> u64 {
+        self.taken.get()
+    }
+
+    /// Makes sure that the elements of an accessor aren't all 0.
+    pub(super) fn holds_values(&self, index: u64, user: &str) -> Result<(), GltfError> {
+        let accessor = follow(&self.document.accessors, index, "accessor", user)?;
+        let holds = accessor.buffer_view.is_some() || accessor.sparse.is_some();
+        if holds { Ok(()) } else { Err(Problem::NoValues.at(&format!("accessor {index}"))) }
     }
 
     /// Vectors of 32-bit floats; coordinates of textures may be normalised integers too.
@@ -125,7 +139,8 @@ impl<'a> Data<'a> {
             (Some(uri), _) => {
                 let read = &self.read[index as usize];
                 if read.get().is_none() {
-                    let bytes = self.external.bytes(uri, &at)?;
+                    // Without its data the file is not whole.
+                    let bytes = self.external.bytes(uri, &at).map_err(GltfError::of_whole)?;
                     read.get_or_init(|| bytes);
                 }
                 (read.get().map_or(&[][..], Vec::as_slice), "its data")
@@ -133,7 +148,7 @@ impl<'a> Data<'a> {
             (None, Some(binary)) if index == 0 => (binary, "the binary chunk"),
             (None, _) => return Err(Problem::NoData.at(&at)),
         };
-        range(bytes, 0, buffer.byte_length, &at, || holder.into())
+        range(bytes, 0, buffer.byte_length, &at, || holder.into()).map_err(GltfError::of_whole)
     }
 
     /// All elements of an accessor without gaps, sparse ones put in place.
@@ -165,6 +180,7 @@ impl<'a> Data<'a> {
         // Elements without a view are zeros that the file needn't hold.
         let is = accessor.count.saturating_mul(size);
         at_most("bytes", is, limits::FILE_BYTES, &at)?;
+        self.taken.set(self.taken.get() + is);
         let mut bytes = match accessor.buffer_view {
             Some(view) => self.packed(view, accessor.byte_offset, accessor.count, size, &at)?,
             None => vec![0; is as usize],
@@ -226,7 +242,7 @@ impl<'a> Data<'a> {
                 format!("{} of {normalized}component type {}", accessor.kind.escape_debug(), accessor.component_type)
             },
         );
-        GltfError { at: format!("accessor {index}"), problem: Problem::ElementType { role, found, expected } }
+        Problem::ElementType { role, found, expected }.at(&format!("accessor {index}"))
     }
 }
 

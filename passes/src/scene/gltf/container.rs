@@ -30,7 +30,13 @@ pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GltfError> {
     }
     at_most("bytes", json.data.len() as u64, limits::JSON_BYTES as u64, "JSON chunk")?;
     let binary = chunk(rest, "binary chunk")?.filter(|(chunk, _)| chunk.kind == *b"BIN\0").map(|(chunk, _)| chunk.data);
-    Ok(Container { json: json.data, binary })
+    Ok(Container { json: without_zeros(json.data), binary })
+}
+
+/// JSON without zeros behind it: the specification asks for blanks as padding, and some writers take zeros.
+fn without_zeros(json: &[u8]) -> &[u8] {
+    let end = json.iter().rposition(|byte| !matches!(byte, 0 | b' ')).map_or(0, |last| last + 1);
+    if json[end..].contains(&0) { &json[..end] } else { json }
 }
 
 const HEADER: usize = 12;

@@ -3,35 +3,47 @@
 use super::extensions::{self, Extensions};
 use super::json;
 use super::problem::{GltfError, Problem};
+use crate::scene::notes::Notes;
+use framewright_graph::base::{NoText, text_of};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::Value;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
+/// A list by the numbers of its elements. One that can't be read is left out, and keeps its number.
+pub(super) type List<T> = Vec<Option<T>>;
+
 /// glTF's lists by their names there. References between them are plain numbers, checked where they are followed.
 #[derive(Debug, Default)]
 pub(super) struct Document {
-    pub(super) accessors: Vec<Accessor>,
-    pub(super) buffers: Vec<Buffer>,
-    pub(super) buffer_views: Vec<BufferView>,
-    pub(super) cameras: Vec<Camera>,
-    pub(super) images: Vec<Image>,
-    pub(super) lights: Vec<Light>,
-    pub(super) materials: Vec<Material>,
-    pub(super) meshes: Vec<Mesh>,
+    pub(super) accessors: List<Accessor>,
+    pub(super) buffers: List<Buffer>,
+    pub(super) buffer_views: List<BufferView>,
+    pub(super) cameras: List<Camera>,
+    pub(super) images: List<Image>,
+    pub(super) lights: List<Light>,
+    pub(super) materials: List<Material>,
+    pub(super) meshes: List<Mesh>,
     pub(super) nodes: Vec<Node>,
-    pub(super) samplers: Vec<Sampler>,
-    pub(super) scenes: Vec<Scene>,
-    pub(super) textures: Vec<Texture>,
+    pub(super) samplers: List<Sampler>,
+    pub(super) scenes: List<Scene>,
+    pub(super) textures: List<Texture>,
     pub(super) scene: Option<u64>,
     pub(super) animated: bool,
     pub(super) extensions: Extensions,
 }
 
 impl Document {
-    /// Reads the JSON; each element of a list by itself, so that a mistake in it can be named.
-    pub(super) fn read(json: &[u8]) -> Result<Document, GltfError> {
-        let json = std::str::from_utf8(json).map_err(|_| Problem::Json("the JSON is not UTF-8".into()).at(""))?;
+    /// Reads the JSON; each element of a list by itself, so that a mistake in it can be named, and the element left out.
+    ///
+    /// # Errors
+    /// Those of the file as a whole.
+    pub(super) fn read(json: &[u8], notes: &mut Notes) -> Result<Document, GltfError> {
+        let json = text_of(json).map_err(|why| match why {
+            NoText::Encoding(_) => Problem::Json(format!("this is no JSON: {why}")).at(""),
+            NoText::Byte { .. } => Problem::Json("the JSON is not UTF-8".into()).at(""),
+        })?;
         // First of all the version: of another one everything else may differ.
         let head: Head = json::text(json).map_err(|words| Problem::Json(words).at(""))?;
         if !head.asset.version.starts_with("2.") {
@@ -44,58 +56,97 @@ impl Document {
         let mut extensions = Extensions::default();
         head.extensions_used.iter().for_each(|name| extensions.add(name, None));
         let own = root.extensions.map(|own| json::value(own).map(|own| Value::from_iter([("extensions", own)])));
-        let own = own.map(|own| element::<ExtendedRoot>("the file", own, &mut extensions)).transpose()?;
+        let mut elements = Elements { extensions: &mut extensions, notes };
+        let own: Option<ExtendedRoot> = own.and_then(|own| elements.read("the file", "its lights are", own));
         let lights = own.unwrap_or_default().extensions.lights.lights.into_iter().enumerate();
-        let lights = lights.map(|(index, light)| element(&format!("light {index}"), Ok(light), &mut extensions));
-        let lights = lights.collect::<Result<_, _>>()?;
-        let scene = root.scene.map(|scene| element("scene", json::value(scene), &mut extensions)).transpose()?;
+        let lights = lights.map(|(index, light)| elements.read(&format!("light {index}"), IT_IS, Ok(light))).collect();
+        let meshes: List<RawMesh> = elements.list("mesh", &root.meshes);
         Ok(Document {
-            accessors: list("accessor", &root.accessors, &mut extensions)?,
-            buffers: list("buffer", &root.buffers, &mut extensions)?,
-            buffer_views: list("buffer view", &root.buffer_views, &mut extensions)?,
-            cameras: list("camera", &root.cameras, &mut extensions)?,
-            images: list("image", &root.images, &mut extensions)?,
+            accessors: elements.list("accessor", &root.accessors),
+            buffers: elements.list("buffer", &root.buffers),
+            buffer_views: elements.list("buffer view", &root.buffer_views),
+            cameras: elements.list("camera", &root.cameras),
+            images: elements.list("image", &root.images),
             lights,
-            materials: list("material", &root.materials, &mut extensions)?,
-            meshes: list("mesh", &root.meshes, &mut extensions)?,
-            nodes: list("node", &root.nodes, &mut extensions)?,
-            samplers: list("sampler", &root.samplers, &mut extensions)?,
-            scenes: list("scene", &root.scenes, &mut extensions)?,
-            textures: list("texture", &root.textures, &mut extensions)?,
-            scene,
-            animated: !root.animations.is_empty(),
+            materials: elements.list("material", &root.materials),
+            meshes: (0..).zip(meshes).map(|(number, mesh)| Some(elements.primitives(number, mesh?))).collect(),
+            nodes: root.nodes.iter().enumerate().map(|(number, node)| elements.node(number, node)).collect(),
+            samplers: elements.list("sampler", &root.samplers),
+            scenes: elements.list("scene", &root.scenes),
+            textures: elements.list("texture", &root.textures),
+            scene: root.scene.and_then(|scene| elements.read("scene", IT_IS, json::value(scene))),
+            animated: root.animations.is_some_and(|list| {
+                serde_json::from_str::<Vec<IgnoredAny>>(list.get()).map_or(true, |list| !list.is_empty())
+            }),
             extensions,
         })
     }
 }
 
 /// The element that `at` refers to, or which reference leads nowhere.
-pub(super) fn follow<'d, T>(list: &'d [T], index: u64, kind: &'static str, at: &str) -> Result<&'d T, GltfError> {
-    usize::try_from(index)
-        .ok()
-        .and_then(|index| list.get(index))
-        .ok_or_else(|| Problem::Missing { kind, index, count: list.len() }.at(at))
-}
-
-fn list<T: for<'a> Deserialize<'a>>(
-    kind: &str,
-    elements: &[&RawValue],
-    extensions: &mut Extensions,
-) -> Result<Vec<T>, GltfError> {
-    let numbered = elements.iter().enumerate();
-    numbered.map(|(index, raw)| element(&format!("{kind} {index}"), json::value(raw), extensions)).collect()
-}
-
-/// One thing in the file, `at` by its name.
-fn element<T: for<'a> Deserialize<'a>>(
+pub(super) fn follow<'d, T>(
+    list: &'d [Option<T>],
+    index: u64,
+    kind: &'static str,
     at: &str,
-    value: Result<Value, String>,
-    extensions: &mut Extensions,
-) -> Result<T, GltfError> {
-    let wrong = |words| Problem::Json(words).at(at);
-    let value = value.map_err(wrong)?;
-    extensions.add_used(at, &value);
-    json::read(value).map_err(wrong)
+) -> Result<&'d T, GltfError> {
+    let element = usize::try_from(index).ok().and_then(|index| list.get(index));
+    let element = element.ok_or_else(|| Problem::Missing { kind, index, count: list.len() }.at(at))?;
+    element.as_ref().ok_or_else(|| Problem::LeftOut { kind, index }.at(at))
+}
+
+/// What is left out with an element that can't be read.
+const IT_IS: &str = "it is";
+
+/// Reads elements, and leaves out those that can't be read.
+struct Elements<'n> {
+    extensions: &'n mut Extensions,
+    notes: &'n mut Notes,
+}
+
+impl Elements<'_> {
+    fn list<T: for<'a> Deserialize<'a>>(&mut self, kind: &str, elements: &[&RawValue]) -> List<T> {
+        let numbered = elements.iter().enumerate();
+        numbered.map(|(index, raw)| self.read(&format!("{kind} {index}"), IT_IS, json::value(raw))).collect()
+    }
+
+    /// A mesh, whose primitives are elements too.
+    fn primitives(&mut self, number: usize, RawMesh { name, primitives }: RawMesh) -> Mesh {
+        let numbered = primitives.into_iter().enumerate();
+        let primitives = numbered.map(|(part, primitive)| {
+            let at = format!("mesh {number}, primitive {part}");
+            json::read(primitive).map_err(|words| self.leave_out(words, &at, IT_IS)).ok()
+        });
+        Mesh { name, primitives: primitives.collect() }
+    }
+
+    /// A node. Of one that can't be read, what is below it is left out too.
+    fn node(&mut self, number: usize, raw: &RawValue) -> Node {
+        let node = self.read(&format!("node {number}"), "it and what is below it are", json::value(raw));
+        node.unwrap_or_else(|| {
+            let value = json::value(raw).unwrap_or_default();
+            let children = value["children"].as_array().into_iter().flatten().filter_map(Value::as_u64);
+            Node { children: children.collect(), left_out: true, ..Node::default() }
+        })
+    }
+
+    /// One thing in the file, `at` by its name; `left_out` names what is missing without it.
+    fn read<T: for<'a> Deserialize<'a>>(
+        &mut self,
+        at: &str,
+        left_out: &str,
+        value: Result<Value, String>,
+    ) -> Option<T> {
+        let read = value.and_then(|value| {
+            self.extensions.add_used(at, &value);
+            json::read(value)
+        });
+        read.map_err(|words| self.leave_out(words, at, left_out)).ok()
+    }
+
+    fn leave_out(&mut self, words: String, at: &str, left_out: &str) {
+        self.notes.mistake(format!("{}, so {left_out} left out", Problem::Json(words).at(at)));
+    }
 }
 
 /// The version, and the extensions that the file uses.
@@ -114,7 +165,7 @@ struct Head {
 #[serde(default, rename_all = "camelCase", expecting = "a glTF object", bound(deserialize = "'de: 'a"))]
 struct Root<'a> {
     accessors: Vec<&'a RawValue>,
-    animations: Vec<&'a RawValue>,
+    animations: Option<&'a RawValue>,
     buffers: Vec<&'a RawValue>,
     buffer_views: Vec<&'a RawValue>,
     cameras: Vec<&'a RawValue>,
@@ -239,9 +290,9 @@ pub(super) struct Material {
     #[serde(default)]
     pub(super) pbr_metallic_roughness: PbrMetallicRoughness,
     pub(super) emissive_factor: Option<[f64; 3]>,
-    pub(super) emissive_texture: Option<TextureInfo>,
-    pub(super) normal_texture: Option<TextureInfo>,
-    pub(super) occlusion_texture: Option<TextureInfo>,
+    pub(super) emissive_texture: Option<IgnoredAny>,
+    pub(super) normal_texture: Option<IgnoredAny>,
+    pub(super) occlusion_texture: Option<IgnoredAny>,
     pub(super) alpha_mode: Option<String>,
     pub(super) alpha_cutoff: Option<f64>,
     #[serde(default)]
@@ -267,7 +318,7 @@ pub(super) struct EmissiveStrength {
 pub(super) struct PbrMetallicRoughness {
     pub(super) base_color_factor: Option<[f64; 4]>,
     pub(super) base_color_texture: Option<TextureInfo>,
-    pub(super) metallic_roughness_texture: Option<TextureInfo>,
+    pub(super) metallic_roughness_texture: Option<IgnoredAny>,
     pub(super) metallic_factor: Option<f64>,
     pub(super) roughness_factor: Option<f64>,
 }
@@ -285,13 +336,20 @@ pub(super) struct TextureInfo {
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct TextureInfoExtensions {
     #[serde(rename = "KHR_texture_transform")]
-    pub(super) transform: Option<serde::de::IgnoredAny>,
+    pub(super) transform: Option<IgnoredAny>,
 }
 
+/// A mesh whose primitives are not yet read.
 #[derive(Debug, Deserialize)]
+struct RawMesh {
+    name: Option<String>,
+    primitives: Vec<Value>,
+}
+
+#[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) name: Option<String>,
-    pub(super) primitives: Vec<Primitive>,
+    pub(super) primitives: List<Primitive>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -301,15 +359,15 @@ pub(super) struct Primitive {
     pub(super) material: Option<u64>,
     pub(super) mode: Option<u64>,
     #[serde(default)]
-    pub(super) targets: Vec<serde::de::IgnoredAny>,
+    pub(super) targets: Vec<IgnoredAny>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
     pub(super) mesh: Option<u64>,
     pub(super) camera: Option<u64>,
-    pub(super) skin: Option<u64>,
+    pub(super) skin: Option<IgnoredAny>,
     #[serde(default)]
     pub(super) children: Vec<u64>,
     pub(super) matrix: Option<[f64; 16]>,
@@ -318,6 +376,9 @@ pub(super) struct Node {
     pub(super) scale: Option<[f64; 3]>,
     #[serde(default)]
     pub(super) extensions: NodeExtensions,
+    /// Whether it can't be read, but for its children.
+    #[serde(skip)]
+    pub(super) left_out: bool,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -1,13 +1,13 @@
 //! Data outside the binary chunk: in the file itself as a `data:` URI (RFC 2397), or in a file beside it.
 
-use super::problem::{GltfError, Problem, at_most};
+use super::problem::{GltfError, Problem, at_most_in_all};
 use crate::scene::limits;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use percent_encoding::percent_decode_str;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// The data behind URIs.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(super) struct External<'a> {
     beside: Option<&'a Root>,
     /// Bytes that were read so far.
     taken: Cell<u64>,
+    /// Mistakes in URIs that were read all the same.
+    mistakes: RefCell<Vec<String>>,
 }
 
 /// Exporters leave the padding at the end out now and then.
@@ -31,7 +33,7 @@ const LONGEST_PATH: usize = 256;
 
 impl<'a> External<'a> {
     pub(super) fn new(beside: Option<&'a Root>) -> External<'a> {
-        External { beside, taken: Cell::new(0) }
+        External { beside, taken: Cell::new(0), mistakes: RefCell::default() }
     }
 
     /// The bytes that an URI refers to: those of a data URI, or the relative path of a file, percent-encoded (RFC 3986, section 2.1).
@@ -44,26 +46,44 @@ impl<'a> External<'a> {
             Some(_) => return Err(Problem::Scheme(shown()).at(at)),
             None => {
                 let root = self.beside.ok_or_else(|| Problem::External(shown()).at(at))?;
-                self.file(root, uri).map_err(|problem| {
+                self.file(root, uri, at).map_err(|problem| {
                     let path = percent_decode_str(uri).decode_utf8_lossy();
-                    let path = path.chars().take(LONGEST_PATH).flat_map(char::escape_debug).collect();
-                    Problem::File { path, problem }.at(at)
+                    let (path, of_machine) = (shown_path(&path), problem.is_of_machine());
+                    let error = Problem::File { path, problem }.at(at);
+                    if of_machine { error.of_whole() } else { error }
                 })?
             }
         };
         self.taken.set(self.taken.get() + bytes.len() as u64);
-        at_most("bytes of all files and data URIs up to here", self.taken.get(), limits::FILE_BYTES, at)?;
+        at_most_in_all("bytes of all files and data URIs up to here", self.taken.get(), limits::FILE_BYTES, at)?;
         Ok(bytes)
     }
 
+    /// The mistakes in URIs that were read all the same.
+    pub(super) fn mistakes(&self) -> Vec<String> {
+        self.mistakes.take()
+    }
+
     /// The bytes of a file beside this one.
-    fn file(&self, root: &Root, uri: &str) -> Result<Vec<u8>, NoFile> {
-        let path = percent_decode_str(uri).decode_utf8().map_err(|_| NoFile::NoPath)?;
+    fn file(&self, root: &Root, uri: &str, at: &str) -> Result<Vec<u8>, NoFile> {
+        let mut path = percent_decode_str(uri).decode_utf8().map_err(|_| NoFile::NoPath)?;
+        if path.contains('\\') {
+            let divided = path.replace('\\', "/");
+            let [named, read] = [&*path, &divided].map(shown_path);
+            let mistake = format!("{at}: its file `{named}` is named with backslashes, so it is taken as `{read}`");
+            self.mistakes.borrow_mut().push(mistake);
+            path = divided.into();
+        }
         // The path must have the form that this project accepts; the system may accept more.
         FilePath::from("").beside(&path)?;
         let left = limits::FILE_BYTES.saturating_sub(self.taken.get());
         root.read(&root.locate(&path)?, usize::try_from(left).unwrap_or(usize::MAX))
     }
+}
+
+/// A path as messages show it.
+fn shown_path(path: &str) -> String {
+    path.chars().take(LONGEST_PATH).flat_map(char::escape_debug).collect()
 }
 
 /// The scheme of an absolute URI (RFC 3986, section 3.1).

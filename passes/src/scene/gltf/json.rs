@@ -61,7 +61,9 @@ fn words(error: &serde_path_to_error::Error<serde_json::Error>, place: bool) -> 
     };
     let said = match EXPECTED.iter().find_map(|(rusts, ours)| Some((said.strip_suffix(rusts)?, ours))) {
         Some((beginning, ours)) => format!("{beginning}{ours}"),
-        None => said.to_owned(),
+        None => {
+            said.split_once(", expected struct ").map_or(said.to_owned(), |(is, _)| format!("{is}, expected an object"))
+        }
     };
     // So it is called where there is none.
     let field = if matches!(&*field, "." | "?") { String::new() } else { format!("{field}: ") };

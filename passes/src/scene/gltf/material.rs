@@ -3,11 +3,18 @@
 use super::accessor::Data;
 use super::document;
 use super::picture::Textures;
-use super::problem::{GltfError, Problem, within};
+use super::problem::{GltfError, Problem, leave_out};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material};
 use crate::scene::notes::Notes;
 
+/// The range of most factors, and its words.
+const UP_TO_1: (f64, &str) = (1.0, "0 to 1");
+
+/// Reads a material. A mistake in it leaves out or changes a part of it.
+///
+/// # Errors
+/// Those of the file as a whole.
 pub(super) fn read(
     data: &Data<'_>,
     material: &document::Material,
@@ -16,16 +23,15 @@ pub(super) fn read(
     notes: &mut Notes,
 ) -> Result<Material, GltfError> {
     let pbr = &material.pbr_metallic_roughness;
-    let within = |what, is, most, expected| within(what, is, 0.0..=most, expected, at).map(|is| is as f32);
     let mut base_color = [1.0; 4];
     for (place, factor) in base_color.iter_mut().zip(pbr.base_color_factor.unwrap_or([1.0; 4])) {
-        *place = within("a base colour factor", factor, 1.0, "0 to 1")?;
+        *place = clamped("a base colour factor", factor, UP_TO_1, at, notes);
     }
     let strength = material.extensions.emissive_strength.as_ref().and_then(|it| it.emissive_strength).unwrap_or(1.0);
-    let strength = within("the emissive strength", strength, limits::RADIANCE, "0 to 1e9")?;
+    let strength = clamped("the emissive strength", strength, (limits::RADIANCE, "0 to 1e9"), at, notes);
     let mut emissive = [0.0; 3];
     for (place, factor) in emissive.iter_mut().zip(material.emissive_factor.unwrap_or([0.0; 3])) {
-        *place = within("an emissive factor", factor, 1.0, "0 to 1")? * strength;
+        *place = clamped("an emissive factor", factor, UP_TO_1, at, notes) * strength;
     }
     if material.emissive_texture.is_some() && emissive != [0.0; 3] {
         // Without its texture the whole surface would glow.
@@ -45,11 +51,17 @@ pub(super) fn read(
             if texture.extensions.transform.is_some() {
                 notes.add(format!("{at}: the transform of its base colour texture is ignored"));
             }
-            let place = textures.place(data, texture.index, at)?;
-            if place.is_none() {
-                notes.add(format!("{at}: its base colour texture has no PNG or JPEG picture, so it is left out"));
+            match textures.place(data, texture.index, at, notes) {
+                Ok(None) => {
+                    notes.add(format!("{at}: its base colour texture has no PNG or JPEG picture, so it is left out"));
+                    None
+                }
+                Ok(place) => place,
+                Err(error) => {
+                    leave_out(error, &format!("the base colour texture of {at}"), notes)?;
+                    None
+                }
             }
-            place
         }
         None => None,
     };
@@ -58,14 +70,26 @@ pub(super) fn read(
         "BLEND" => AlphaMode::Blend,
         "MASK" => {
             let cutoff = material.alpha_cutoff.unwrap_or(0.5);
-            AlphaMode::Mask { cutoff: within("the alpha cut-off", cutoff, limits::RADIANCE, "at least 0")? }
+            AlphaMode::Mask { cutoff: clamped("the alpha cut-off", cutoff, (limits::RADIANCE, "0 to 1e9"), at, notes) }
         }
         other => {
             let is = other.escape_debug().to_string();
-            return Err(Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" }.at(at));
+            let wrong = Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" }.at(at);
+            notes.mistake(format!("{wrong}, so it is taken as OPAQUE"));
+            AlphaMode::Opaque
         }
     };
     let name = material.name.clone().unwrap_or_else(|| at.to_owned());
     let double_sided = material.double_sided;
     Ok(Material { name, base_color, base_color_texture, emissive, alpha, double_sided })
+}
+
+/// A factor from 0 to the most that it may be. One beyond that is taken as the nearest that is right.
+fn clamped(what: &'static str, is: f64, (most, expected): (f64, &'static str), at: &str, notes: &mut Notes) -> f32 {
+    let taken = is.clamp(0.0, most);
+    if taken != is {
+        let wrong = Problem::OutOfRange { what, is: is.to_string(), expected }.at(at);
+        notes.mistake(format!("{wrong}, so it is taken as {taken}"));
+    }
+    taken as f32
 }

@@ -16,7 +16,9 @@
 //!
 //! A picture is decoded once, and kept once, however many textures show it.
 //!
-//! A file may lie about everything. Each reference, range, count and number is checked where it is used.
+//! A file may lie about everything. Each reference, range, count and number is checked where it is used. A mistake in a part of the
+//! file leaves out that part, or a factor beyond its range is taken as the nearest that is right: [`Scene::mistakes`] tells of each.
+//! A mistake of the whole file is an error: no JSON, a required extension, data that isn't there, or more than is allowed.
 
 mod accessor;
 mod container;
@@ -41,10 +43,10 @@ use super::{defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::base::Root;
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Vec3};
 use nodes::Placed;
 use picture::Textures;
-use problem::{at_most, within};
+use problem::{at_most_in_all, leave_out, within};
 use std::ops::Bound;
 
 /// Reads a scene from the bytes of a GLB file. Files that it names are read from `beside`, and without that not at all.
@@ -53,7 +55,7 @@ use std::ops::Bound;
 /// [`GltfError`] says which thing in the file is wrong.
 pub fn read_glb(bytes: &[u8], beside: Option<&Root>) -> Result<Scene, GltfError> {
     let container = container::split(bytes)?;
-    scene(&Document::read(container.json)?, container.binary, beside)
+    scene(container.json, container.binary, beside)
 }
 
 /// Reads a scene from the JSON of a `.gltf` file; `beside` as in [`read_glb`].
@@ -61,12 +63,13 @@ pub fn read_glb(bytes: &[u8], beside: Option<&Root>) -> Result<Scene, GltfError>
 /// # Errors
 /// [`GltfError`] says which thing in the file is wrong.
 pub fn read_json(json: &[u8], beside: Option<&Root>) -> Result<Scene, GltfError> {
-    scene(&Document::read(json)?, None, beside)
+    scene(json, None, beside)
 }
 
-fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Scene, GltfError> {
-    let data = Data::new(document, binary, beside);
+fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Scene, GltfError> {
     let mut notes = Notes::default();
+    let document = &Document::read(json, &mut notes)?;
+    let data = Data::new(document, binary, beside);
     if document.animated {
         notes.add("animations are ignored".into());
     }
@@ -74,18 +77,26 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
     let mut textures = Textures::default();
     let mut materials = Vec::with_capacity(document.materials.len() + 1);
     for (number, material) in document.materials.iter().enumerate() {
-        materials.push(material::read(&data, material, &format!("material {number}"), &mut textures, &mut notes)?);
+        let at = format!("material {number}");
+        materials.push(match material {
+            Some(material) => material::read(&data, material, &at, &mut textures, &mut notes)?,
+            None => defaults::material(),
+        });
     }
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
-    let placed = nodes::walk(document, &mut notes)?;
+    let placed = nodes::walk(document, &mut notes);
     let (objects, bounds) = objects(document, &placed, &meshes, &groups, &mut notes)?;
-    let bounds = bounds.ok_or(Problem::Nothing.at(""))?;
+    if !objects.iter().any(|object| has_area(&meshes[object.mesh], object.transform)) {
+        notes.mistake(Problem::Nothing.to_string());
+    }
     let lights = lights::read(document, &placed, &mut notes)?;
     let cameras = cameras(document, &placed, &mut notes)?;
-    let camera = cameras.first().map_or_else(|| Camera::framing(bounds), |first| first.camera);
+    let nowhere = Bounds { min: DVec3::ZERO, max: DVec3::ZERO };
+    let camera = cameras.first().map_or_else(|| Camera::framing(bounds.unwrap_or(nowhere)), |first| first.camera);
+    data.external.mistakes().into_iter().for_each(|mistake| notes.mistake(mistake));
+    let (notes, mistakes) = notes.finish();
     let lights::Lights { sun, points, invented_sun } = lights;
-    let own =
-        exposure::Lights { sun: (!invented_sun).then_some(&sun), points: &points, ambient: None, bounds: Some(bounds) };
+    let own = exposure::Lights { sun: (!invented_sun).then_some(&sun), points: &points, ambient: None, bounds };
     let exposure = own.exposure();
     let scene = Scene {
         meshes,
@@ -99,9 +110,19 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
         exposure: 1.0,
         camera,
         cameras,
-        notes: notes.finish(),
+        notes,
+        mistakes,
     };
     Ok(scene.exposed(exposure, Invented { sun: invented_sun, ambient: true, sky: true }))
+}
+
+/// Whether any triangle of a mesh has an area where it stands.
+fn has_area(mesh: &Mesh, transform: DMat4) -> bool {
+    mesh.indices.as_chunks::<3>().0.iter().any(|triangle| {
+        let corner = |index: u32| transform.transform_point3(Vec3::from(mesh.positions[index as usize]).as_dvec3());
+        let [a, b, c] = triangle.map(corner);
+        (b - a).cross(c - a) != DVec3::ZERO
+    })
 }
 
 /// A primitive of a glTF mesh, as a mesh and a material of the scene.
@@ -111,46 +132,71 @@ struct ScenePrimitive {
     material: usize,
 }
 
+/// The primitives of each glTF mesh; none of one that is left out.
+type Groups = Vec<Option<Vec<ScenePrimitive>>>;
+
 /// The scene's meshes, and of which of them each glTF mesh is made.
-fn meshes(
-    data: &Data<'_>,
-    materials: &mut Vec<Material>,
-    notes: &mut Notes,
-) -> Result<(Vec<Mesh>, Vec<Vec<ScenePrimitive>>), GltfError> {
+///
+/// # Errors
+/// Those of the file as a whole.
+fn meshes(data: &Data<'_>, materials: &mut Vec<Material>, notes: &mut Notes) -> Result<(Vec<Mesh>, Groups), GltfError> {
     let mut meshes = Vec::new();
     let mut groups = Vec::with_capacity(data.document.meshes.len());
     let mut budget = primitive::Budget::default();
-    let mut default_material = None;
+    let (mut default_material, mut wasted) = (None, 0);
     for (number, group) in data.document.meshes.iter().enumerate() {
+        let Some(group) = group else {
+            groups.push(None);
+            continue;
+        };
         let mut parts = Vec::new();
         for (part, primitive) in group.primitives.iter().enumerate() {
+            let Some(primitive) = primitive else { continue };
             let at = format!("mesh {number}, primitive {part}");
-            let material = match primitive.material {
-                Some(material) => {
-                    follow(&data.document.materials, material, "material", &at)?;
-                    material as usize
+            let taken = data.taken();
+            let mesh = match primitive::read(data, primitive, &at, &mut budget, notes) {
+                Ok(Some(mesh)) => mesh,
+                Ok(None) => continue,
+                Err(error) => {
+                    leave_out(error, &at, notes)?;
+                    // What is read in vain is bounded as what is kept.
+                    wasted += data.taken() - taken;
+                    at_most_in_all("bytes of what is left out", wasted, limits::FILE_BYTES, &at)?;
+                    continue;
                 }
-                None => *default_material.get_or_insert_with(|| {
+            };
+            let count = data.document.materials.len();
+            let material = primitive.material.and_then(|material| {
+                let known = usize::try_from(material).ok().filter(|known| *known < count);
+                if known.is_none() {
+                    let missing = Problem::Missing { kind: "material", index: material, count }.at(&at);
+                    notes.mistake(format!("{missing}, so a white one stands in its place"));
+                }
+                known
+            });
+            let material = material.unwrap_or_else(|| {
+                *default_material.get_or_insert_with(|| {
                     materials.push(defaults::material());
                     materials.len() - 1
-                }),
-            };
-            if let Some(mesh) = primitive::read(data, primitive, &at, &mut budget, notes)? {
-                parts.push(ScenePrimitive { mesh: meshes.len(), material });
-                meshes.push(mesh);
-            }
+                })
+            });
+            parts.push(ScenePrimitive { mesh: meshes.len(), material });
+            meshes.push(mesh);
         }
-        groups.push(parts);
+        groups.push(Some(parts));
     }
     Ok((meshes, groups))
 }
 
 /// One object for each primitive of each placed mesh, and the box around them all.
+///
+/// # Errors
+/// Those of the file as a whole.
 fn objects(
     document: &Document,
     placed: &[Placed<'_>],
     meshes: &[Mesh],
-    groups: &[Vec<ScenePrimitive>],
+    groups: &Groups,
     notes: &mut Notes,
 ) -> Result<(Vec<Object>, Option<Bounds>), GltfError> {
     let mut objects: Vec<Object> = Vec::new();
@@ -158,21 +204,28 @@ fn objects(
     for Placed { number, node, to_world } in placed {
         let Some(group) = node.mesh else { continue };
         let at = format!("node {number}");
-        let parts = follow(groups, group, "mesh", &at)?;
+        let parts = match follow(groups, group, "mesh", &at) {
+            Ok(parts) => parts,
+            Err(error) => {
+                leave_out(error, "its mesh", notes)?;
+                continue;
+            }
+        };
         if node.skin.is_some() {
             notes.add(format!("{at}: its skin is ignored; the mesh stands as it was modelled"));
         }
-        at_most("objects up to here", (objects.len() + parts.len()) as u64, limits::OBJECTS as u64, &at)?;
-        let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
+        at_most_in_all("objects up to here", (objects.len() + parts.len()) as u64, limits::OBJECTS as u64, &at)?;
+        let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.as_ref()?.name.clone());
         let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
         for (index, part) in parts.iter().enumerate() {
             let transform = *to_world;
             let bounds = meshes[part.mesh].bounds.transformed(transform);
             if !bounds.within(limits::COORDINATE) {
                 let is = format!("{:?} to {:?}", bounds.min.as_vec3().to_array(), bounds.max.as_vec3().to_array());
-                return Err(
-                    Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" }.at(&at)
-                );
+                let expected = "at most 1e9 m";
+                let far = Problem::OutOfRange { what: "its place in the world", is, expected }.at(&at);
+                leave_out(far, "its mesh", notes)?;
+                continue;
             }
             all = Some(all.map_or(bounds, |all| all.union(bounds)));
             let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
@@ -190,29 +243,29 @@ fn objects(
 }
 
 /// Every perspective camera that stands somewhere, without the scale of its node, by the name of its node.
+///
+/// # Errors
+/// Those of the file as a whole.
 fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GltfError> {
     let mut cameras = Vec::new();
     for Placed { number, node, to_world } in placed {
         let Some(index) = node.camera else { continue };
-        let camera = follow(&document.cameras, index, "camera", &format!("node {number}"))?;
         let at = format!("camera {index}");
-        let perspective = match (camera.kind.as_str(), &camera.perspective) {
-            ("perspective", Some(perspective)) => perspective,
-            _ => {
+        let found = follow(&document.cameras, index, "camera", &format!("node {number}"));
+        let lens = match found.and_then(|found| lens(found, &at)) {
+            Ok(Some(lens)) => lens,
+            Ok(None) => {
                 notes.add(format!("{at}: only perspective cameras are used"));
                 continue;
             }
+            Err(error) => {
+                leave_out(error, &at, notes)?;
+                continue;
+            }
         };
-        let fov = within("the vertical field of view", perspective.yfov, 1e-4..3.1, "1e-4 to 3.1 radians", &at)?;
-        let near = within("the near distance", perspective.znear, 1e-6..=1e9, "1e-6 to 1e9 m", &at)?;
-        let beyond_near = (Bound::Excluded(f64::from(near as f32)), Bound::Included(f64::from(f32::MAX)));
-        let far = perspective
-            .zfar
-            .map(|far| within("the far distance", far, beyond_near, "more than the near distance", &at));
-        let far = far.transpose()?.map(|far| far as f32);
-        match looking(*to_world, fov as f32, near as f32) {
+        match looking(*to_world, lens.fov, lens.near) {
             Some(camera) => {
-                let camera = Camera { far, ..camera };
+                let camera = Camera { far: lens.far, ..camera };
                 let name = node.name.clone().unwrap_or_else(|| at.clone());
                 cameras.push(NamedCamera { name, camera });
             }
@@ -220,6 +273,24 @@ fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Res
         }
     }
     Ok(cameras)
+}
+
+/// The numbers of a perspective camera.
+struct Lens {
+    fov: f32,
+    near: f32,
+    far: Option<f32>,
+}
+
+/// The numbers of a camera; `None`: it isn't perspective.
+fn lens(camera: &document::Camera, at: &str) -> Result<Option<Lens>, GltfError> {
+    let ("perspective", Some(perspective)) = (camera.kind.as_str(), &camera.perspective) else { return Ok(None) };
+    let fov = within("the vertical field of view", perspective.yfov, 1e-4..3.1, "1e-4 to 3.1 radians", at)?;
+    let near = within("the near distance", perspective.znear, 1e-6..=1e9, "1e-6 to 1e9 m", at)?;
+    let beyond_near = (Bound::Excluded(f64::from(near as f32)), Bound::Included(f64::from(f32::MAX)));
+    let far =
+        perspective.zfar.map(|far| within("the far distance", far, beyond_near, "more than the near distance", at));
+    Ok(Some(Lens { fov: fov as f32, near: near as f32, far: far.transpose()?.map(|far| far as f32) }))
 }
 
 fn looking(to_world: DMat4, vertical_fov: f32, near: f32) -> Option<Camera> {

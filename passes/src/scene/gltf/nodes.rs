@@ -12,55 +12,90 @@ pub(super) struct Placed<'d> {
     pub(super) to_world: DMat4,
 }
 
-/// Every node of the scene that is shown, parents before children, siblings in the file's order.
-pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Result<Vec<Placed<'d>>, GltfError> {
-    let parents = parents(document)?;
-    let Roots { tops, listed } = roots(document, &parents, notes)?;
+/// Every node of the scene that is shown, parents before children, siblings in the file's order. A node with a mistake is left out,
+/// and what is below it, whose place isn't known then.
+pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Vec<Placed<'d>> {
+    let family = Family::of(document, notes);
+    let Roots { tops, listed } = roots(document, &family.parents, notes);
     let mut waiting: Vec<(usize, DMat4, bool)> =
         tops.into_iter().rev().map(|top| (top, DMat4::IDENTITY, false)).collect();
     let mut placed = Vec::new();
     while let Some((number, parent_to_world, parent_shown)) = waiting.pop() {
         let node = &document.nodes[number];
         let at = format!("node {number}");
-        let to_world = parent_to_world * local(node, &at)?;
-        if !to_world.is_finite() {
-            return Err(Problem::NotFinite("its place and those of its ancestors together").at(&at));
-        }
+        let to_world = match local(node, &at).map(|local| parent_to_world * local) {
+            _ if node.left_out => continue,
+            Ok(to_world) if to_world.is_finite() => Ok(to_world),
+            Ok(_) => Err(Problem::NotFinite("its place and those of its ancestors together").at(&at)),
+            Err(error) => Err(error),
+        };
+        let to_world = match to_world {
+            Ok(to_world) => to_world,
+            Err(error) => {
+                notes.mistake(format!("{error}, so it and what is below it are left out"));
+                continue;
+            }
+        };
         let shown = parent_shown || listed[number];
-        // `parents` has checked that every child exists and has no other parent.
-        waiting.extend(node.children.iter().rev().map(|child| (*child as usize, to_world, shown)));
+        waiting.extend(family.children[number].iter().rev().map(|child| (*child, to_world, shown)));
         if shown {
             placed.push(Placed { number, node, to_world });
         }
     }
-    Ok(placed)
+    placed
 }
 
-/// The parent of every node. Each node has at most one, and none is its own ancestor.
-fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
-    let nodes = &document.nodes;
-    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
-    for (number, node) in nodes.iter().enumerate() {
-        for child in &node.children {
-            follow(nodes, *child, "node", &format!("node {number}"))?;
-            let child = *child as usize;
-            if let Some(other) = parents[child].replace(number) {
-                return Err(Problem::TwoParents(other, number).at(&format!("node {child}")));
+/// The nodes around each node.
+struct Family {
+    /// The parent of each node. Those of nodes that are their own ancestors lead in a circle, which no walk from the top reaches.
+    parents: Vec<Option<usize>>,
+    /// The children of each node. Each is a child once.
+    children: Vec<Vec<usize>>,
+}
+
+impl Family {
+    fn of(document: &Document, notes: &mut Notes) -> Family {
+        let count = document.nodes.len();
+        let mut family = Family { parents: vec![None; count], children: vec![Vec::new(); count] };
+        for (number, node) in document.nodes.iter().enumerate() {
+            for child in &node.children {
+                let index = usize::try_from(*child).ok().filter(|child| *child < count);
+                let Some(index) = index else {
+                    let missing = Problem::Missing { kind: "node", index: *child, count }.at(&format!("node {number}"));
+                    notes.mistake(format!("{missing}, so that child is left out"));
+                    continue;
+                };
+                match family.parents[index] {
+                    Some(other) => {
+                        let two = Problem::TwoParents(other, number).at(&format!("node {index}"));
+                        notes.mistake(format!("{two}, so it stands where node {other} places it"));
+                    }
+                    None => {
+                        family.parents[index] = Some(number);
+                        family.children[number].push(index);
+                    }
+                }
+            }
+        }
+        family.note_circles(notes);
+        family
+    }
+
+    fn note_circles(&self, notes: &mut Notes) {
+        let count = self.parents.len();
+        let mut tried_from = vec![usize::MAX; count];
+        for start in 0..count {
+            let mut next = Some(start);
+            while let Some(node) = next.filter(|node| tried_from[*node] == usize::MAX) {
+                tried_from[node] = start;
+                next = self.parents[node];
+            }
+            if let Some(node) = next.filter(|node| tried_from[*node] == start) {
+                let circle = Problem::Loop.at(&format!("node {node}"));
+                notes.mistake(format!("{circle}, so it and what is below it are left out"));
             }
         }
     }
-    let mut tried_from = vec![usize::MAX; nodes.len()];
-    for start in 0..nodes.len() {
-        let mut next = Some(start);
-        while let Some(node) = next.filter(|node| tried_from[*node] == usize::MAX) {
-            tried_from[node] = start;
-            next = parents[node];
-        }
-        if let Some(node) = next.filter(|node| tried_from[*node] == start) {
-            return Err(Problem::Loop.at(&format!("node {node}")));
-        }
-    }
-    Ok(parents)
 }
 
 /// The nodes at which a walk begins.
@@ -73,19 +108,30 @@ struct Roots {
 
 /// The nodes at the top of the scene that the file shows; without any scene, of the file. Of a node that isn't at the top all
 /// that is above it is walked too, for its place.
-fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Result<Roots, GltfError> {
-    let all = (0..document.nodes.len()).filter(|number| parents[*number].is_none());
+fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Roots {
+    let count = document.nodes.len();
+    let all = || (0..count).filter(|number| parents[*number].is_none());
+    let whole = || Roots { tops: all().collect(), listed: vec![true; count] };
     if document.scenes.is_empty() && document.scene.is_none() {
-        return Ok(Roots { tops: all.collect(), listed: vec![true; document.nodes.len()] });
+        return whole();
     }
     let number = document.scene.unwrap_or(0);
-    let scene = follow(&document.scenes, number, "scene", "")?;
+    let scene = match follow(&document.scenes, number, "scene", "") {
+        Ok(scene) => scene,
+        Err(error) => {
+            notes.mistake(format!("{error}, so all nodes are shown"));
+            return whole();
+        }
+    };
     let at = format!("scene {number}");
     let (mut tops, mut inner) = (Vec::new(), false);
-    let mut listed = vec![false; document.nodes.len()];
+    let mut listed = vec![false; count];
     for root in &scene.nodes {
-        follow(&document.nodes, *root, "node", &at)?;
-        let number = *root as usize;
+        let Some(number) = usize::try_from(*root).ok().filter(|root| *root < count) else {
+            let missing = Problem::Missing { kind: "node", index: *root, count }.at(&at);
+            notes.mistake(format!("{missing}, so that node is left out"));
+            continue;
+        };
         if std::mem::replace(&mut listed[number], true) {
             notes.add(format!("{at}: it lists node {number} twice, which is drawn once"));
         } else if let Some(parent) = parents[number] {
@@ -98,9 +144,9 @@ fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> R
         }
     }
     if inner {
-        tops.extend(all.filter(|number| !listed[*number]));
+        tops.extend(all().filter(|number| !listed[*number]));
     }
-    Ok(Roots { tops, listed })
+    Roots { tops, listed }
 }
 
 /// From the node's space to its parent's.

@@ -2,15 +2,19 @@
 
 use super::accessor::Data;
 use super::document::{self, follow};
-use super::problem::{GltfError, Problem, at_most};
+use super::problem::{GltfError, Problem, at_most, at_most_in_all};
 use crate::scene::limits;
 use crate::scene::model::{Sampler, Texture, Wrap};
+use crate::scene::notes::Notes;
 use framewright_graph::vulkan::Filter;
-use image::{DynamicImage, ImageFormat, ImageReader};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Cursor;
 use std::sync::Arc;
+
+/// Bytes that a decoder may take: what the largest picture takes with four 16-bit components, and as much again.
+const MOST_DECODED: u64 = (limits::TEXTURE_SIDE as u64).pow(2) * 16;
 
 /// Decodes textures when a material first asks for them.
 #[derive(Debug, Default)]
@@ -18,8 +22,8 @@ pub(super) struct Textures {
     pub(super) decoded: Vec<Texture>,
     /// The place of each texture in that list, by glTF's number of its image and by its sampler.
     places: HashMap<(u64, Sampler), usize>,
-    /// Decoded images, by glTF's number.
-    pictures: HashMap<u64, Picture>,
+    /// Images by glTF's number: decoded, or why they can't be.
+    pictures: HashMap<u64, Result<Picture, GltfError>>,
     bytes: u64,
 }
 
@@ -33,31 +37,42 @@ struct Picture {
 
 impl Textures {
     /// The place of glTF's texture `number` in the scene's list; `None` if it has no image.
-    pub(super) fn place(&mut self, data: &Data<'_>, number: u64, user: &str) -> Result<Option<usize>, GltfError> {
+    pub(super) fn place(
+        &mut self,
+        data: &Data<'_>,
+        number: u64,
+        user: &str,
+        notes: &mut Notes,
+    ) -> Result<Option<usize>, GltfError> {
         let texture = follow(&data.document.textures, number, "texture", user)?;
         let at = format!("texture {number}");
         let Some(source) = texture.source else { return Ok(None) };
         let image = follow(&data.document.images, source, "image", &at)?;
-        let sampler = match texture.sampler {
-            Some(sampler) => {
-                let sampler_at = format!("sampler {sampler}");
-                read_sampler(follow(&data.document.samplers, sampler, "sampler", &at)?, &sampler_at)?
-            }
-            None => Sampler::default(),
-        };
+        let sampler = texture.sampler.map(|sampler| {
+            let found = follow(&data.document.samplers, sampler, "sampler", &at)?;
+            read_sampler(found, &format!("sampler {sampler}"))
+        });
+        let sampler = sampler.transpose().unwrap_or_else(|error| {
+            notes.mistake(format!("{error}, so a usual sampler stands in its place"));
+            None
+        });
+        let sampler = sampler.unwrap_or_default();
         if let Some(place) = self.places.get(&(source, sampler)) {
             return Ok(Some(*place));
         }
-        let Picture { width, height, rgba8 } = match self.pictures.get(&source) {
+        let picture = match self.pictures.get(&source) {
             Some(known) => known.clone(),
             None => {
-                let decoded = self.decode(data, image, &format!("image {source}"))?;
-                let (width, height) = (decoded.width(), decoded.height());
-                let new = Picture { width, height, rgba8: decoded.into_rgba8().into_raw().into() };
+                let decoded = self.decode(data, image, &format!("image {source}"));
+                let new = decoded.map(|decoded| {
+                    let (width, height) = (decoded.width(), decoded.height());
+                    Picture { width, height, rgba8: decoded.into_rgba8().into_raw().into() }
+                });
                 self.pictures.insert(source, new.clone());
                 new
             }
         };
+        let Picture { width, height, rgba8 } = picture?;
         let name = image.name.clone().unwrap_or_else(|| format!("image {source}"));
         self.decoded.push(Texture { name, width, height, rgba8, sampler });
         self.places.insert((source, sampler), self.decoded.len() - 1);
@@ -81,8 +96,12 @@ impl Textures {
             ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions().map_err(undecodable)?;
         at_most("texels along a side", width.max(height).into(), limits::TEXTURE_SIDE.into(), at)?;
         self.bytes += u64::from(width) * u64::from(height) * 4;
-        at_most("bytes of all pictures up to here", self.bytes, limits::TEXTURE_BYTES, at)?;
-        ImageReader::with_format(Cursor::new(&bytes), format).decode().map_err(undecodable)
+        at_most_in_all("bytes of all pictures up to here", self.bytes, limits::TEXTURE_BYTES, at)?;
+        let mut reader = ImageReader::with_format(Cursor::new(&bytes), format);
+        let mut limits = Limits::no_limits();
+        limits.max_alloc = Some(MOST_DECODED);
+        reader.limits(limits);
+        reader.decode().map_err(undecodable)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
-use super::problem::{GltfError, Problem, at_most};
+use super::problem::{GltfError, Problem, at_most_in_all};
 use crate::scene::limits;
 use crate::scene::model::{Bounds, Mesh, flat_shaded};
 use crate::scene::notes::Notes;
@@ -18,7 +18,7 @@ impl Budget {
     fn take(&mut self, vertices: usize, indices: usize, at: &str) -> Result<(), GltfError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.indices = self.indices.saturating_add(indices);
-        let fits = |what, is: usize, limit: usize| at_most(what, is as u64, limit as u64, at);
+        let fits = |what, is: usize, limit: usize| at_most_in_all(what, is as u64, limit as u64, at);
         fits("vertices of all meshes up to here", self.vertices, limits::VERTICES)?;
         fits("indices of all meshes up to here", self.indices, limits::INDICES)
     }
@@ -44,6 +44,10 @@ pub(super) fn read(
         notes.add(format!("{at}: vertex colours are ignored"));
     }
     let positions = *primitive.attributes.get("POSITION").ok_or_else(|| Problem::NoPositions.at(at))?;
+    // Without values of their own all corners are one.
+    for accessor in [Some(positions), primitive.indices].into_iter().flatten() {
+        data.holds_values(accessor, at)?;
+    }
     let positions = data.vectors::<3>(positions, "positions", at)?;
     let vertices = positions.len();
     let corners = match primitive.indices {
@@ -113,7 +117,7 @@ impl Mode {
 
 /// The attribute that the material's texture asks for.
 fn texture_coordinates(document: &Document, primitive: &Primitive) -> Option<String> {
-    let material = document.materials.get(usize::try_from(primitive.material?).ok()?)?;
+    let material = document.materials.get(usize::try_from(primitive.material?).ok()?)?.as_ref()?;
     let texture = material.pbr_metallic_roughness.base_color_texture.as_ref()?;
     Some(format!("TEXCOORD_{}", texture.tex_coord))
 }

@@ -1,5 +1,6 @@
 //! Mistakes of glTF files.
 
+use crate::scene::notes::Notes;
 use framewright_graph::base::NoFile;
 use std::fmt;
 use std::ops::RangeBounds;
@@ -11,6 +12,21 @@ pub struct GltfError {
     pub at: String,
     /// The mistake.
     pub problem: Problem,
+    /// Whether it makes the file useless; else the part that it is in can be left out.
+    pub of_whole: bool,
+}
+
+impl GltfError {
+    /// Whether nothing is wrong with the files: the machine doesn't let one be read.
+    #[must_use]
+    pub fn is_of_machine(&self) -> bool {
+        matches!(&self.problem, Problem::File { problem, .. } if problem.is_of_machine())
+    }
+
+    /// The same, of the file as a whole.
+    pub(super) fn of_whole(self) -> GltfError {
+        GltfError { of_whole: true, ..self }
+    }
 }
 
 impl fmt::Display for GltfError {
@@ -20,6 +36,24 @@ impl fmt::Display for GltfError {
 }
 
 impl std::error::Error for GltfError {}
+
+/// Notes that `what` is left out because of a mistake.
+///
+/// # Errors
+/// The mistake itself, where it is one of the whole file.
+pub(super) fn leave_out(error: GltfError, what: &str, notes: &mut Notes) -> Result<(), GltfError> {
+    if error.of_whole {
+        return Err(error);
+    }
+    let what = if error.at == what { "it" } else { what };
+    notes.mistake(format!("{error}, so {what} is left out"));
+    Ok(())
+}
+
+/// Makes sure that there is no more than is allowed of what all parts of the file share.
+pub(super) fn at_most_in_all(what: &'static str, is: u64, limit: u64, at: &str) -> Result<(), GltfError> {
+    at_most(what, is, limit, at).map_err(GltfError::of_whole)
+}
 
 /// Makes sure that there is no more than is allowed.
 pub(super) fn at_most(what: &'static str, is: u64, limit: u64, at: &str) -> Result<(), GltfError> {
@@ -40,7 +74,7 @@ pub(super) fn within(
 impl Problem {
     /// The problem of an element of the file, such as "accessor 3"; of the file as a whole without a name.
     pub(super) fn at(self, element: &str) -> GltfError {
-        GltfError { at: element.into(), problem: self }
+        GltfError { at: element.into(), problem: self, of_whole: false }
     }
 }
 
@@ -101,6 +135,17 @@ pub enum Problem {
         /// How many there are.
         count: usize,
     },
+    /// Something refers to a thing that was left out.
+    #[error("refers to {kind} {index}, which is left out")]
+    LeftOut {
+        /// The kind of thing.
+        kind: &'static str,
+        /// Its number.
+        index: u64,
+    },
+    /// Positions or indices that are all 0.
+    #[error("it has neither a buffer view nor sparse values: they may stand in an extension that is not supported")]
+    NoValues,
     /// Data stands in another file, and there is no folder to read it from; the URI's beginning, escaped.
     #[error("its data stands in another file (`{0}`), and only this one is read")]
     External(String),
@@ -237,6 +282,6 @@ pub enum Problem {
     #[error("it is a child of both node {0} and node {1}")]
     TwoParents(usize, usize),
     /// Nothing in the scene has triangles.
-    #[error("the file holds no triangles to draw")]
+    #[error("there is nothing to draw: no triangle of the file has an area")]
     Nothing,
 }

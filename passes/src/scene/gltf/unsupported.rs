@@ -11,6 +11,7 @@ pub(super) fn note(document: &Document, notes: &mut Notes) {
     }
     let (mut metallic, mut rough) = (Vec::new(), Vec::new());
     for (number, material) in document.materials.iter().enumerate() {
+        let Some(material) = material else { continue };
         let pbr = &material.pbr_metallic_roughness;
         // All materials are drawn as non-metals; glTF's default factor is 1, a metal.
         if pbr.metallic_factor.unwrap_or(1.0) != 0.0 {

@@ -37,6 +37,9 @@ pub struct Scene {
     /// Content of the file that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
     /// Names in it are escaped.
     pub notes: Vec<String>,
+    /// Mistakes in the file that were passed over, each with what was left out or changed because of it, for people: a file without any
+    /// is drawn as it says.
+    pub mistakes: Vec<String>,
 }
 
 impl Scene {
@@ -151,6 +154,7 @@ impl Scene {
             camera: self.camera,
             cameras: self.cameras.clone(),
             notes: Vec::new(),
+            mistakes: Vec::new(),
         }
     }
 }

@@ -52,7 +52,7 @@ mod values;
 use super::exposure::{Invented, Lights, colors};
 use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
 use super::{defaults, limits};
-use framewright_graph::base::{Diagnostic, Sources, Span};
+use framewright_graph::base::{Diagnostic, Sources, Span, without_mark};
 use framewright_graph::fields;
 use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use glam::DVec3;
@@ -85,7 +85,7 @@ fields! {
 /// # Errors
 /// Everything that is wrong with the file, in its order.
 pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Scene, Vec<Diagnostic>> {
-    let text: Arc<str> = text.into();
+    let text: Arc<str> = without_mark(&text).into();
     let file = sources.add(shown, relative, text.clone());
     let mut reader = Reader::default();
     let scene = readable(&mut reader, file, text).and_then(|tree| whole(&mut reader, tree.root()));
@@ -105,11 +105,6 @@ fn readable(reader: &mut Reader, file: u32, text: Arc<str>) -> Option<Tree> {
         let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
         let empty = Diagnostic::new(Span::new(file, 0, end), "the file is empty");
         reader.report(empty.help("a scene begins with `Scene(version: 1,`"));
-        return None;
-    }
-    if text.starts_with('\u{feff}') {
-        let mark = Diagnostic::new(Span::new(file, 0, 3), "the file begins with a byte order mark");
-        reader.report(mark.help("save it as UTF-8 without one"));
         return None;
     }
     Tree::read(file, text, &mut reader.errors)
@@ -174,6 +169,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         camera: camera?,
         cameras: cameras?,
         notes: Vec::new(),
+        mistakes: Vec::new(),
     };
     let invented = Invented { sun: fields.sun.is_none(), ambient: fields.ambient.is_none(), sky: fields.sky.is_none() };
     let lights = Lights {

@@ -1,11 +1,12 @@
-//! Lying, truncated and absurd GLB files: each gives one sentence that names what is wrong, and nothing panics.
+//! Lying, truncated and absurd GLB files: each gives one sentence that names what is wrong, and nothing panics. A mistake in a part of the
+//! file leaves out that part; others leave no scene.
 
 use crate::scene::fixtures::shapes::square;
 use crate::scene::fixtures::{
     builder::{Builder, pack},
     png,
 };
-use framewright_passes::scene::{gltf, limits};
+use framewright_passes::scene::{Scene, gltf, limits};
 use serde_json::{Value, json};
 
 /// Makes a file's JSON say something false.
@@ -32,8 +33,251 @@ fn said(lie: impl FnOnce(&mut Value)) -> String {
     verdict(&pack(&json.to_string(), file.binary()))
 }
 
+/// The first mistake, without what was left out because of it.
 fn verdict(bytes: &[u8]) -> String {
-    gltf::read_glb(bytes, None).map_or_else(|error| error.to_string(), |_| "it loads".to_owned())
+    let scene = match gltf::read_glb(bytes, None) {
+        Ok(scene) => scene,
+        Err(error) => return error.to_string(),
+    };
+    let mistake = scene.mistakes.first().map_or("it loads", String::as_str);
+    mistake.rsplit_once(", so ").map_or(mistake, |(mistake, _)| mistake).to_owned()
+}
+
+/// A textured square as in [`sound`], and another one that shares nothing with it.
+fn two() -> Value {
+    let mut file = sound();
+    let primitive = file.primitive(&square(), None);
+    let mesh = file.mesh("other", vec![primitive]);
+    file.root(json!({"mesh": mesh, "name": "other"}));
+    file.json()
+}
+
+/// The scene of the file after `lie` has changed its JSON.
+fn with(lie: impl FnOnce(&mut Value)) -> Scene {
+    let mut file = sound();
+    let primitive = file.primitive(&square(), None);
+    file.mesh("other", vec![primitive]);
+    let mut json = two();
+    lie(&mut json);
+    gltf::read_glb(&pack(&json.to_string(), file.binary()), None).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_bad_part_is_left_out_with_a_note_and_all_else_is_drawn() {
+    let whole = with(|_| {});
+    assert_eq!((whole.objects.len(), whole.textures.len(), &*whole.mistakes), (2, 1, &[][..]));
+    let camera = json!([{"perspective": {"yfov": 1.0, "znear": 0.0}, "type": "perspective"}]);
+    // What is changed, how many objects and textures are left, and the end of the first note.
+    type Case<'c> = (&'c str, &'c dyn Fn(&mut Value), usize, usize, &'c str);
+    let cases: [Case<'_>; 22] = [
+        (
+            "stride 0",
+            &|json| json["bufferViews"][1]["byteStride"] = json!(0),
+            1,
+            1,
+            "so mesh 0, primitive 0 is left out",
+        ),
+        (
+            "stride 2",
+            &|json| json["bufferViews"][4]["byteStride"] = json!(2),
+            1,
+            1,
+            "so mesh 0, primitive 0 is left out",
+        ),
+        ("seven corners", &|json| json["accessors"][3]["count"] = json!(5), 1, 1, "whole triangles, so it is left out"),
+        (
+            "a primitive that is none",
+            &|json| json["meshes"][0]["primitives"][0] = json!(7),
+            1,
+            1,
+            "primitive 0: invalid type: integer `7`, expected an object, so it is left out",
+        ),
+        ("a mesh that is none", &|json| json["meshes"][0] = json!({"name": 3}), 1, 1, "so it is left out"),
+        ("no such mesh", &|json| json["nodes"][0]["mesh"] = json!(9), 1, 1, "only 2, so its mesh is left out"),
+        ("an accessor", &|json| json["accessors"][0] = json!({}), 1, 1, "so it is left out"),
+        ("an accessor that nothing uses", &|json| push(json, "accessors", json!([])), 2, 1, "so it is left out"),
+        ("a buffer view", &|json| json["bufferViews"][1] = json!({"buffer": "a"}), 1, 1, "so it is left out"),
+        ("a material", &|json| json["materials"][0]["name"] = json!(3), 2, 0, "so it is left out"),
+        (
+            "no such material",
+            &|json| json["meshes"][0]["primitives"][0]["material"] = json!(5),
+            2,
+            1,
+            "so a white one stands in its place",
+        ),
+        ("an alpha mode", &|json| json["materials"][0]["alphaMode"] = json!("X"), 2, 1, "so it is taken as OPAQUE"),
+        ("a texture", &|json| json["textures"][0]["source"] = json!([]), 2, 0, "so it is left out"),
+        (
+            "an image",
+            &|json| json["bufferViews"][0]["byteLength"] = json!(9),
+            2,
+            0,
+            "so the base colour texture of material 0 is left out",
+        ),
+        (
+            "a sampler",
+            &|json| json["samplers"][0]["magFilter"] = json!(2),
+            2,
+            1,
+            "so a usual sampler stands in its place",
+        ),
+        (
+            "a camera",
+            &|json| {
+                json["cameras"] = camera.clone();
+                json["nodes"][0]["camera"] = json!(0);
+            },
+            2,
+            1,
+            "expected 1e-6 to 1e9 m, so it is left out",
+        ),
+        ("no such camera", &|json| json["nodes"][0]["camera"] = json!(0), 2, 1, "so camera 0 is left out"),
+        (
+            "a light",
+            &|json| {
+                json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "sun"}]}});
+                json["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+            },
+            2,
+            1,
+            "so it is left out",
+        ),
+        (
+            "rotation 0",
+            &|json| json["nodes"][0]["rotation"] = json!([0, 0, 0, 0]),
+            1,
+            1,
+            "so it and what is below it are left out",
+        ),
+        (
+            "a node that is none, with a child",
+            &|json| {
+                json["nodes"][0] = json!({"name": 3, "children": [2]});
+                push(json, "nodes", json!({"mesh": 0}));
+                json.as_object_mut().map(|json| (json.remove("scenes"), json.remove("scene")));
+            },
+            1,
+            1,
+            "so it and what is below it are left out",
+        ),
+        ("a scene's node", &|json| push(&mut json["scenes"][0], "nodes", json!(9)), 2, 1, "so that node is left out"),
+        ("no such scene", &|json| json["scene"] = json!(4), 2, 1, "so all nodes are shown"),
+    ];
+    for (what, lie, objects, textures, note) in cases {
+        let scene = with(lie);
+        assert_eq!((scene.objects.len(), scene.textures.len()), (objects, textures), "{what}: {:?}", scene.mistakes);
+        let first = scene.mistakes.first().map_or("", String::as_str);
+        assert!(first.ends_with(note), "{what}: {first}");
+        let other = scene.objects.iter().find(|object| object.name == "other").expect(what);
+        assert_eq!(scene.meshes[other.mesh], whole.meshes[1], "{what}");
+    }
+    // What isn't drawn anyway can't be wrong.
+    let ignored = with(|json| {
+        json["nodes"][0]["skin"] = json!("a");
+        json["animations"] = json!({"channels": 3});
+        json["skins"] = json!(8);
+        json["materials"][0]["normalTexture"] = json!({"index": "a"});
+    });
+    assert_eq!((ignored.objects.len(), &*ignored.mistakes), (2, &[][..]));
+    assert_eq!(ignored.notes.len(), whole.notes.len() + 3, "{:?}", ignored.notes);
+}
+
+fn push(json: &mut Value, list: &str, element: Value) {
+    json[list].as_array_mut().expect("a list").push(element);
+}
+
+#[test]
+fn a_factor_out_of_range_is_taken_as_the_nearest_that_is_right() {
+    let material = |factors: Value| {
+        let scene = with(|json| json["materials"][0] = factors);
+        (scene.materials[0].clone(), scene.mistakes)
+    };
+    let (hair, mistakes) = material(json!({"pbrMetallicRoughness": {"baseColorFactor": [1.000_000_1, 0.5, -0.5, 1]}}));
+    assert_eq!(hair.base_color, [1.0, 0.5, 0.0, 1.0]);
+    let said = "material 0: a base colour factor is";
+    let expected = [("1.0000001", "1"), ("-0.5", "0")]
+        .map(|(is, taken)| format!("{said} {is}; expected 0 to 1, so it is taken as {taken}"));
+    assert_eq!(mistakes, expected);
+    let strength = json!({"KHR_materials_emissive_strength": {"emissiveStrength": 2}});
+    let (three, mistakes) = material(json!({"emissiveFactor": [3.0, 0.5, 0], "extensions": strength}));
+    assert_eq!(three.emissive, [2.0, 1.0, 0.0]);
+    assert_eq!(mistakes, ["material 0: an emissive factor is 3; expected 0 to 1, so it is taken as 1"]);
+    let (_, mistakes) = material(json!({"alphaMode": "MASK", "alphaCutoff": -1}));
+    assert_eq!(mistakes, ["material 0: the alpha cut-off is -1; expected 0 to 1e9, so it is taken as 0"]);
+}
+
+#[test]
+fn a_file_with_nothing_to_draw_says_so() {
+    const NOTHING: &str = "there is nothing to draw: no triangle of the file has an area";
+    // As files with compressed meshes have it, of which one needn't say that it requires the extension.
+    let compressed = with(|json| {
+        for accessor in json["accessors"].as_array_mut().expect("a list") {
+            accessor.as_object_mut().map(|accessor| accessor.remove("bufferView"));
+        }
+        for mesh in json["meshes"].as_array_mut().expect("a list") {
+            mesh["primitives"][0]["extensions"] = json!({"KHR_draco_mesh_compression": {"bufferView": 0}});
+        }
+    });
+    assert!(compressed.objects.is_empty());
+    let reason = "it has neither a buffer view nor sparse values: they may stand in an extension that is not supported";
+    assert_eq!(compressed.mistakes[0], format!("accessor 0: {reason}, so mesh 0, primitive 0 is left out"));
+    assert_eq!(compressed.mistakes.last().map(String::as_str), Some(NOTHING));
+    // One mesh of two is drawn.
+    let half = with(|json| _ = json["accessors"][0].as_object_mut().map(|it| it.remove("bufferView")));
+    assert_eq!((half.objects.len(), half.mistakes.len()), (1, 1), "{:?}", half.mistakes);
+    type Lie = fn(&mut Value);
+    let nothing: [Lie; 4] = [
+        |json| json["nodes"] = json!([{}]),
+        |json| json["meshes"] = json!([{"primitives": []}, {"primitives": []}]),
+        |json| json["nodes"] = json!([{"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 1, "scale": [1, 0, 1]}]),
+        // All corners are one.
+        |json| {
+            for primitive in [0, 1] {
+                let indices =
+                    json["meshes"][primitive]["primitives"][0]["indices"].as_u64().expect("a number") as usize;
+                json["accessors"][indices]["count"] = json!(1);
+                json["meshes"][primitive]["primitives"][0]["mode"] = json!(4);
+                json["accessors"][indices]["sparse"] = Value::Null;
+            }
+        },
+    ];
+    for (number, lie) in nothing.into_iter().enumerate() {
+        let scene = with(lie);
+        assert_eq!(scene.mistakes.last().map(String::as_str), Some(NOTHING), "{number}");
+        assert!(scene.camera.transform.is_finite());
+    }
+}
+
+#[test]
+fn padding_of_zeros_and_a_byte_order_mark_are_no_part_of_the_json() {
+    let (json, binary) = (sound().json().to_string(), sound().binary().to_vec());
+    let scene = gltf::read_glb(&pack(&json, &binary), None).expect("it loads");
+    for padded in [format!("{json}\0\0\0\0"), format!("\u{feff}{json}"), format!("\u{feff}{json}\0\0\0\0\0\0\0\0")] {
+        assert_eq!(gltf::read_glb(&pack(&padded, &binary), None).as_ref(), Ok(&scene));
+    }
+    let marked = format!("\u{feff}{}", json!({"asset": {"version": "2.0"}, "nodes": [], "meshes": []}));
+    assert!(gltf::read_json(marked.as_bytes(), None).is_ok());
+    let utf16: Vec<u8> = marked.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let said = gltf::read_json(&utf16, None).expect_err("another encoding").to_string();
+    assert_eq!(said, "this is no JSON: it is UTF-16: save it as UTF-8");
+}
+
+#[test]
+fn bytes_that_are_read_in_vain_are_bounded() {
+    let many = with(|json| {
+        json["accessors"][0] = zeros(10_000_000);
+        json["meshes"][0]["primitives"][0]["mode"] = json!(9);
+    });
+    assert_eq!(many.mistakes.len(), 1, "the mode is looked at first");
+    let mut json = two();
+    json["accessors"][0] = zeros(10_000_000);
+    // Its normals are too few.
+    let primitive = json["meshes"][0]["primitives"][0].clone();
+    json["meshes"][0]["primitives"] = json!(vec![primitive; 1000]);
+    let mut file = sound();
+    file.primitive(&square(), None);
+    let error = gltf::read_glb(&pack(&json.to_string(), file.binary()), None).expect_err("too much").to_string();
+    assert!(error.contains("bytes of what is left out: "), "{error}");
 }
 
 #[test]
@@ -224,7 +468,7 @@ fn meshes_that_do_not_hang_together() {
     let vertices = said(|json| json["accessors"][0]["count"] = json!(3));
     assert_eq!(vertices, "accessor 3: index number 5 is 3, but there are only 3 vertices");
     let nothing = said(|json| _ = json["nodes"][0].as_object_mut().map(|it| it.remove("mesh")));
-    assert_eq!(nothing, "the file holds no triangles to draw");
+    assert_eq!(nothing, "there is nothing to draw: no triangle of the file has an area");
 }
 
 #[test]
@@ -371,17 +615,24 @@ fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
 }
 
+/// An accessor of positions that the file needn't hold, but for one.
+fn zeros(count: u64) -> Value {
+    let sparse = json!({"count": 1, "indices": {"bufferView": 4, "componentType": 5121}, "values": {"bufferView": 1}});
+    json!({"componentType": 5126, "count": count, "type": "VEC3", "sparse": sparse})
+}
+
 #[test]
 fn counts_that_multiply_are_bounded() {
     // Zeros that the file needn't hold, used again and again.
     let many = said(|json| {
-        json["accessors"][0] = json!({"componentType": 5126, "count": 3_000_000, "type": "VEC3"});
+        json["accessors"][0] = zeros(3_000_000);
         let primitive = json!({"attributes": {"POSITION": 0}, "mode": 6, "indices": 3});
         json["meshes"][0]["primitives"] = json!(vec![primitive; 3]);
     });
-    assert_eq!(many, "it loads", "flat shading leaves the corners only");
+    let nothing = "there is nothing to draw: no triangle of the file has an area";
+    assert_eq!(many, nothing, "flat shading leaves the corners only, and nearly all are one");
     let many = said(|json| {
-        json["accessors"][0] = json!({"componentType": 5126, "count": 9_000_000, "type": "VEC3"});
+        json["accessors"][0] = zeros(9_000_000);
         json["meshes"][0]["primitives"] = json!([{"attributes": {"POSITION": 0}, "mode": 5}]);
     });
     let expected = "vertices of all meshes up to here: 26999994; at most 16777216 is allowed";

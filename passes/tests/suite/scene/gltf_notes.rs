@@ -12,7 +12,11 @@ fn read(change: impl FnOnce(&mut Value)) -> Result<Scene, String> {
     let file = sound();
     let mut json = file.json();
     change(&mut json);
-    gltf::read_glb(&pack(&json.to_string(), file.binary()), None).map_err(|error| error.to_string())
+    let scene = gltf::read_glb(&pack(&json.to_string(), file.binary()), None).map_err(|error| error.to_string())?;
+    match scene.mistakes.first() {
+        Some(mistake) => Err(mistake.rsplit_once(", so ").map_or(mistake.as_str(), |(mistake, _)| mistake).to_owned()),
+        None => Ok(scene),
+    }
 }
 
 fn loaded(change: impl FnOnce(&mut Value)) -> Scene {

@@ -27,6 +27,7 @@ fn is_sound(scene: &Scene) {
     for texture in &scene.textures {
         assert_eq!(texture.rgba8.len(), 4 * texture.width as usize * texture.height as usize);
     }
+    assert!(scene.mistakes.iter().all(|mistake| !mistake.is_empty()));
     let camera = scene.camera;
     assert!(camera.transform.is_finite() && camera.near > 0.0 && camera.view().is_finite());
     assert!(camera.projection(1.5).is_finite());
