@@ -1,5 +1,6 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
+mod exact;
 mod files;
 mod refusals;
 
