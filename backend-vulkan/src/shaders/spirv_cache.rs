@@ -1,13 +1,14 @@
 //! The cache of compiled stages: one file for each text with its macros.
 //!
 //! A file holds digests of all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was
-//! included. It is taken only where all of that is the same now.
+//! included. It is taken only where all of that is the same now, but for line endings.
 
 use super::compile::Includes;
 use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file, shrink, used_now};
 use crate::process::{
     CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
 };
+use framewright_graph::base::unix_lines;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -64,7 +65,7 @@ impl Inclusions {
     /// Adds a file that the file `from` includes as `name`.
     pub(super) fn add(&mut self, from: &str, name: &str, file: &IncludedFile) {
         let from = self.shown.iter().position(|shown| shown == from).unwrap_or(0);
-        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&file.text) });
+        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&unix_lines(&file.text)) });
         self.shown.push(file.shown.clone());
     }
 }
@@ -91,7 +92,8 @@ impl SpirvCache {
         }
         let mut shown = vec![job.shown.clone()];
         for Inclusion { from, name, text } in &header.includes {
-            let found = includes(shown.get(*from)?, name).ok().filter(|found| digest(&found.text) == *text)?;
+            let found =
+                includes(shown.get(*from)?, name).ok().filter(|found| digest(&unix_lines(&found.text)) == *text)?;
             shown.push(found.shown);
         }
         used_now(&path);
@@ -126,7 +128,7 @@ impl SpirvCache {
 
 /// The digest of all that a stage is compiled from, but what it includes.
 fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
-    digest(&(stage, text, macros))
+    digest(&(stage, unix_lines(text), macros))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ mod draw_kind;
 mod element;
 mod interface_file;
 mod param_type;
+mod problem;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::frame::{Draw, Eye, EyeForm};
