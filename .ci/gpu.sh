@@ -70,10 +70,15 @@ pack() {
             esac
         done
     strip -o "$packed/programs/random_pipelines" target/debug/random_pipelines
+    # A test starts an example, which lies beside the folder of the test programs.
+    mkdir "$packed/examples"
+    strip -o "$packed/examples/embed_own_device" target/debug/examples/embed_own_device
     cp /usr/lib/chromium/libVkLayer_khronos_validation.so "$packed/"
     pwd >"$packed/built-in"
     to=$packed/pictures draw_all
+    # Of the pages the one that a test reads.
     git ls-files -z | grep -zv '^docs/\|^cli/tests/' >"$packed/files"
+    printf 'docs/numbers.md\0' >>"$packed/files"
     # Programs have most of their code in common.
     XZ_OPT="--lzma2=preset=4,dict=256MiB" tar --create --xz --file "$file" --transform 's|^|framewright/|' --null --files-from "$packed/files" "$packed"
     ls -lh "$file"

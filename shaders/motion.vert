@@ -15,8 +15,7 @@ invariant gl_Position;
 // Where the vertices of opaque objects are and were.
 void main() {
     const vec4 world = objects.object[gl_InstanceIndex].object_to_world * vec4(position, 1.0);
-    const vec4 world_before = motion.previous_object_to_world[gl_InstanceIndex] * vec4(position, 1.0);
-    now = (motion.world_to_clip[eye_index] * world).xyw;
-    before = (motion.previous_world_to_clip[eye_index] * world_before).xyw;
+    now = clip_of(motion.world_to_clip[eye_index], objects.object[gl_InstanceIndex].object_to_world, position);
+    before = clip_of(motion.previous_world_to_clip[eye_index], motion.previous_object_to_world[gl_InstanceIndex], position);
     gl_Position = rotate_clip(view.world_to_clip * world);
 }

@@ -10,6 +10,7 @@ layout(location = 0) out vec2 moved;
 
 // By how much the sky moved since the frame before, as seen by the camera. It is infinitely far away, so only turns move it.
 void main() {
-    const vec4 towards = vec4(direction, 0.0);
-    moved = motion_between((motion.world_to_clip[eye_index] * towards).xyw, (motion.previous_world_to_clip[eye_index] * towards).xyw);
+    moved = motion_between(
+        clip_towards(motion.world_to_clip[eye_index], direction), clip_towards(motion.previous_world_to_clip[eye_index], direction)
+    );
 }

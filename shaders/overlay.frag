@@ -33,10 +33,11 @@ layout(location = 0) out vec4 color;
 // An image in a rectangle of the picture. For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing
 // changes. Shows flat images and those with layers, integers too, and of samples the first.
 void main() {
-    // 1/512 of a texel above and to the left of the pixel's middle. Where that lies on an edge of the rectangle or between two
-    // texels, it is on the same side then, whichever way the picture is turned and `uv` is rounded.
+    // 1/256 of a texel above and to the left of the pixel's middle. Where that lies on an edge of the rectangle or between two
+    // texels, it is on the same side then, whichever way the picture is turned and `uv` is rounded. A sampler moves places to the
+    // nearest of 256 in a texel (`subTexelPrecisionBits`), and less than half of that would be lost.
     const vec2 place = (uv - vec2(params.offset_x, params.offset_y)) / max(params.scale, 1e-6);
-    const vec2 inside = place - 1.0 / (512.0 * vec2(used_of(shown, shown_st)));
+    const vec2 inside = place - 1.0 / (256.0 * vec2(used_of(shown, shown_st)));
     if (any(lessThan(inside, vec2(0.0))) || any(greaterThanEqual(inside, vec2(1.0)))) {
         color = vec4(0.0);
         return;

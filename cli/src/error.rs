@@ -72,6 +72,13 @@ pub(crate) enum Error {
         text::escape(reason)
     )]
     NoWindow { reason: String },
+    /// A library of the window system is missing.
+    #[error(
+        "no window can be opened: a library is missing, which Debian has in {}\nhelp: apt-get install {}, or what has it on another system",
+        packages.join(" or "),
+        packages.join(" ")
+    )]
+    NoWindowLibrary { packages: &'static [&'static str] },
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
     Picture { image: String, problem: EncodingError },
@@ -399,6 +406,7 @@ impl Error {
             | Error::NoFolder { .. }
             | Error::Cache { .. }
             | Error::NoWindow { .. }
+            | Error::NoWindowLibrary { .. }
             | Error::Port { .. }
             | Error::Print(_)
             | Error::Restart(_)

@@ -19,13 +19,32 @@ layout(set = 1, binding = 5, std430) readonly buffer Motion {
 // Stands for what was nowhere in the picture. Whatever lies in the picture is moved by less than 1.
 const float NOWHERE = 2.0;
 
+// What stands still is moved by exactly 0. Without `precise` a compiler may fuse a product and a sum, and need not do so now and
+// then alike: each of both places would be rounded in its own way. That is why `gl_Position`, which other shaders must meet bit by
+// bit, has no part in these sums.
+
+// Where a vertex is in clip space: x, y and w.
+vec3 clip_of(mat4 world_to_clip, mat4 object_to_world, vec3 position) {
+    precise vec4 world = object_to_world * vec4(position, 1.0);
+    precise vec4 clip = world_to_clip * world;
+    return clip.xyw;
+}
+
+// The same of what is infinitely far away in a direction of the world.
+vec3 clip_towards(mat4 world_to_clip, vec3 direction) {
+    precise vec4 clip = world_to_clip * vec4(direction, 0.0);
+    return clip.xyw;
+}
+
 // From clip space (x, y and w) now and then.
 vec2 motion_between(vec3 now, vec3 before) {
     if (before.z <= 0.0) {
         return vec2(NOWHERE);
     }
+    precise vec2 there = before.xy / before.z;
+    precise vec2 here = now.xy / now.z;
     // Half, since clip space is two wide and two high.
-    const vec2 moved = 0.5 * (before.xy / before.z - now.xy / now.z);
+    precise vec2 moved = 0.5 * (there - here);
     return clamp(guard_signed(moved), -NOWHERE, NOWHERE);
 }
 

@@ -33,9 +33,9 @@ uint bits(uint which) {
     return hash(at * 64u + which);
 }
 
-// 0 to 1, in steps of 2⁻²⁴.
+// 0 to 1, in steps of 2⁻²⁴. A product, which is exact on every driver; a quotient need not be.
 float even(uint which) {
-    return float(bits(which) >> 8) / 16777216.0;
+    return float(bits(which) >> 8) * (1.0 / 16777216.0);
 }
 
 // As many numbers from each power of two to the next: from 2 to the power of `least` on, below 2 to the power of `beyond`.

@@ -233,7 +233,7 @@ pub(super) fn prepare_draw(
         indirect,
     };
     let form = plan.eyes(scope);
-    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, form)?) {
+    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, Some(scope))?) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
             return Ok(nothing(PassSets::empty(gpu)?));
         }

@@ -4,51 +4,19 @@ use crate::base::{Error, convert};
 use crate::gpu::ScopeFormats;
 use crate::pipeline::or_unused;
 use ash::vk;
-use framewright_graph::frame::{EyeForm, Stereo};
-use framewright_graph::plan::{self, Attachment, BindingKind, Plan, RenderScope};
-use framewright_graph::shader::{EyeSource, MOST_PARTS, Variant};
+use framewright_graph::frame::Stereo;
+use framewright_graph::plan::{self, Attachment, Plan, RenderScope};
+use framewright_graph::shader::{MOST_PARTS, Variant};
 
-/// How the Plan has the shader of a pass compiled, which draws into images that hold both eyes' parts so.
-pub(super) fn variant(plan: &Plan, pass: &plan::Pass, form: Option<EyeForm>) -> Result<Variant, Error> {
-    let parts: Vec<_> = plan.parts(pass).map(|(name, _)| name.clone()).collect();
-    if parts.len() > MOST_PARTS {
-        let what = format!("it samples {} images in part, and can at most {MOST_PARTS}", parts.len());
+/// How the Plan has the shader of a pass compiled, which is part of a rendering scope or, with `None`, a dispatch.
+pub(super) fn variant(plan: &Plan, pass: &plan::Pass, scope: Option<&RenderScope>) -> Result<Variant, Error> {
+    let variant = plan.variant(pass, scope);
+    let parts = variant.parts.len();
+    if parts > MOST_PARTS {
+        let what = format!("it samples {parts} images in part, and can at most {MOST_PARTS}");
         return Err(Error::Mismatch { pass: pass.name.to_string(), what });
     }
-
-    let of_view = pass.view.and_then(|view| plan.views.get(view.0 as usize)?.eye);
-    let eye = match (plan.stereo, form) {
-        (Stereo::Multiview, Some(_)) => Some(EyeSource::ViewIndex),
-        (Stereo::DoubleWide, Some(_)) => Some(EyeSource::InstanceBit),
-        (_, Some(_)) => Some(EyeSource::InstanceParity),
-        (_, None) => of_view.map(|of| EyeSource::One(of.eye)),
-    };
-    let eyes = pass.accesses.iter().filter_map(|access| {
-        let binding = access.binding.as_ref().filter(|it| matches!(it.kind, BindingKind::Sampled(_)))?;
-        Some((binding.name.clone(), plan.image(access.image).eyes?, access.eye))
-    });
-    let eyes = eyes.collect();
-    let components = pass.accesses.iter().filter_map(|access| {
-        Some((access.binding.as_ref()?.name.clone(), plan.image(access.image).format.components()))
-    });
-    let components = components.collect();
-    let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
-    let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
-    let mut sampled: Vec<_> = sampled.map(|binding| binding.name.clone()).collect();
-    Variant::name_arrays(&mut sampled);
-    let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
-    Ok(Variant {
-        textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
-        sampled,
-        components,
-        parts,
-        eye,
-        form,
-        eyes,
-        local: local.map(|binding| binding.name.clone()).collect(),
-        depth_only: pass.redraws.is_some(),
-        alpha_to_coverage: pass.alpha_to_coverage,
-    })
+    Ok(variant)
 }
 
 /// The views that a scope draws at once, a bit for each; 0 where it draws none but its own.

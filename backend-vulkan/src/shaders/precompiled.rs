@@ -4,7 +4,7 @@ use super::files::{NoShader, ShaderFiles, SourceFile};
 use super::text::included;
 use crate::base::with_usual_rights;
 use crate::process::{CompileJob, LARGEST_SPIRV, ShaderStage};
-use framewright_graph::base::{ReadFiles, is_of_machine};
+use framewright_graph::base::{ReadFiles, is_of_machine, unix_lines};
 use framewright_graph::shader::ShaderProblem;
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -16,7 +16,7 @@ const MAGIC: u32 = 0x0723_0203;
 
 /// A folder of compiled stages, one file of SPIR-V each. A file's name holds a digest of all that it was compiled from: the stage's
 /// text and macros, the files that it includes or may include, and the version of this crate. A stage whose text has changed since,
-/// or that a pass needs with other macros, has another name.
+/// or that a pass needs with other macros, has another name. Line endings don't count.
 ///
 /// Drivers are given what such files hold: they must be trusted as the program itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,8 +48,9 @@ impl PrecompiledShaders {
     pub(super) fn file(&self, job: &CompileJob, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
         let mut digest = Sha256::new();
         let mut add = |text: &str| {
+            let text = unix_lines(text);
             digest.update((text.len() as u64).to_le_bytes());
-            digest.update(text);
+            digest.update(&*text);
         };
         let stage = match job.stage {
             ShaderStage::Vertex => "vertex",

@@ -1,7 +1,7 @@
 //! The cache of compiled stages: one file for each text with its macros.
 //!
 //! A file holds digests of all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was
-//! included. It is taken only where all of that is the same now.
+//! included. It is taken only where all of that is the same now, but for line endings.
 
 use super::compile::{Compiled, Includes};
 use super::validator::Verdict;
@@ -9,6 +9,7 @@ use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file,
 use crate::process::{
     CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
 };
+use framewright_graph::base::unix_lines;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -71,7 +72,7 @@ impl Inclusions {
     pub(super) fn add(&mut self, from: &str, name: &str, file: &IncludedFile) {
         let from = self.shown.iter().position(|shown| shown == from).unwrap_or(0);
         let repeats = repeated(&self.once, file.once);
-        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&file.text), repeats });
+        self.list.push(Inclusion { from, name: name.to_owned(), text: digest(&unix_lines(&file.text)), repeats });
         self.shown.push(file.shown.clone());
         self.once.push(file.once);
     }
@@ -99,7 +100,8 @@ impl SpirvCache {
         }
         let (mut shown, mut once) = (vec![job.shown.clone()], Vec::new());
         for Inclusion { from, name, text, repeats } in &header.includes {
-            let found = includes(shown.get(*from)?, name).ok().filter(|found| digest(&found.text) == *text)?;
+            let found =
+                includes(shown.get(*from)?, name).ok().filter(|found| digest(&unix_lines(&found.text)) == *text)?;
             if repeated(&once, found.once) != *repeats {
                 return None;
             }
@@ -145,7 +147,7 @@ fn repeated(before: &[Option<u64>], file: Option<u64>) -> Option<usize> {
 
 /// The digest of all that a stage is compiled from, but what it includes.
 fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
-    digest(&(stage, text, macros))
+    digest(&(stage, unix_lines(text), macros))
 }
 
 #[cfg(test)]

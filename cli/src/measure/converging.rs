@@ -64,7 +64,7 @@ impl Converging {
     /// Those of the compiler.
     pub(super) fn planned(
         &self,
-        pipeline: &Loaded,
+        pipeline: &mut Loaded,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         frames: u16,
@@ -193,7 +193,7 @@ mod tests {
         loaded.set.extend(reference_settings(&loaded).expect("a preset"));
         let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
         let converging = Converging::of(frame, device, &loaded);
-        let planned = converging.planned(&loaded, device, &mut Estimated(device), 64).expect("a Plan");
+        let planned = converging.planned(&mut loaded, device, &mut Estimated(device), 64).expect("a Plan");
         (converging, planned)
     }
 

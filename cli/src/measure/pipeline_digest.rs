@@ -3,21 +3,23 @@
 use super::digest::Digest;
 use crate::planning::Loaded;
 use crate::variants::mentions::Mentions;
-use framewright_graph::base::FilePath;
+use framewright_graph::base::{FilePath, unix_lines};
 use framewright_passes::shipped::SHADERS;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The digest. It is that of the whole pipeline, whatever a choice leaves out of it: a shader is part of it if a string of a file
-/// is its name. Shipped shaders are no part of it, nor are files that can't be read.
+/// is its name. Shipped shaders are no part of it, nor are files that can't be read, nor are line endings.
 pub(super) fn of(pipeline: &Loaded) -> String {
     let files: Vec<_> = (0..).map_while(|file| pipeline.sources.file(file)).collect();
-    let texts = files.iter().map(|file| file.text.as_bytes().to_vec());
+    let texts = files.iter().map(|file| unix_lines(&file.text).into_owned().into_bytes());
     let own = files.iter().filter(|file| matches!(file.path, FilePath::Own(_)));
     let shaders: BTreeSet<String> = own
         .flat_map(|file| {
             // A sky without a word is drawn by the shader of that name.
             let names = Mentions::of_text(&file.text).strings().chain(["sky"]).collect::<Vec<_>>();
-            names.into_iter().flat_map(|name| pipeline.assets.shaders.own_texts(&file.path, name)).collect::<Vec<_>>()
+            let texts = names.into_iter().flat_map(|name| pipeline.assets.shaders.own_texts(&file.path, name));
+            texts.map(|text| unix_lines(&text).into_owned()).collect::<Vec<_>>()
         })
         .collect();
     let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.assets.textures.bytes(path).ok());
@@ -27,5 +29,6 @@ pub(super) fn of(pipeline: &Loaded) -> String {
 
 /// The digest of all shipped shaders.
 pub(super) fn of_shipped_shaders() -> String {
-    Digest::of(SHADERS.iter().flat_map(|(name, text)| [*name, *text]))
+    let texts: Vec<_> = SHADERS.iter().flat_map(|(name, text)| [Cow::Borrowed(*name), unix_lines(text)]).collect();
+    Digest::of(texts.iter().map(|text| &**text))
 }

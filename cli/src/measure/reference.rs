@@ -39,7 +39,7 @@ pub(super) fn draw(
     (scene, size): (&Scene, Size),
     progress: &dyn Fn(usize, usize),
 ) -> Result<Option<Drawn>, Error> {
-    let planned = |pipeline: &Loaded, frames| {
+    let planned = |pipeline: &mut Loaded, frames| {
         let mut memory = device.memory();
         converging.planned(pipeline, &device.profile(), &mut memory, frames)
     };

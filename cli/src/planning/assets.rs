@@ -32,10 +32,15 @@ impl Assets {
         read: &ReadFiles,
     ) -> Result<Assets, Error> {
         let draws = draws(arguments, read)?;
-        let precompiled = arguments.precompiled.as_ref().map(|folder| PrecompiledShaders::in_folder(folder).adding());
-        let shaders = framewright::shaders(root, &[], draws, Some(&helper), read).with_precompiled(precompiled);
+        let shaders =
+            framewright::shaders(root, &[], draws, Some(&helper), read).with_precompiled(precompiled(arguments));
         Ok(Assets { shaders, helper, textures: framewright::textures(root, read) })
     }
+}
+
+/// The folder of shaders that the command line names, to which those are added that are compiled.
+pub(crate) fn precompiled(arguments: &PipelineArguments) -> Option<PrecompiledShaders> {
+    arguments.precompiled.as_ref().map(|folder| PrecompiledShaders::in_folder(folder).adding())
 }
 
 /// What draws bring along: those of the program whose interface the command line names, or of a scene.

@@ -8,7 +8,7 @@ use crate::planning::{Assets, helper};
 use crate::system::Exit;
 use framewright::Pipeline;
 use framewright_graph::base::{Diagnostic, ReadFiles, Sources};
-use framewright_graph::compile::{self, Options, heap_size};
+use framewright_graph::compile::{self, Options, heap_size, shaders};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{Frame, Stereo};
@@ -181,12 +181,12 @@ impl Loaded {
         heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(wrong(&self.sources, vec![large])))
     }
 
-    /// Compiles a frame for a device, and has the result verified.
+    /// Compiles a frame for a device, has the result verified, and the shaders compiled as its passes are drawn.
     ///
     /// # Errors
-    /// The mistakes of the frame, features that the device lacks, or the violations that `verify` found.
+    /// The mistakes of the frame or its shaders, features that the device lacks, or the violations that `verify` found.
     pub(crate) fn compile(
-        &self,
+        &mut self,
         frame: &Frame,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
@@ -196,7 +196,11 @@ impl Loaded {
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
         let violations: Vec<_> =
             verify::verify(&plan).iter().map(|one| crate::system::text::escape(&one.to_string())).collect();
-        if violations.is_empty() { Ok(plan) } else { Err(Error::Violations { violations }) }
+        if !violations.is_empty() {
+            return Err(Error::Violations { violations });
+        }
+        let diagnostics = shaders::wrong(&plan, frame, &mut self.assets.shaders);
+        if diagnostics.is_empty() { Ok(plan) } else { Err(wrong(&self.sources, diagnostics)) }
     }
 }
 

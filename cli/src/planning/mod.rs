@@ -10,5 +10,5 @@ mod other_devices;
 pub(crate) mod plan_file;
 pub(crate) mod totals;
 
-pub(crate) use assets::{Assets, draws};
+pub(crate) use assets::{Assets, draws, precompiled};
 pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with};

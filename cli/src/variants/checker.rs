@@ -10,13 +10,14 @@ use crate::command_line::values::Modes;
 use crate::planning::{self, View};
 use crate::system::interrupt;
 use framewright_graph::base::{Diagnostic, Sources};
-use framewright_graph::compile::{Compiler, Options, heap_size};
+use framewright_graph::compile::{Compiler, Options, heap_size, shaders};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::{Document, Read, Reads};
 use framewright_graph::plan::Totals;
 use framewright_graph::verify;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The pipeline whose variants are checked: everything that they share.
@@ -45,6 +46,8 @@ pub(crate) struct VariantChecker<'a> {
     /// By device.
     compilers: Vec<Compiler>,
     identities: Identities,
+    /// Mistakes of shaders as they are drawn, by the hash of a Plan without its values.
+    compiled: HashMap<u64, Vec<Diagnostic>>,
     decisions: &'a SharedDecisions,
     /// The last frame, and its choice without the device unless frames depend on it.
     last: Option<(Choice, ExpandedFrame)>,
@@ -76,7 +79,8 @@ impl<'a> VariantChecker<'a> {
         decisions: &'a SharedDecisions,
     ) -> VariantChecker<'a> {
         let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
-        VariantChecker { subject, shaders, compilers, identities: Identities::default(), decisions, last: None }
+        let (identities, compiled) = (Identities::default(), HashMap::new());
+        VariantChecker { subject, shaders, compilers, identities, compiled, decisions, last: None }
     }
 
     /// Expands, compiles and verifies a variant, unless the verdict follows from another one.
@@ -97,7 +101,7 @@ impl<'a> VariantChecker<'a> {
         verdict
     }
 
-    /// Compiles and verifies a frame.
+    /// Compiles and verifies a frame, and compiles its shaders as they are drawn.
     fn judge(&mut self, frame: &Arc<Frame>, device: usize) -> Verdict {
         let profile = &self.subject.devices[device];
         let plan = self.compilers[device].compile(frame, profile, &mut Estimated(profile), &self.subject.options)?;
@@ -112,7 +116,13 @@ impl<'a> VariantChecker<'a> {
         if !breaches.is_empty() {
             return Err(breaches);
         }
-        Ok(VerifiedPlan { identity: self.identities.of(plan), totals: plan.totals })
+        let identity = self.identities.of(plan);
+        let mistakes =
+            self.compiled.entry(identity.shape).or_insert_with(|| shaders::wrong(plan, frame, &mut self.shaders));
+        if !mistakes.is_empty() {
+            return Err(mistakes.clone());
+        }
+        Ok(VerifiedPlan { identity, totals: plan.totals })
     }
 
     fn frame(&mut self, choice: &Choice) -> ExpandedFrame {

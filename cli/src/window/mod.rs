@@ -3,6 +3,7 @@
 mod choices;
 mod chosen;
 mod following;
+mod libraries;
 mod list;
 mod opening;
 mod orbit;
@@ -21,6 +22,7 @@ use framewright_graph::base::ReadFiles;
 use framewright_vulkan::raw_window_handle::HasDisplayHandle;
 use framewright_vulkan::{Canary, Device, DeviceOptions, Messages};
 use session::{Drawn, Session};
+use std::panic;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -51,7 +53,7 @@ pub(crate) fn window(arguments: &WindowArguments) -> Result<Exit, Error> {
     }
     outputs::prepare(arguments.output.iter().map(|path| &**path), &ReadFiles::default())?;
     interrupt::watch();
-    let events = EventLoop::new().map_err(no_window)?;
+    let events = event_loop()?;
     events.set_control_flow(ControlFlow::Poll);
     let mut app = App { arguments, open: None, ended: None };
     events.run_app(&mut app).map_err(no_window)?;
@@ -64,9 +66,29 @@ pub(crate) fn window(arguments: &WindowArguments) -> Result<Exit, Error> {
     Ok(if canary.is_some() && report(&messages) { Exit::Found } else { Exit::Fine })
 }
 
+/// The connection to the window system. `winit` panics where a library is missing that it opens late, or the server has no
+/// keyboards or pointers; nothing of this program's own runs meanwhile.
+fn event_loop() -> Result<EventLoop<()>, Error> {
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let opened = panic::catch_unwind(EventLoop::new);
+    panic::set_hook(hook);
+    match opened {
+        Ok(opened) => opened.map_err(no_window),
+        Err(panicked) => {
+            let words = panicked.downcast_ref::<&str>().map(|words| (*words).to_owned());
+            let words = words.or_else(|| panicked.downcast_ref::<String>().cloned());
+            Err(no_window(words.unwrap_or_default()))
+        }
+    }
+}
+
 /// The error of a window system that opens no window.
 fn no_window(error: impl std::fmt::Display) -> Error {
     let reason = error.to_string();
+    if let Some(packages) = libraries::missing(&reason) {
+        return Error::NoWindowLibrary { packages };
+    }
     // `winit` begins with the place in its own code.
     let reason =
         reason.rsplit_once(".rs:").and_then(|(_, after)| after.split_once(": ")).map(|(_, said)| said.to_owned());

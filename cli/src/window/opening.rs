@@ -3,7 +3,7 @@
 use crate::command_line::windows::WindowArguments;
 use crate::error::Error;
 use crate::files::inputs;
-use crate::planning::draws;
+use crate::planning::{draws, precompiled};
 use crate::system::Exit;
 use framewright::{ReadFiles, Renderer, RendererOptions};
 use framewright_vulkan::{Device, Helper};
@@ -21,6 +21,7 @@ pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Hel
     options.settings.clone_from(&arguments.pipeline.settings);
     options.draws = draws(&arguments.pipeline, &read)?;
     options.helper = Some(helper);
+    options.precompiled = precompiled(&arguments.pipeline);
     options.compile = arguments.planning.options();
     options.executor.poison = arguments.planning.poison;
     options.executor.frames_in_flight = 2;

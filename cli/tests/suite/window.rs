@@ -369,3 +369,52 @@ fn what_keeps_a_window_from_opening_is_told_before_it_opens() {
     place.file("wrong.ron", forward_with("draw: Sky", "draw: Skye"));
     run(&place, &server, &variables, &[&["window", "wrong.ron"][..], &SCENE].concat()).exits(1).mentions("Skye");
 }
+
+/// Asserts that a window says which packages it lacks, where none of these libraries can be opened: a folder that is looked in before
+/// the system's holds empty files of their names.
+pub(crate) fn lacks(server: &[(&str, String)], libraries: &[&str], said: &str) {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("missing")).expect("made");
+    for library in libraries {
+        place.file(format!("missing/{library}"), "");
+    }
+    let words = [&["window", "forward", "--frames", "1"][..], &SCENE, &SIZE].concat();
+    let mut command = place.command(&words);
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env("LD_LIBRARY_PATH", place.path("missing"));
+    let told = outcome(command.envs(server.iter().cloned())).exits(3);
+    let expected = format!("error: no window can be opened: a library is missing, which Debian has in {said}");
+    assert_eq!(told.err.lines().next(), Some(&*expected), "{libraries:?}: {}", told.err);
+    assert!(!told.err.contains("panicked"), "{libraries:?}: {}", told.err);
+}
+
+#[test]
+fn a_library_that_a_window_needs_and_is_missing_is_named_with_its_package() {
+    let Some(server) = server(false) else { return };
+    let of_x = "libx11-6 or libx11-xcb1 or libxcursor1 or libxi6";
+    for (libraries, said) in [
+        (["libxkbcommon-x11.so.0", "libxkbcommon-x11.so"], "libxkbcommon-x11-0"),
+        // The one before needs it.
+        (["libxkbcommon.so.0", "libxkbcommon.so"], "libxkbcommon-x11-0"),
+        (["libXcursor.so.1", "libXcursor.so"], of_x),
+        (["libXi.so.6", "libXi.so"], of_x),
+    ] {
+        lacks(&[("DISPLAY", server.display().to_owned())], &libraries, said);
+    }
+}
+
+/// What a window compiles is added to the folder, and taken from there by the next one.
+#[test]
+fn a_window_takes_shaders_that_were_compiled_ahead() {
+    let (Some(server), Some(variables)) = (server(false), Vulkan::LAVAPIPE.variables()) else { return };
+    let place = Place::new();
+    let words = [&["window", "forward", "--no-cache", "--precompiled", "spirv", "--frames", "1"][..], &SCENE, &SIZE];
+    run(&place, &server, &variables, &words.concat()).exits(0);
+    let files = || std::fs::read_dir(place.path("spirv")).map_or(0, Iterator::count);
+    let compiled = files();
+    assert!(compiled > 3, "{compiled} shaders were added");
+    for file in std::fs::read_dir(place.path("spirv")).expect("listed") {
+        std::fs::write(file.expect("readable").path(), "no SPIR-V").expect("written");
+    }
+    run(&place, &server, &variables, &words.concat()).exits(1).mentions(" is no SPIR-V");
+    assert_eq!(files(), compiled);
+}

@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use crate::testing::{Place, Vulkan, outcome};
-use crate::window::{SCENE, SIZE};
+use crate::window::{SCENE, SIZE, lacks};
 use framewright_tests::wayland_server::{Shell, WaylandServer};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -47,6 +47,13 @@ fn the_picture_in_the_window_is_the_one_that_run_writes() {
             .map(|file| image::open(place.path(file)).unwrap_or_else(|error| panic!("{pipeline}: {error}")).to_rgb8());
         assert!(shown == drawn, "{pipeline}");
     }
+}
+
+#[test]
+fn a_library_that_a_window_needs_and_is_missing_is_named_with_its_package() {
+    let Some(server) = server(Shell::Desktop) else { return };
+    let libraries = ["libwayland-client.so.0", "libwayland-client.so"];
+    lacks(&server.variables(), &libraries, "libwayland-client0");
 }
 
 /// A process that ends with the test.

@@ -32,6 +32,7 @@ mod retain;
 mod rotate;
 mod schedule;
 mod scope;
+pub mod shaders;
 mod steps;
 mod structure;
 mod sync;

@@ -1,7 +1,7 @@
 //! A pass and its shader meet: shaders are found, and their needs are given.
 
 use super::{arrays, work};
-use crate::base::{Diagnostic, FilePath, Sources, suggestion};
+use crate::base::{Diagnostic, FilePath, Sources};
 use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
 use crate::ron::Name;
@@ -114,7 +114,7 @@ impl<'s> Checked<'s> {
             Err(problem) => {
                 let said = self.reported.iter().any(|(other, known)| other == path && *known == problem);
                 if !said {
-                    errors.push(report(shader, &problem));
+                    errors.push(problem.at(&shader.text, shader.span));
                     self.reported.push((path.clone(), problem));
                 }
                 None
@@ -154,34 +154,6 @@ fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
         Work::Dispatch { shader, .. } => Some((shader, None)),
         Work::Custom { callback, .. } if work::is_drawn(pass) => Some((callback, Some(Draw::Custom))),
         Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
-    }
-}
-
-fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
-    let (name, span) = (&shader.text, shader.span);
-    match problem {
-        ShaderProblem::Missing { looked_in, known } => {
-            let mut help = suggestion(name, known.iter().map(String::as_str)).unwrap_or_default();
-            if !looked_in.is_empty() {
-                let break_line = if help.is_empty() { "" } else { "\n" };
-                help = format!("{help}{break_line}looked for in {}", looked_in.join(", "));
-            }
-            let missing = Diagnostic::new(span, format!("there is no shader named `{name}`"));
-            Diagnostic { help: (!help.is_empty()).then_some(help), ..missing }
-        }
-        ShaderProblem::DoesNotCompile { messages } => {
-            let quotes = messages.iter().filter_map(|message| message.quote.clone()).collect();
-            // Messages that quote their line need no further words.
-            let rest = messages.iter().filter(|message| message.quote.is_none()).map(ToString::to_string);
-            let rest = rest.collect::<Vec<_>>().join("\n");
-            let broken = Diagnostic::new(span, format!("shader `{name}` doesn't compile"));
-            let choice = messages.iter().find_map(|message| message.limit);
-            Diagnostic { quotes, help: (!rest.is_empty()).then_some(rest), choice, ..broken }
-        }
-        ShaderProblem::Unsupported { what } => Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")),
-        ShaderProblem::Machine { what } => {
-            Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")).of_machine()
-        }
     }
 }
 

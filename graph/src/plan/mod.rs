@@ -48,6 +48,7 @@ mod step;
 pub(crate) mod text;
 mod totals;
 mod values;
+mod variants;
 mod view;
 mod work;
 

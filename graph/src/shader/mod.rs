@@ -7,6 +7,7 @@ mod element;
 mod interface_file;
 mod needs;
 mod param_type;
+mod problem;
 mod vertex_layout;
 
 use crate::base::{FilePath, OutsideChoice, Quote};

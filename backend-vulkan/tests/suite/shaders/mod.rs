@@ -1,6 +1,7 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
 mod coverage;
+mod exact;
 mod files;
 mod refusals;
 mod validity;

@@ -235,11 +235,16 @@ fn a_pipeline_is_another_if_its_own_shaders_or_pictures_are() {
     let shader = "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"part.glsl\"\n\
         layout(set = 0, binding = 0) uniform sampler2D grain; layout(location = 0) in vec2 uv;\n\
         layout(location = 0) out vec4 color; void main() { color = texture(grain, uv) * part(); }";
+    let part = "float part() {\n    return 1.0;\n}\n";
+    let scene = "Scene(version: 1,\n    camera: (position: (0, 0, 10), target: (0, 0, 0), fov: 42),\n\
+        materials: [(name: \"grey\", color: \"#404040\")],\n\
+        objects: [Cube(name: \"cube\", material: \"grey\", position: (0, 0, 0), size: 2)])\n";
     place.file("own.frag", shader);
-    place.file("part.glsl", "float part() { return 1.0; }");
+    place.file("part.glsl", part);
+    place.file("s.ron", scene);
     place.file("other.frag", "nothing");
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
-    let arguments = ["measure", "p.ron", "--scene", "spheres_and_cubes", "--size", "8x8", "--frames", "1"];
+    let arguments = ["measure", "p.ron", "--scene", "s.ron", "--size", "8x8", "--frames", "1"];
     let measure = |folder: &str| {
         let sweep = ["--sweep", "@size=8x8", "--reference", "none", "-o", folder];
         place.run_with(&variables, &[&arguments[..], &sweep].concat())
@@ -247,6 +252,11 @@ fn a_pipeline_is_another_if_its_own_shaders_or_pictures_are() {
     measure("swept").exits(0);
     place.file("other.frag", "something that nothing names");
     measure("swept").exits(0);
+    // PF-2: line endings of the pipeline, its shaders and the scene make no other one.
+    for (name, text) in [("p.ron", pipeline), ("own.frag", shader), ("part.glsl", part), ("s.ron", scene)] {
+        place.file(name, text.replace('\n', "\r\n"));
+    }
+    measure("swept").exits(0).mentions("note: 1 choice is measured already");
     place.file("part.glsl", "float part() { return 0.5; }");
     measure("swept").exits(2).mentions("holds results of another sweep: `pipeline_digest` is `");
     measure("again").exits(0);

@@ -10,6 +10,8 @@ use std::error::Error;
 const EXTENT: [u32; 2] = [100, 76];
 /// How far a texel may be from its twin: places and angles are rounded to 32 bits.
 const NEAR: f64 = 2e-3;
+/// How far the quotient of a number and itself may be from 1: Vulkan allows a division 2.5 units in the last place.
+const DIVISION: f64 = 2.5 / 8_388_608.0;
 
 /// A floor that meets a wall, and a ball on it.
 fn corner() -> Scene {
@@ -94,7 +96,7 @@ fn corners_are_darker_than_what_lies_open_and_the_sky_is_bright() -> Result<(), 
     }
     let empty = drawn.texels().filter(|(at, _)| drawn.surfaces.depth[*at] == 0.0);
     let sky: Vec<f64> = empty.map(|(at, _)| drawn.open[at]).collect();
-    assert!(sky.len() > 50 && sky.iter().all(|open| *open == 1.0), "{sky:?}");
+    assert!(sky.len() > 50 && sky.iter().all(|open| (open - 1.0).abs() <= DIVISION), "{sky:?}");
     Ok(())
 }
 
@@ -111,6 +113,7 @@ fn surfaces_show_so_much_of_the_ambient_light_as_reaches_them() -> Result<(), Bo
 #[test]
 fn without_strength_all_lies_open() -> Result<(), Box<dyn Error>> {
     let Some(drawn) = drawn(&corner(), "0.5", "0.0")? else { return Ok(()) };
-    assert!(drawn.open.iter().all(|open| *open == 1.0));
+    assert!(drawn.found.iter().all(|found| *found == 1.0), "nothing is occluded before the blur");
+    assert!(drawn.open.iter().all(|open| (open - 1.0).abs() <= DIVISION), "nor after it");
     Ok(())
 }

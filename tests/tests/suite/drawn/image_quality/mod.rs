@@ -188,6 +188,14 @@ impl Picture {
         all.map(|(a, b)| (encoded(*a) - encoded(*b)).abs()).fold(0.0, f64::max)
     }
 
+    /// The same of what is left of each difference once it is smaller by so much light.
+    fn steps_beyond(&self, other: &Picture, light: f64) -> f64 {
+        assert_eq!((self.width, self.pixels.len()), (other.width, other.pixels.len()));
+        let all = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
+        let left = |(a, b): (&f64, &f64)| encoded((a.max(*b) - light).max(a.min(*b))) - encoded(a.min(*b));
+        all.map(left).fold(0.0, f64::max)
+    }
+
     /// Root of the mean squared difference from another, in light.
     fn error_from(&self, other: &Picture) -> f64 {
         assert_eq!((self.width, self.pixels.len()), (other.width, other.pixels.len()));

@@ -47,8 +47,9 @@ fn both_forms_of_the_stripes_draw_the_same_picture() -> Result<(), Box<dyn Error
     ] else {
         return Ok(());
     };
-    // Rounded to 8 bits once a sample, or once a sample and once a texel.
-    let steps = blended.steps_from(&copied);
+    // Rounded to 8 bits once a sample, or once a sample and once a texel. A blend may round what it blends by to the 8 bits of
+    // its target, and Vulkan's sine has an error of 2⁻¹¹, twice over since it is squared: both are shares of light that is 1 at most.
+    let steps = blended.steps_beyond(&copied, 0.5 / 255.0 + 2.0 / 2048.0);
     assert!(steps <= 3.0, "{steps} steps apart");
     assert!(blended.steps_from(&none) > 100.0);
     Ok(())

@@ -1,7 +1,7 @@
 //! Formulas over images: filters, scales, averages over time, and the filter of shadows.
 
 use super::Unit::{Steps, Ulp};
-use super::{Compared, Row};
+use super::{Compared, Row, within};
 use crate::drawn::filters::Image;
 use crate::drawn::{bloom, filters, scale};
 use framewright_passes::twin::accumulate::{self, accumulated};
@@ -57,15 +57,19 @@ fn blurs() -> Result<Vec<Row>, Box<dyn Error>> {
             "filters::downsample",
             "noise 0 to 60,000",
             Ulp,
+            within(55, 1),
             texels(&of.half, |x, y| [0, 1, 2, 3].map(|at| halves(x, y, at))),
         ),
         Row::of(
             "filters::blur",
             "noise 0 to 60,000",
             Ulp,
+            // Nine weights: an exponential has 3 ulp and twice its argument, which is 2 at most.
+            within(55, 1),
             texels(&of.across, |x, y| [0, 1, 2, 3].map(|at| across(x, y, at))),
         ),
-        Row::of("filters::gauss", "noise 0 to 60,000, radius 0.25 to 64", Ulp, far),
+        // As many as 129 taps, and as many weights.
+        Row::of("filters::gauss", "noise 0 to 60,000, radius 0.25 to 64", Ulp, within(315, 1), far),
     ])
 }
 
@@ -82,8 +86,8 @@ fn blooms() -> Result<Vec<Row>, Box<dyn Error>> {
         mixed([0, 1, 2].map(|channel| of.noise.at(x, y, channel)), around, 0.25)
     });
     Ok(vec![
-        Row::of("bloom::shrunk", "noise 0 to 60,000, calmed and not", Ulp, all),
-        Row::of("bloom::tent", "noise 0 to 60,000, a quarter mixed in", Ulp, grown),
+        Row::of("bloom::shrunk", "noise 0 to 60,000, calmed and not", Ulp, within(70, 2), all),
+        Row::of("bloom::tent", "noise 0 to 60,000, a quarter mixed in", Ulp, within(35, 1), grown),
     ])
 }
 
@@ -106,9 +110,10 @@ fn scales() -> Result<Vec<Row>, Box<dyn Error>> {
         }
     }
     Ok(vec![
-        Row::of("scale::area", "noise 0 to 1, scales 0.25 to 4", Ulp, of_area),
-        Row::of("scale::sharpened", "noise 0 to 1, scales 0.25 to 4", Ulp, of_curve),
-        Row::of("scale::bilinear", "noise 0 to 1, scales 0.25 to 4; the device's own filter", Steps, of_bilinear),
+        Row::of("scale::area", "noise 0 to 1, scales 0.25 to 4", Ulp, within(20, 2), of_area),
+        Row::of("scale::sharpened", "noise 0 to 1, scales 0.25 to 4", Ulp, within(90, 2), of_curve),
+        // Samplers move places to the nearest of 256 in a texel, and round the weights of both axes.
+        Row::of("scale::bilinear", "noise 0 to 1, scales 0.25 to 4; the device's own filter", Steps, 4.0, of_bilinear),
     ])
 }
 
@@ -139,8 +144,20 @@ fn averages() -> Result<Vec<Row>, Box<dyn Error>> {
         }
     }
     Ok(vec![
-        Row::of("accumulate::accumulated", "noise 0 to 60,000, shares −1 to 2, all of alpha", Ulp, over_time),
-        Row::of("accumulate::averaged", "noise 0 to 60,000, of 1 to 7 frames", Ulp, of_means),
-        Row::of("sun_shadow::uncovered", "places and depths at random in noise, a slope, 1 to 7 taps", Ulp, of_shadows),
+        Row::of(
+            "accumulate::accumulated",
+            "noise 0 to 60,000, shares −1 to 2, all of alpha",
+            Ulp,
+            within(5, 0),
+            over_time,
+        ),
+        Row::of("accumulate::averaged", "noise 0 to 60,000, of 1 to 7 frames", Ulp, within(3, 1), of_means),
+        Row::of(
+            "sun_shadow::uncovered",
+            "places and depths at random in noise, a slope, 1 to 7 taps",
+            Ulp,
+            within(70, 1),
+            of_shadows,
+        ),
     ])
 }

@@ -1,0 +1,55 @@
+//! Whether the shaders of a Plan compile as its passes are drawn.
+
+use crate::base::{Diagnostic, Span};
+use crate::frame::{Draw, Frame};
+use crate::plan::{Pass, Plan};
+use crate::shader::{EyeSource, ShaderInterfaces, ShaderProblem, Variant};
+use std::sync::Arc;
+
+/// The shaders that don't compile as the passes of `plan` are drawn, which was made of `frame`: for both eyes at once, into a part of
+/// an image, for depth alone. Expanding a file compiles shaders too, before it is known how they are drawn. Passes that the
+/// compiler inserted are among them. Each mistake is told once.
+#[must_use]
+pub fn wrong(plan: &Plan, frame: &Frame, shaders: &mut dyn ShaderInterfaces) -> Vec<Diagnostic> {
+    let mut known: Vec<(Arc<str>, ShaderProblem)> = Vec::new();
+    let mut wrong = Vec::new();
+    for (pass, variant) in plan.variants() {
+        let found = match pass.draw {
+            Some(draw) => shaders.draw_shader(&pass.shader, draw, &variant),
+            None => shaders.compute_shader(&pass.shader, &variant),
+        };
+        let Err(problem) = found else { continue };
+        // The program draws with a pipeline of its own then.
+        let its_own = pass.draw == Some(Draw::Custom) && matches!(problem, ShaderProblem::Missing { .. });
+        if its_own || known.iter().any(|(shader, other)| *shader == pass.shader && *other == problem) {
+            continue;
+        }
+        let mistake = problem.at(&pass.shader, place(frame, pass));
+        wrong.push(mistake.remark(format!("as pass `{}` is drawn{}", pass.name, how(plan, pass, &variant))));
+        known.push((pass.shader.clone(), problem));
+    }
+    wrong
+}
+
+/// Where the file declares the pass, or the one that it draws again.
+fn place(frame: &Frame, pass: &Pass) -> Span {
+    let name = pass.redraws.as_ref().unwrap_or(&pass.name);
+    frame.passes.iter().find(|declared| declared.name == *name).map_or(Span::NONE, |declared| declared.span)
+}
+
+/// What its shader is compiled for, beside what every pass's is.
+fn how(plan: &Plan, pass: &Pass, variant: &Variant) -> String {
+    let mut said = String::new();
+    match (variant.form, variant.eye) {
+        (Some(_), _) => said += &format!(", for both eyes at once (`{}`)", plan.stereo.name()),
+        (None, Some(EyeSource::One(_))) => said += ", for one eye",
+        (None, _) => {}
+    }
+    if pass.redraws.is_some() {
+        said += ", for depth alone";
+    }
+    if !variant.local.is_empty() {
+        said += ", with local reads";
+    }
+    said
+}
