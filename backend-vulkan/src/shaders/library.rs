@@ -9,7 +9,7 @@ use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
-use super::mentioned::{Mentioned, asks_eye_in_included};
+use super::mentioned::Mentioned;
 use super::needs::Needed;
 use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};

@@ -149,7 +149,7 @@ mod tests {
             set: PASS_SET,
             binding,
             name: format!("b{binding}"),
-            kind: BindingKind::StorageBlock { readable: true, writable: true },
+            kind: BindingKind::StorageBlock { readable: true, writable: true, bytes: 4 },
             length: None,
             adapts: false,
             stages: Stages::FRAGMENT_SHADER,
