@@ -237,7 +237,7 @@ fn forgets(plan: &Plan, chains: &[Chain]) -> Result<(), Fault> {
 fn overwrite(plan: &mut Plan) {
     for step in &mut plan.steps {
         let Work::Render(scope) = &mut step.work else { continue };
-        let clear = |attachment: &mut Attachment, value: [f32; 4]| {
+        let clear = |attachment: &mut Attachment, value: [f64; 4]| {
             if attachment.load == LoadOp::DontCare {
                 (attachment.load, attachment.clear) = (LoadOp::Clear, Some(value));
             }
