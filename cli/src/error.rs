@@ -25,7 +25,7 @@ pub(crate) enum Error {
     #[error("the {what} `{}` is larger than {}", text::path(path), text::bytes(*limit))]
     TooLarge { what: &'static str, path: PathBuf, limit: u64 },
     /// A file isn't text.
-    #[error("the {what} `{}` is not text: {why}", text::path(path))]
+    #[error("the {what} `{}` is not text: {}", text::path(path), why.brief())]
     NotText { what: &'static str, path: PathBuf, why: NoText },
     /// The pipeline lies outside the folder that `--root` names.
     #[error(

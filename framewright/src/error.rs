@@ -43,7 +43,7 @@ pub enum Error {
         limit: u64,
     },
     /// A file isn't text.
-    #[error("the {what} `{}` is not text: {why}", shown(path))]
+    #[error("the {what} `{}` is not text: {}", shown(path), why.brief())]
     NotText {
         /// The kind of file.
         what: &'static str,

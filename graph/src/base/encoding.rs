@@ -19,6 +19,17 @@ pub enum NoText {
     },
 }
 
+impl NoText {
+    /// The same without the value of the byte.
+    #[must_use]
+    pub fn brief(&self) -> String {
+        match self {
+            NoText::Encoding(_) => self.to_string(),
+            NoText::Byte { at, .. } => format!("byte {at} is not UTF-8"),
+        }
+    }
+}
+
 /// The text of a file, without its byte order mark.
 ///
 /// # Errors
@@ -44,10 +55,11 @@ pub fn without_mark(text: &str) -> &str {
 /// of ASCII.
 #[must_use]
 pub fn other_encoding(bytes: &[u8]) -> Option<&'static str> {
+    let in_units = |unit: usize| bytes.len().is_multiple_of(unit);
     match bytes {
-        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
-        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
-        [1..0x80, 0, 1..0x80, 0, ..] | [0, 1..0x80, 0, 1..0x80, ..] => Some("UTF-16"),
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] if in_units(4) => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] if in_units(2) => Some("UTF-16"),
+        [1..0x80, 0, 1..0x80, 0, ..] | [0, 1..0x80, 0, 1..0x80, ..] if in_units(2) => Some("UTF-16"),
         _ => None,
     }
 }
@@ -78,6 +90,6 @@ mod tests {
         assert_eq!(text_of(b"caf\xe9"), Err(NoText::Byte { at: 3, byte: 0xe9 }));
         // What is no text at all is not taken for one.
         assert_eq!(other_encoding(b"\x7fELF\x02\x01\0\0"), None);
-        assert_eq!(other_encoding(b"a\0"), None);
+        assert_eq!((other_encoding(b"a\0"), other_encoding(b"\xff\xfe\0")), (None, None));
     }
 }

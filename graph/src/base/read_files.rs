@@ -148,11 +148,17 @@ impl FileIdentity {
     }
 }
 
+/// What reading a folder gives.
+fn is_a_folder() -> io::Error {
+    const EISDIR: i32 = 21;
+    if cfg!(unix) { io::Error::from_raw_os_error(EISDIR) } else { io::ErrorKind::IsADirectory.into() }
+}
+
 /// Makes sure that it is a regular file.
 fn regular(metadata: &Metadata) -> io::Result<()> {
     match metadata {
         file if file.is_file() => Ok(()),
-        folder if folder.is_dir() => Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")),
+        folder if folder.is_dir() => Err(is_a_folder()),
         _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is a pipe or a device, not a regular file")),
     }
 }

@@ -31,7 +31,7 @@ pub enum SceneError {
         limit: u64,
     },
     /// A `.ron` file that isn't text.
-    #[error("{}: this is not text: {why}", shown(path))]
+    #[error("{}: this is not text: {}", shown(path), why.brief())]
     NotText {
         /// The file.
         path: PathBuf,
