@@ -18,7 +18,7 @@ fn buffer(name: &str, lifetime: Lifetime) -> Buffer {
 
 fn transfer(buffer: u32, write: bool) -> TransferUse {
     let resource = Resource::Buffer(BufferIndex(buffer));
-    TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write }
+    TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span: Span::NONE, write, keeps: false }
 }
 
 fn block(name: &str, buffer: u32, read: bool, stages: Stages) -> BufferUse {
