@@ -83,11 +83,11 @@ impl<'m> PassMaker<'m> {
         match attachment.clear.filter(|_| attachment.load == LoadOp::Clear) {
             None => info,
             Some(value) if attachment.range.aspects == Aspects::COLOR => {
-                info.clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: value } })
+                info.clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: value.map(|it| it as f32) } })
             }
-            Some([depth, ..]) => {
-                info.clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } })
-            }
+            Some([depth, ..]) => info.clear_value(vk::ClearValue {
+                depth_stencil: vk::ClearDepthStencilValue { depth: depth as f32, stencil: 0 },
+            }),
         }
     }
 
