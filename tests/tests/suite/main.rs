@@ -18,3 +18,4 @@ mod rooms;
 mod shipped_plans;
 mod shipped_shaders;
 mod small_optima;
+mod spare_barriers;
