@@ -19,3 +19,4 @@ mod rooms;
 mod shipped_plans;
 mod shipped_shaders;
 mod small_optima;
+mod spare_barriers;

@@ -4,6 +4,7 @@ use super::step::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
 use crate::frame::TargetShape;
+use crate::vulkan::{Aspects, Subresources};
 
 /// Why a pass can't join the scope before it.
 pub(super) enum Refusal {
@@ -54,12 +55,13 @@ impl Scope {
             (Some(a), Some(b)) => a == b,
             _ => true,
         };
-        let one_image = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
-            (Some(a), Some(b)) => a.resource == b.resource,
+        let part = |target: Target| (target.resource, Subresources { aspects: Aspects::empty(), ..target.range });
+        let one_part = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
+            (Some(a), Some(b)) => part(a) == part(b),
             _ => true,
         };
         let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
-        let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
+        let planes = planes && one_part(Role::Depth, self.stencil) && one_part(Role::Stencil, self.depth);
         let colors = colors_of(adapted, uses);
         let may_differ = (reads_locally || self.local) && !fixed;
         let colors = colors == self.color || (may_differ && self.colors_fit(adapted, uses, most_colors));

@@ -6,7 +6,7 @@ use super::subresource::SubresourceBarrier;
 use super::timeline::AccessTimeline;
 use super::{initial_barriers, redundant};
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::Adapted;
+use crate::compile::model::{Adapted, MemorySource};
 use crate::compile::queues::Queues;
 
 /// All barriers and waits.
@@ -35,6 +35,8 @@ pub(in crate::compile) fn barriers(
     let mut batched = batches::batch(&initial.queues, &initial.barriers);
     if adapted.buffers > 0 {
         batches::gather_buffers(&initial.queues, &adapted.resources, &initial.barriers, &mut batched);
+    }
+    if adapted.buffers > 0 || adapted.resources.iter().any(|it| matches!(it.memory, MemorySource::Persistent { .. })) {
         redundant::take_out(adapted, timeline, &mut initial, &mut batched);
     }
     let initial_barriers::Initial { barriers, queues, aliased } = initial;

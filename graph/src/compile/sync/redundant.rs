@@ -1,9 +1,9 @@
-//! Redundant barriers: those before first accesses that wait for reads of earlier frames which other barriers wait for too.
+//! Redundant barriers: those before first accesses that wait for earlier frames, for what other barriers wait for too.
 //!
-//! A persistent buffer may be written again several frames after it was read. The barriers of the frames in between may form
-//! an execution dependency chain from those reads to that write. The write before those reads must be visible to the new one
-//! too: by the memory barrier that made it visible to them, which serves all buffers of its call. An image barrier makes a
-//! write visible to its own destination only, so barriers of images stay.
+//! - A memory barrier of buffers, of the same call or of an earlier one, covers all that the barrier says.
+//! - It waits for reads alone. A persistent resource may be written again several frames after it was read. The barriers of the
+//!   frames in between may form an execution dependency chain from those reads to that write. The write before those reads must be
+//!   visible to the new access too: by the barrier that made it visible to them. That of a buffer serves all buffers of its call.
 
 use super::batches::Batched;
 use super::initial_barriers::Initial;
@@ -11,7 +11,7 @@ use super::stage_order::{and_earlier, and_later};
 use super::subresource::SubresourceBarrier;
 use super::timeline::AccessTimeline;
 use crate::compile::history_ring;
-use crate::compile::model::{Adapted, MemorySource};
+use crate::compile::model::{Adapted, MemorySource, PhysicalIndex};
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Stages};
@@ -26,9 +26,9 @@ pub(super) fn take_out(
     let mut at = 0;
     while let Some(it) = batched.get(at).copied() {
         let barrier = &initial.barriers[it.barrier as usize];
-        let is_redundant = waits_for_reads(barrier)
-            && adapted.resources[barrier.resource as usize].image().is_none()
+        let is_redundant = waits_alone(timeline, barrier)
             && !initial.queues.is_crossed(barrier.resource)
+            && !initial.queues.is_held(it.barrier)
             && Calls { adapted, timeline, initial, batched }.make_redundant(it);
         if is_redundant {
             initial.barriers[it.barrier as usize].step = NEVER;
@@ -39,13 +39,13 @@ pub(super) fn take_out(
     }
 }
 
-/// Whether a barrier waits only for reads of earlier frames, in the layout of the access that needs it.
-fn waits_for_reads(barrier: &SubresourceBarrier) -> bool {
+/// Whether a barrier does nothing but wait for earlier frames: it leaves the layout as it is.
+fn waits_alone(timeline: &AccessTimeline, barrier: &SubresourceBarrier) -> bool {
+    let found = || timeline.states[barrier.resource as usize].map(|states| states.before.layout);
     barrier.hazard == Hazard::FirstUse
         && barrier.after == NEVER
-        && barrier.src_accesses.is_empty()
         && !barrier.src_stages.is_empty()
-        && barrier.old_layout == barrier.new_layout
+        && (barrier.old_layout == barrier.new_layout || !barrier.keeps && found() == Some(barrier.new_layout))
 }
 
 /// Reads of an earlier frame.
@@ -74,6 +74,39 @@ impl Calls<'_> {
     /// Whether the other barriers make this one redundant.
     fn make_redundant(&self, it: Batched) -> bool {
         let barrier = self.barrier(&it);
+        self.cover(it, barrier) || barrier.src_accesses.is_empty() && self.lead_on(it, barrier)
+    }
+
+    /// Whether the memory barrier of one call, without this barrier, says all that it says.
+    fn cover(&self, it: Batched, barrier: &SubresourceBarrier) -> bool {
+        let queues = &self.initial.queues;
+        let comes_before = |call: &[Batched]| {
+            call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at)
+        };
+        let mut calls = self.batched.chunk_by(|one, other| one.at == other.at).filter(|call| comes_before(call));
+        calls.any(|call| {
+            let others = call.iter().filter(|other| other.barrier != it.barrier).map(|other| self.barrier(other));
+            let mut of_buffers = others.filter(|other| self.is_buffer(other.resource));
+            let Some(first) = of_buffers.next().copied() else { return false };
+            let all = of_buffers.fold(first, |mut all, other| {
+                all.widen(other.dst_stages, other.dst_accesses);
+                all.src_stages |= other.src_stages;
+                all.src_accesses |= other.src_accesses;
+                all
+            });
+            all.src_stages.contains(barrier.src_stages)
+                && all.src_accesses.contains(barrier.src_accesses)
+                && all.dst_stages.contains(barrier.dst_stages)
+                && all.dst_accesses.contains(barrier.dst_accesses)
+        })
+    }
+
+    fn is_buffer(&self, resource: PhysicalIndex) -> bool {
+        self.adapted.resources[resource as usize].image().is_none()
+    }
+
+    /// Whether a chain of barriers leads from the reads that this one waits for to the access behind it.
+    fn lead_on(&self, it: Batched, barrier: &SubresourceBarrier) -> bool {
         let reads = self.earlier_reads(barrier);
         let known = reads.iter().fold(Stages::empty(), |all, reads| all | reads.stages);
         let behind_write = reads.last().and_then(|reads| reads.behind_write);
@@ -106,12 +139,16 @@ impl Calls<'_> {
         reads
     }
 
-    /// Whether the memory barrier that barrier number `shows` is part of makes the same write visible to the access behind
+    /// Whether barrier number `shows`, or the memory barrier that it is part of, makes the same write visible to the access behind
     /// `barrier`.
     fn is_shown(&self, shows: u32, barrier: &SubresourceBarrier) -> bool {
+        if !self.is_buffer(barrier.resource) {
+            let shows = &self.initial.barriers[shows as usize];
+            return shows.dst_stages.contains(barrier.dst_stages) && shows.dst_accesses.contains(barrier.dst_accesses);
+        }
         let Some(call) = self.batched.iter().find(|it| it.barrier == shows).map(|it| it.at) else { return false };
         let of_call = self.batched.iter().filter(|it| it.at == call).map(|it| self.barrier(it));
-        let of_buffers = of_call.filter(|it| self.adapted.resources[it.resource as usize].image().is_none());
+        let of_buffers = of_call.filter(|it| self.is_buffer(it.resource));
         let (stages, accesses) = of_buffers.fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
             (stages | it.dst_stages, accesses | it.dst_accesses)
         });
