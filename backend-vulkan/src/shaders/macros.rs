@@ -61,12 +61,7 @@ pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStag
         _ => None,
     };
     let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
-    let own = textures
-        .chain(sampled)
-        .chain(components)
-        .chain(fixed)
-        .chain(parts)
-        .chain(count);
+    let own = textures.chain(sampled).chain(components).chain(fixed).chain(parts).chain(count);
     own.chain(one).chain(both).collect()
 }
 

@@ -4,9 +4,7 @@
 use crate::frames::{Shaders, Small, Uses, draw, in_each_way, on_each_driver, plane, transfer};
 use framewright_graph::base::Span;
 use framewright_graph::frame::{DepthTarget, Draw, ImageIndex, Resource, StencilState, Work};
-use framewright_graph::vulkan::{
-    Aspects, CompareOp, FillValue, Format, Numeric, StencilOp, Subresources, Usage,
-};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Format, Numeric, StencilOp, Subresources, Usage};
 use framewright_vulkan::Device;
 
 const WHOLE: Subresources = Subresources::WHOLE;
@@ -63,10 +61,7 @@ fn cases(format: Format) -> Vec<Case> {
             }
             Numeric::Unorm | Numeric::Srgb => {
                 let most = (1_i64 << bits) - 1;
-                vec![
-                    equal([1.0, 0.0, 1.0, 0.0], [most, 0, most, 0]),
-                    equal([0.0, 1.0, 0.0, 1.0], [0, most, 0, most]),
-                ]
+                vec![equal([1.0, 0.0, 1.0, 0.0], [most, 0, most, 0]), equal([0.0, 1.0, 0.0, 1.0], [0, most, 0, most])]
             }
             Numeric::Snorm => {
                 let most = (1_i64 << (bits - 1)) - 1;
@@ -187,12 +182,8 @@ fn depth_and_stencil_are_set_each_by_itself() {
                 let image = cleared.image("i", format, EXTENT);
                 let mut pass = draw("clear", Draw::FullScreen);
                 pass.work = nothing("_d");
-                let state = StencilState {
-                    clear: Some(marked),
-                    test: CompareOp::Always,
-                    reference: 0,
-                    pass: StencilOp::Keep,
-                };
+                let state =
+                    StencilState { clear: Some(marked), test: CompareOp::Always, reference: 0, pass: StencilOp::Keep };
                 cleared.pass(pass.tests(DepthTarget {
                     image,
                     range: WHOLE,

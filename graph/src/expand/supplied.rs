@@ -49,7 +49,8 @@ fn own_attributes(
                 input.name,
                 pass.name.text
             );
-            let help = if input.used { "add `vertex: \"…\"`" } else { "remove it in the shader, or add `vertex: \"…\"`" };
+            let help =
+                if input.used { "add `vertex: \"…\"`" } else { "remove it in the shader, or add `vertex: \"…\"`" };
             errors.push(Diagnostic::new(shader.span, message).help(help));
         }
         (None, Some(part)) => {

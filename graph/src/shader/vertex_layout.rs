@@ -75,9 +75,9 @@ impl VertexInput {
     fn columns(&self) -> Option<(u32, Column)> {
         let (element, lengths) = self.ty.split_at(self.ty.find('[').unwrap_or(self.ty.len()));
         let lengths = lengths.split(['[', ']']).filter(|length| !length.is_empty());
-        let elements = lengths.map(|length| length.parse::<u32>().ok()).try_fold(1, |all: u32, length| {
-            Some(all.saturating_mul(length?))
-        })?;
+        let elements = lengths
+            .map(|length| length.parse::<u32>().ok())
+            .try_fold(1, |all: u32, length| Some(all.saturating_mul(length?)))?;
         let vector = |kind, components: &str| Some(Column { kind, components: components.parse().ok()? });
         let (columns, column) = match element {
             "float" => (1, Column { kind: Component::Float, components: 1 }),

@@ -12,8 +12,8 @@ pub(crate) mod states;
 
 pub use encoding::Encoding;
 pub use enums::{
-    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler,
-    Shape, Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler, Shape,
+    Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
 };
 pub use fill_value::FillValue;
 pub(crate) use foreign_formats::vulkans_name;

@@ -27,7 +27,8 @@ fn jitter(jitter: &Jitter) -> String {
 
 pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Outline {
     let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
-    let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, None, next));
+    let text =
+        format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, None, next));
     Outline::leaf(text + &cause(&buffer.cause)).about(About::Buffer(buffer.id)).caused(&buffer.cause)
 }
 
@@ -51,7 +52,10 @@ fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) 
         Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
             let next = next(*becomes);
             let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
-            format!(": persistent, {becomes} in the next frame, at first {}", held(initial, format.map(|format| (format, format.aspects()))))
+            format!(
+                ": persistent, {becomes} in the next frame, at first {}",
+                held(initial, format.map(|format| (format, format.aspects())))
+            )
         }
         Role::External { .. } => ": external".to_owned(),
     }

@@ -38,7 +38,9 @@ fn text(format: Format, value: &str) -> String {
         Numeric::Sint => "ints",
         _ => "plain",
     };
-    let show = if format.is_integer() { "(name: \"show\", draw: Sky, color: [(image: \"screen\", clear: (0, 0, 0, 1))])" } else {
+    let show = if format.is_integer() {
+        "(name: \"show\", draw: Sky, color: [(image: \"screen\", clear: (0, 0, 0, 1))])"
+    } else {
         "(name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"a\"}, color: [\"screen\"])"
     };
     format!(
@@ -98,7 +100,8 @@ fn what_a_format_does_not_hold_is_refused_in_every_way_to_set_an_image() {
         for (end, out) in [(least, -1.0), (most, 1.0)] {
             for component in 0..format.components() as usize {
                 let mut value = end;
-                value[component] += out * if format.is_integer() { 1.0 } else { value[component].abs().max(1.0) / 64.0 };
+                value[component] +=
+                    out * if format.is_integer() { 1.0 } else { value[component].abs().max(1.0) / 64.0 };
                 values.push(value);
             }
         }
@@ -106,9 +109,14 @@ fn what_a_format_does_not_hold_is_refused_in_every_way_to_set_an_image() {
         for value in values {
             let text = text(format, &ron(value));
             let begin = wrong(&text, &INPUTS);
-            assert!(begin.contains("`d` can't begin like this: ") && begin.contains("test.ron:4:"), "{format}\n{begin}");
+            assert!(
+                begin.contains("`d` can't begin like this: ") && begin.contains("test.ron:4:"),
+                "{format}\n{begin}"
+            );
             let set = wrong(&text.replace(&format!("(initial: {})", ron(value)), "(initial: 0)"), &INPUTS);
-            for (said, line) in [("`a` can't be cleared: ", 6), ("`b` can't be filled: ", 7), ("`c` can't be filled: ", 9)] {
+            for (said, line) in
+                [("`a` can't be cleared: ", 6), ("`b` can't be filled: ", 7), ("`c` can't be filled: ", 9)]
+            {
                 assert!(set.contains(said), "{format} {value:?}: {said}\n{set}");
                 assert!(set.contains(&format!("test.ron:{line}:")), "{format} {value:?}: {line}\n{set}");
             }
@@ -131,7 +139,8 @@ fn a_setting_or_an_expression_clears_to_the_very_integer() {
         assert_eq!(f64::from(filled), wanted, "{value}");
     }
     let chosen = set(&[("n", "256")]);
-    let answer = frame(&text(Format::R8_UINT, "(\"n\", 0, 0, 0)"), &Inputs { set: &chosen, ..INPUTS }).expect_err("256");
+    let answer =
+        frame(&text(Format::R8_UINT, "(\"n\", 0, 0, 0)"), &Inputs { set: &chosen, ..INPUTS }).expect_err("256");
     assert!(answer.contains("`a` can't be cleared: 256 is no component of R8_UINT"), "{answer}");
 }
 
@@ -167,7 +176,11 @@ fn the_checker_refuses_a_clear_or_a_fill_that_the_format_does_not_hold() {
     let mut filled = plan;
     for step in &mut cleared.steps {
         if let PlanWork::Render(scope) = &mut step.work {
-            scope.color.iter_mut().filter(|it| it.clear.is_some()).for_each(|it| it.clear = Some([128.0, 0.0, 0.0, 0.0]));
+            scope
+                .color
+                .iter_mut()
+                .filter(|it| it.clear.is_some())
+                .for_each(|it| it.clear = Some([128.0, 0.0, 0.0, 0.0]));
         }
     }
     for step in &mut filled.steps {
@@ -175,7 +188,9 @@ fn the_checker_refuses_a_clear_or_a_fill_that_the_format_does_not_hold() {
             fill.value = FillValue::Bits([128, 0, 0, 0]);
         }
     }
-    for (plan, said) in [(cleared, "a clear value that its format doesn't hold"), (filled, "filled with what its format")] {
+    for (plan, said) in
+        [(cleared, "a clear value that its format doesn't hold"), (filled, "filled with what its format")]
+    {
         let found = verify(&plan);
         assert!(found.iter().any(|it| it.to_string().contains(said)), "{said}: {found:?}");
     }

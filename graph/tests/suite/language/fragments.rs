@@ -107,8 +107,10 @@ fn a_use_that_is_off_leaves_nothing_but_what_stands_in_for_it() {
 
 #[test]
 fn several_targets_of_what_is_off_are_filled_each_in_its_way() {
-    let text = BLOOM
-        .replace("Forward(from: \"color\", to: \"screen\")", "[Clear(image: \"screen\", value: (0, 0, 0, \"depth / 8.0\"))]");
+    let text = BLOOM.replace(
+        "Forward(from: \"color\", to: \"screen\")",
+        "[Clear(image: \"screen\", value: (0, 0, 0, \"depth / 8.0\"))]",
+    );
     let set = [("bloom".to_owned(), "false".to_owned())];
     let frame = right(&text, &Inputs { set: &set, ..INPUTS });
     assert!(matches!(frame.passes[1].work, Work::Fill { .. }));

@@ -84,7 +84,13 @@ fn lit(discards: bool) -> ShaderInterface {
     let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
     let objects = frame(2, "objects", BindingKind::StorageBlock { readable: true, writable: false, bytes: 0 });
     let texture = Binding { set: 2, ..texture("base_color_texture", 0, false, Component::Float) };
-    let input = |location, name: &str, ty: &str| VertexInput { location, component: 0, name: name.to_owned(), ty: ty.to_owned(), used: true };
+    let input = |location, name: &str, ty: &str| VertexInput {
+        location,
+        component: 0,
+        name: name.to_owned(),
+        ty: ty.to_owned(),
+        used: true,
+    };
     ShaderInterface {
         bindings: vec![view, objects, texture],
         vertex_inputs: vec![input(0, "position", "vec3"), input(1, "normal", "vec3")],
@@ -413,7 +419,13 @@ impl ShaderInterfaces for Table {
                 full_screen(vec![Binding { kind, ..source() }])
             }
             "particles" => ShaderInterface {
-                vertex_inputs: vec![VertexInput { location: 0, component: 0, name: "position".to_owned(), ty: "vec4".to_owned(), used: true }],
+                vertex_inputs: vec![VertexInput {
+                    location: 0,
+                    component: 0,
+                    name: "position".to_owned(),
+                    ty: "vec4".to_owned(),
+                    used: true,
+                }],
                 ..full_screen(vec![])
             },
             "sized" => full_screen(vec![Binding {
@@ -434,7 +446,8 @@ impl ShaderInterfaces for Table {
             }
             "leftover" => {
                 let mut interface = lit(false);
-                interface.vertex_inputs[1] = VertexInput { used: false, name: "tint".to_owned(), ..interface.vertex_inputs[1].clone() };
+                interface.vertex_inputs[1] =
+                    VertexInput { used: false, name: "tint".to_owned(), ..interface.vertex_inputs[1].clone() };
                 interface
             }
             "pulled" => full_screen(vec![block("particles", 0, true, false, Stages::VERTEX_SHADER)]),
