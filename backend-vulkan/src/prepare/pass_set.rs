@@ -182,20 +182,26 @@ fn block(
     let buffer = &plan.buffers[access.buffer.0 as usize];
     match &wanted.kind {
         shader::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
-            if u64::from(block.bytes) > buffer.bytes.next_multiple_of(16) {
-                let held = buffer.bytes;
-                return Err(format!("the block `{name}` takes {} bytes, and its buffer holds {held}", block.bytes));
-            }
+            long_enough(name, block.bytes, buffer.bytes.next_multiple_of(16), buffer.bytes)?;
             Ok((vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Buffer(access.buffer)))
         }
-        shader::BindingKind::StorageBlock { writable, .. }
+        shader::BindingKind::StorageBlock { writable, bytes, .. }
             if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
         {
             only_read(name, *writable, access.accesses)?;
+            long_enough(name, *bytes, buffer.bytes, buffer.bytes)?;
             Ok((vk::DescriptorType::STORAGE_BUFFER, BoundResource::Buffer(access.buffer)))
         }
         _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
     }
+}
+
+/// That a block of so many bytes lies within a buffer, of whose `there` bytes a device may read `held`.
+fn long_enough(name: &str, bytes: u32, held: u64, there: u64) -> Result<(), String> {
+    if u64::from(bytes) > held {
+        return Err(format!("the block `{name}` takes {bytes} bytes, and its buffer holds {there}"));
+    }
+    Ok(())
 }
 
 /// The Plan's barriers wait for the stages that it names, and for no others.

@@ -76,6 +76,34 @@ impl Mentioned {
     }
 }
 
+/// Words before a name that are no type: behind a qualifier the name is a type itself.
+const NO_TYPES: [&str; 24] = [
+    "return",
+    "else",
+    "case",
+    "uniform",
+    "const",
+    "in",
+    "out",
+    "inout",
+    "highp",
+    "mediump",
+    "lowp",
+    "flat",
+    "smooth",
+    "noperspective",
+    "centroid",
+    "sample",
+    "precise",
+    "invariant",
+    "coherent",
+    "volatile",
+    "restrict",
+    "readonly",
+    "writeonly",
+    "shared",
+];
+
 /// Whether a text without comments declares `name`, as a variable, a parameter, a member or a function, or defines it as a
 /// macro without asking first whether there is one.
 fn declares(text: &str, name: &str) -> bool {
@@ -92,8 +120,8 @@ fn declares(text: &str, name: &str) -> bool {
         match line.strip_prefix('#') {
             Some(directive) if directive.trim_start().starts_with("define") && word == "define" => defined = true,
             Some(directive) => asked |= !directive.trim_start().starts_with("define"),
-            // A word before it, or the brackets of an array, are a type.
-            None if word == "return" || word == "else" || word == "case" => {}
+            // Any other word before it, or the brackets of an array, are a type.
+            None if NO_TYPES.contains(&word) => {}
             None if !word.is_empty() || before.ends_with(']') => return true,
             None => {}
         }

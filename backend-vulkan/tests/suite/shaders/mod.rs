@@ -305,7 +305,8 @@ fn vertex_inputs_and_color_outputs_are_listed_by_location() {
     let interface = drawn(draw, &[("test.vert", vertex), ("test.frag", fragment)]).expect("it compiles");
     let inputs: Vec<_> =
         interface.vertex_inputs.iter().map(|it| (it.location, it.name.as_str(), it.ty.as_str())).collect();
-    assert_eq!(inputs, [(1, "position", "vec3"), (3, "uv", "vec2")]);
+    assert_eq!(inputs, [(1, "position", "vec3"), (3, "uv", "vec2"), (7, "unused", "vec3")]);
+    assert_eq!(interface.vertex_inputs.iter().map(|it| it.used).collect::<Vec<_>>(), [true, true, false]);
     let outputs: Vec<_> =
         interface.outputs.iter().map(|it| (it.location, it.name.as_str(), it.component, it.components)).collect();
     let expected =

@@ -24,7 +24,8 @@ fields! {
         layer: Option<Leaf<'src>> => parts::FIRST,
         /// How many layers; one if `layer` stands alone, all if neither stands there.
         layers: Option<Leaf<'src>> => parts::COUNT,
-        /// The clear value: red, green, blue and alpha, in linear values; not cleared if left out.
+        /// The clear value: red, green, blue and alpha, in linear values; not cleared if left out. The image's format must hold it:
+        /// whole numbers where it holds integers.
         clear: Option<Leaf<'src>> => values::COLOR,
         /// The blend of new colour with old; `Replace` if left out.
         blend: Option<Leaf<'src>> => Form::Choice("a blend", || names(&BLENDS)),

@@ -50,7 +50,8 @@ fields! {
     struct FillFields<'src> {
         /// The target.
         to: Leaf<'src> => parts::ANY,
-        /// The value: a number for every component or word, depth and stencil, or red, green, blue and alpha.
+        /// The value: a number for every component or word, depth and stencil, or red, green, blue and alpha. A number fills depth, or the
+        /// one plane that `to` names. The image's format must hold it.
         value: Leaf<'src> => values::FILL,
     }
 }
