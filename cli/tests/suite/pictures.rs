@@ -220,7 +220,8 @@ fn floating_point_images_go_to_openexr_files_and_others_are_refused_before_anyth
     let picture = picture.into_rgb32f();
     assert!(picture.iter().all(|light| light.is_finite()) && picture.iter().any(|light| *light > 1.0));
     if let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "screen.exr"]) {
-        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers: write it to a .png file";
+        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers and integers: write it to a \
+             .png file";
         outcome.exits(1).mentions(why);
     }
     assert_eq!(place.names(), ["color.exr"]);
