@@ -331,7 +331,7 @@ FramewrightStatus framewright_device_open(const FramewrightDeviceOptions *option
 // The device's name, which lives as long as the handle; NULL for NULL.
 const char *framewright_device_name(const FramewrightDevice *device);
 
-// Tells each finding of the validation layer so far: none without `FramewrightDeviceOptions::validation`.
+// Tells each finding of the validation layer so far, once however often the layer said it: none without `FramewrightDeviceOptions::validation`.
 FramewrightStatus framewright_device_findings(const FramewrightDevice *device, FramewrightFinding tell, void *context);
 
 // Frees the handle of a device. What was made from it keeps it open.

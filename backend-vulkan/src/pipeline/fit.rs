@@ -4,7 +4,7 @@ use crate::gpu::VertexAttribute;
 use ash::vk;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
-    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, SuppliedKind, VertexInput, VertexLayout,
+    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, VertexInput, VertexLayout,
 };
 use framewright_graph::vulkan::Component;
 
@@ -32,14 +32,9 @@ fn array_words(name: &str, length: Option<u32>) -> String {
 
 /// What a draw source brings along.
 fn in_words(supplied: &Supplied) -> String {
-    let [one, many] = match supplied.kind {
-        SuppliedKind::UniformBlock => ["a uniform block", "uniform blocks"],
-        SuppliedKind::StorageBlock => ["a storage block", "storage blocks"],
-        SuppliedKind::SampledImage => ["a `sampler2D`", "elements of `sampler2D`"],
-    };
-    match supplied.count {
-        1 => one.to_owned(),
-        count => format!("{count} {many}"),
+    match (supplied.count, supplied.kind.words()) {
+        (1, kind) => kind.to_owned(),
+        (count, kind) => format!("an array of {count}, each {kind}"),
     }
 }
 

@@ -222,14 +222,7 @@ impl Device {
                     let target = |it: &Texture| DescriptorTarget::Image(it.0.view, layout, it.0.sampler);
                     Bound::Targets(these.iter().map(target).collect())
                 }
-                (kind, [_]) => {
-                    let is = match kind {
-                        SuppliedKind::UniformBlock => "a uniform block",
-                        SuppliedKind::StorageBlock => "a storage block",
-                        SuppliedKind::SampledImage => "a sampled image",
-                    };
-                    return Err(bad(format!("`{name}` is {is}, and something else was given")));
-                }
+                (kind, [_]) => return Err(bad(format!("`{name}` is {}, and something else was given", kind.words()))),
                 (_, given) => return Err(bad(format!("`{name}` is needed once and was given {} times", given.len()))),
             };
             bindings.push((layout_binding(wanted), bound));

@@ -117,7 +117,7 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
     let Captures { of_passes, left_out } = frame.captures(|pass| runs.contains(pass));
     for why in left_out {
-        text::say(&format!("note: not captured: {}", text::escape(&why)));
+        text::say_once(&format!("note: not captured: {}", text::escape(&why)));
     }
     let mut done = 0;
     for batch in batches(&of_passes) {

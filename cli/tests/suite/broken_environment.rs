@@ -132,13 +132,97 @@ fn a_layer_whose_settings_keep_it_from_speaking_is_told_from_one_that_finds_noth
         let before = place.names();
         let outcome = place.run_with(&quiet, VALIDATED).exits(3);
         outcome.mentions(
-            " did not report a clear that doesn't wait for another clear, which was planted to test it: check ",
+            " did not report a clear that doesn't wait for another clear, which was planted to test it: its checks of \
+             synchronisation are switched off, ",
         );
         assert_eq!(place.names(), before, "nothing is written");
         place.file("vk_layer_settings.txt", "");
         let outcome = place.run_with(&quiet, VALIDATED).exits(0);
         assert!(outcome.out.contains(" reported the mistakes that were planted to test it\n"), "{}", outcome.out);
     }
+}
+
+/// Each of the layer's checks that a setting switches off is missed by a mistake of its own; what leaves out messages by their names is
+/// refused as such.
+#[test]
+fn no_setting_of_the_layer_makes_a_run_silent() {
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    let place = Place::new();
+    for (name, value, checks) in [
+        ("VK_LAYER_DISABLES", "VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT", Some("core checks")),
+        ("VK_KHRONOS_VALIDATION_VALIDATE_CORE", "false", Some("core checks")),
+        ("VK_KHRONOS_VALIDATION_CHECK_SHADERS", "false", Some("checks of shaders")),
+        ("VK_KHRONOS_VALIDATION_STATELESS_PARAM", "false", Some("checks of parameters")),
+        ("VK_KHRONOS_VALIDATION_THREAD_SAFETY", "false", Some("checks of threads")),
+        ("VK_KHRONOS_VALIDATION_VALIDATE_SYNC", "false", Some("checks of synchronisation")),
+        ("VK_KHRONOS_VALIDATION_CHECK_IMAGE_LAYOUT", "false", None),
+        ("VK_KHRONOS_VALIDATION_CHECK_OBJECT_IN_USE", "false", None),
+        ("VK_LAYER_MESSAGE_ID_FILTER", "VUID-vkCmdDraw-None-02699", None),
+        ("VK_LAYER_REPORT_FLAGS", "info", None),
+    ] {
+        let outcome = place.run_with(&[&variables[..], &[(name, value)]].concat(), VALIDATED).exits(3);
+        let outcome = outcome.mentions(&format!("take these settings back: {name}={value}"));
+        if let Some(checks) = checks {
+            outcome.mentions(&format!("which was planted to test it: its {checks} are switched off"));
+        }
+    }
+    let on = [&variables[..], &[("VK_KHRONOS_VALIDATION_VALIDATE_BEST_PRACTICES", "false")]].concat();
+    place.run_with(&on, VALIDATED).exits(0);
+}
+
+#[test]
+fn a_layer_that_the_loader_hides_is_told_by_the_variable() {
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    let place = Place::new();
+    for hidden in ["*", "VK_LAYER_KHRONOS_validation", "~explicit~"] {
+        place
+            .run_with(&[&variables[..], &[("VK_LOADER_LAYERS_DISABLE", hidden)]].concat(), VALIDATED)
+            .exits(3)
+            .mentions(&format!("unset VK_LOADER_LAYERS_DISABLE (now VK_LOADER_LAYERS_DISABLE={hidden})"));
+    }
+}
+
+/// A mistake that the layer reports of each draw is one finding.
+#[test]
+fn what_the_layer_says_of_each_draw_is_one_finding() {
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    let place = Place::new();
+    place.file(
+        "red.frag",
+        "#version 460
+        layout(location = 0) out vec4 c;
+        void main() { c = vec4(1.0); }",
+    );
+    place.file(
+        "p.ron",
+        r#"Pipeline(version: 1,
+            images: [(name: "d", format: Depth, size: Output), (name: "o", format: R8G8B8A8_UNORM, size: Output)],
+            passes: [
+                (name: "prepass", draw: Objects(Opaque), shader: "red", depth: (image: "d", clear: 0.0)),
+                (name: "draw", draw: Objects(Opaque), shader: "red", color: [(image: "o", clear: (0, 0, 0, 1))], depth: (image: "d", test: Equal, write: false)),
+            ], outputs: [(image: "o", encoding: Unorm)])"#,
+    );
+    let words = [
+        "run",
+        "p.ron",
+        "--scene",
+        "spheres_and_cubes",
+        "--size",
+        "16x9",
+        "--frames",
+        "2",
+        "--validate",
+        "--report",
+        "r.json",
+    ];
+    let outcome = place.run_with(&variables, &words).exits(1);
+    assert!(outcome.out.contains("validation: 1 finding by "), "{}", outcome.out);
+    let report = std::fs::read_to_string(place.path("r.json")).expect("written");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let validation = &report["validation"];
+    assert_eq!(validation["findings"], 1);
+    let found = validation["messages"].as_array().expect("a list").iter().find(|it| it["finding"] == true);
+    assert!(found.expect("a finding")["times"].as_u64() > Some(20), "{validation:#}");
 }
 
 /// The loader lists a driver like MoltenVK only to programs that say they know that such drivers lack parts of Vulkan.

@@ -53,7 +53,7 @@ fn layers_faces_and_slices_stand_side_by_side() {
     let (size, texels) = pixels(&place, "cube.png");
     assert_eq!((size, texels[0][0], texels[23][0]), ([24, 4], 0, 255));
     let text = filled(
-        "format: R8_UNORM, size: Fixed(4, 2, 3), shape: D3",
+        "format: R8_UNORM, size: Fixed(4, 2), shape: D3(3)",
         r#"(name: "f", fill: (to: "o", value: 1.0))"#,
         r#""o""#,
     );

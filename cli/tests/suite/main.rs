@@ -48,6 +48,7 @@ mod reference;
 mod release;
 mod rotation;
 mod scene_notes;
+mod seen_alike;
 mod serving;
 mod settings;
 mod shader_files;

@@ -106,6 +106,44 @@ fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
     silent("pipelines on lavapipe and the current layer", Vulkan::LAVAPIPE_CURRENT);
 }
 
+/// Some mistakes are seen only by GPU-assisted validation, which looks at what shaders wrote: counts of a dispatch beyond the limit are
+/// planted, so that silence counts.
+#[test]
+fn pipelines_are_silent_under_gpu_assisted_validation() {
+    let Some(mut variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    variables.push(("VK_KHRONOS_VALIDATION_GPUAV_ENABLE", "true"));
+    let run = |place: &Place, pipeline: &str| {
+        let words = ["run", pipeline, "--scene", "spheres_and_cubes", "--size", "32x18", "--validate", "--frames", "2"];
+        place.run_with(&variables, &words)
+    };
+    let place = Place::new();
+    let head = "#version 460\nlayout(local_size_x = 1) in;\n";
+    let make = "layout(set = 0, binding = 0) buffer Counts { uint words[]; } counts;
+        void main() { for (int i = 0; i < 3; ++i) counts.words[i] = i == 0 ? 70000 : 1; }";
+    let none = "layout(set = 0, binding = 0) buffer Left { uint words[]; } left;
+        void main() { if (gl_GlobalInvocationID.x == 0) left.words[0] = 1; }";
+    place.file("make.comp", format!("{head}{make}"));
+    place.file("none.comp", format!("{head}{none}"));
+    place.file(
+        "many.ron",
+        r#"Pipeline(version: 1,
+            buffers: [(name: "counts", bytes: 12), (name: "left", bytes: 16)],
+            images: [(name: "o", format: R8_UNORM, size: Output)],
+            passes: [
+                (name: "make", dispatch: "make", groups: Count(1), storage: {"counts": (buffer: "counts", access: Write)}),
+                (name: "zero", fill: (to: "left", value: 0)),
+                (name: "many", dispatch: "none", groups: Indirect("counts"), storage: {"left": "left"}, side_effect: true),
+                (name: "f", fill: (to: "o", value: 1.0)),
+            ], outputs: ["o"])"#,
+    );
+    let planted = run(&place, "many.ron").exits(1).out;
+    assert!(planted.contains("VUID-VkDispatchIndirectCommand-x-"), "GPU-assisted validation is off: {planted}");
+    for pipeline in ["forward", "snow"] {
+        let outcome = run(&Place::new(), pipeline).exits(0);
+        assert!(outcome.out.contains("validation: silent; "), "{pipeline}: {}", outcome.out);
+    }
+}
+
 #[test]
 fn shipped_pipelines_are_silent_on_lavapipe_under_the_distributions_layer() {
     silent("pipelines on lavapipe and the distribution's layer", Vulkan::LAVAPIPE_OLD);
@@ -182,7 +220,8 @@ fn floating_point_images_go_to_openexr_files_and_others_are_refused_before_anyth
     let picture = picture.into_rgb32f();
     assert!(picture.iter().all(|light| light.is_finite()) && picture.iter().any(|light| *light > 1.0));
     if let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "screen.exr"]) {
-        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers: write it to a .png file";
+        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers and integers: write it to a \
+             .png file";
         outcome.exits(1).mentions(why);
     }
     assert_eq!(place.names(), ["color.exr"]);

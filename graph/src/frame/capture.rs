@@ -119,15 +119,6 @@ fn no_capture(image: &Image, range: Subresources) -> Option<&'static str> {
 /// The passes that copy: multisampled images are resolved on the way. The other plane of a copy of one is filled: all of it leaves the
 /// frame.
 fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, image: &Image) -> Vec<Pass> {
-    let planes = image.format.aspects();
-    if image.samples > 1 && planes == capture.range.aspects {
-        let because = "it is captured".to_owned();
-        return vec![Pass {
-            view: pass.view,
-            inserted: Some(because.as_str().into()),
-            ..Pass::new(name, Work::Forward { from: capture.image_index, to: target, because })
-        }];
-    }
     let side = |image, range, write| TransferUse {
         resource: Resource::Image(image),
         range,
@@ -139,7 +130,7 @@ fn copying(name: &str, pass: &Pass, capture: &Capture, target: ImageIndex, image
     let copied = Subresources { base_mip: 0, base_layer: 0, ..capture.range };
     let transfers = vec![side(capture.image_index, capture.range, false), side(target, copied, true)];
     let copy = Pass { view: pass.view, transfers, ..Pass::new(name, Work::Copy) };
-    let other = planes.difference(capture.range.aspects);
+    let other = image.format.aspects().difference(capture.range.aspects);
     if other.is_empty() {
         return vec![copy];
     }
