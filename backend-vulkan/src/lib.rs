@@ -20,7 +20,7 @@
 //! `synchronization2`, `maintenance4`, `shaderDemoteToHelperInvocation`, `shaderTerminateInvocation`, `timelineSemaphore`,
 //! `hostQueryReset`, `separateDepthStencilLayouts`, `robustBufferAccess`,
 //! `independentBlend`, `fragmentStoresAndAtomics`, `sampleRateShading`. [`DeviceSummary::missing`] lists all that a device
-//! lacks of them. Shaders may need nothing beyond, but for `imageCubeArray` and local reads where the device has them.
+//! lacks of them. Beyond, shaders and draws may need local reads and some of [`optional_features`], where the device has them.
 //!
 //! # Validation
 //!

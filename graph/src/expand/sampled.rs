@@ -17,7 +17,7 @@ struct Declared {
     shape: ImageShape,
     /// Whether the shader leaves the declared type to the pass.
     adapts: bool,
-    /// Whether it is read at the fragment's own position only, by its declaration.
+    /// Whether it is an input attachment, even where no local read is asked for.
     input: bool,
     /// Whether it is compared with a depth.
     compares: bool,
@@ -62,7 +62,7 @@ pub(super) fn lower(
         Some(interface) => Some(declared(interface, name)?),
         None => None,
     };
-    let (shape, input) = declared.map_or((None, false), |known| (Some(known.shape), known.input));
+    let shape = declared.map(|known| known.shape);
     let both = Aspects::DEPTH | Aspects::STENCIL;
     if range.aspects.is_empty() && image.format.aspects() == both {
         // A shader that reads integers of depth and stencil wants the stencil.
@@ -75,7 +75,7 @@ pub(super) fn lower(
         (false, Face::DepthOnly) => frame::Face::DepthOnly,
         (false, Face::Plain | Face::Samples | Face::Resolved) => frame::Face::Resolved,
     };
-    let exact = image.format.is_depth() || image.format.is_integer() || per_sample || input;
+    let exact = image.format.is_depth() || image.format.is_integer() || per_sample;
     let default = if exact { Filter::Nearest } else { Filter::Linear };
     let texture = declared.filter(|known| known.adapts).map(|known| known.shape);
     Some(Sampled {
@@ -87,7 +87,7 @@ pub(super) fn lower(
         eye: sample.part.eye.filter(|_| image.eyes.is_some()).map(|eye| eye.value),
         face,
         texture,
-        own_pixel: sample.own_pixel.map_or(input, |own| own.value && element_of(name).is_none()),
+        own_pixel: sample.own_pixel.is_some_and(|own| own.value && element_of(name).is_none()),
         sampler: sampler(sample, texture, default),
         stages: storage::stages(interface, name, raster),
     })
@@ -139,6 +139,12 @@ pub(super) fn check<'i>(
             errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });
             continue;
         };
+        if declared.input {
+            let message = format!("shader `{shader}` declares `{name}` as an input attachment where it is none");
+            let help = format!("declare it `subpassInput` where `LOCAL_READ_{name}` is defined, and else `sampler2D`");
+            errors.push(Diagnostic::new(sample.binding.span, message).help(help));
+            continue;
+        }
         let Some(image) = resources.image(sample.part.image.index) else { continue };
         let Some(sampled) = lowered.sampled.iter().find(|sampled| sampled.binding == *name) else { continue };
         let mut out_of_range = Vec::new();
@@ -316,7 +322,7 @@ impl Check<'_> {
     fn part(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let halves = image.eyes == Some(EyeForm::Halves);
-        if image.allocated.is_none() && !halves || self.declared.input {
+        if image.allocated.is_none() && !halves {
             return;
         }
         if halves && image.allocated.is_none() {
@@ -371,11 +377,6 @@ impl Check<'_> {
     /// A fragment can read its own texel only of an image that lies under the pass's targets.
     fn own_pixel(&self, resources: &Resources<'_>, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        if self.declared.input && !own_pixel {
-            let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
-            let span = self.sample.own_pixel.map_or(self.sample.binding.span, |own| own.span);
-            errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is true then"));
-        }
         if let Some(own) = self.sample.own_pixel.filter(|own| own.value && element_of(name).is_some()) {
             let message =
                 format!("`{name}` is an element of an array, and no device reads those from its own position");

@@ -168,6 +168,24 @@ fn what_glsl_lets_through_and_vulkan_does_not_is_refused_at_its_line() {
     assert!(what.ends_with("(VUID-StandaloneSpirv-PixelCenterInteger-04654)"), "{what}");
 }
 
+#[test]
+fn extensions_that_vulkan_1_3_lacks_are_refused_and_others_are_taken() {
+    let declaring = |name: &'static str| {
+        move |module: &mut Module| {
+            let extension = vec![Operand::LiteralString(name.to_owned())];
+            module.extensions.push(Instruction::new(Op::Extension, None, None, extension));
+        }
+    };
+    for name in ["SPV_KHR_maximal_reconvergence", "SPV_GOOGLE_user_type", "SPV_KHR_ray_query"] {
+        let what = refused("test.comp", COMPUTE, declaring(name));
+        assert!(
+            what.ends_with(&format!("it needs SPIR-V's extension {name}, which isn't supported: do without it")),
+            "{what}"
+        );
+    }
+    changed("test.comp", COMPUTE, declaring("SPV_KHR_storage_buffer_storage_class")).expect("part of Vulkan 1.1");
+}
+
 /// Slang's number is 11. SPIRV-Tools of 2023 refuse it.
 #[test]
 fn modules_of_todays_slang_are_accepted() {
