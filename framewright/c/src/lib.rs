@@ -49,7 +49,7 @@ pub use renderer::{
     framewright_renderer_set_facts, framewright_renderer_set_preset, framewright_renderer_set_recorder,
     framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
-pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load};
+pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
 pub use status::FramewrightStatus;
 pub use texels::{FramewrightTexels, framewright_renderer_read};
 pub use version::{FRAMEWRIGHT_ABI, framewright_abi, framewright_version};
