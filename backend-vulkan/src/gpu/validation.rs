@@ -323,7 +323,8 @@ mod tests {
 
     #[test]
     fn what_is_said_of_each_draw_is_one_mistake() {
-        let said = |text: &str, at: &str| Message { at: Some(at.to_owned()), text: text.to_owned(), ..after_a_fill("x") };
+        let said =
+            |text: &str, at: &str| Message { at: Some(at.to_owned()), text: text.to_owned(), ..after_a_fill("x") };
         let messages = Messages::default();
         for (text, at) in [
             ("of VkImage 0xab12[c], layer 0", "step 0"),

@@ -4,7 +4,6 @@ use framewright_graph::frame::ParamValue;
 use framewright_graph::plan;
 use framewright_graph::shader::{Block, MatrixLayout, Member, PARAMS, ParamScalar, ParamType};
 
-
 /// The bytes of a parameter block.
 ///
 /// # Errors

@@ -11,7 +11,9 @@ use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource};
 use framewright_graph::shader::{self, Block, PARAMS, PASS_SET};
-use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources, name_of};
+use framewright_graph::vulkan::{
+    Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources, name_of,
+};
 use std::sync::Arc;
 
 /// A pass's own descriptor sets with their bindings. Each frame's set points to the images and buffers of that frame.

@@ -87,7 +87,8 @@ fn format(wanted: &[Format], offered: &[vk::SurfaceFormatKHR]) -> Result<Format,
     wanted.iter().find(has).copied().ok_or_else(|| {
         let list = |names: Vec<String>| names.join(", ");
         let wanted = list(wanted.iter().map(ToString::to_string).collect());
-        let offered = list(offered.iter().map(|it| format!("{} in {}", named(it.format), named(it.color_space))).collect());
+        let offered =
+            list(offered.iter().map(|it| format!("{} in {}", named(it.format), named(it.color_space))).collect());
         Error::BadResource { what: format!("the window has none of the formats {wanted}; it has {offered}") }
     })
 }

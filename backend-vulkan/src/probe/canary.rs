@@ -12,8 +12,8 @@ use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::Queue;
 use framewright_graph::vulkan::{Format, Shape, Sharing, Subresources, Usage};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 /// The result of the canary: the validation layer, and its messages about the planted mistakes.
@@ -189,10 +189,9 @@ impl Things<'_> {
     fn transitions(&self, commands: vk::CommandBuffer) {
         use vk::ImageLayout as Layout;
         let range = convert::range(Subresources::all(self.image.descriptor.format, 1, 1));
-        for (old, new) in [
-            (Layout::UNDEFINED, Layout::GENERAL),
-            (Layout::COLOR_ATTACHMENT_OPTIMAL, Layout::TRANSFER_DST_OPTIMAL),
-        ] {
+        for (old, new) in
+            [(Layout::UNDEFINED, Layout::GENERAL), (Layout::COLOR_ATTACHMENT_OPTIMAL, Layout::TRANSFER_DST_OPTIMAL)]
+        {
             let barrier = [vk::ImageMemoryBarrier2::default()
                 .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
                 .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
@@ -285,16 +284,39 @@ impl Things<'_> {
 
 /// A fragment shader that does nothing, and says `PixelCenterInteger`, which Vulkan doesn't allow.
 const PIXEL_CENTER_INTEGER: [u32; 35] = [
-    0x0723_0203, 0x0001_0000, 0, 5, 0, // Version 1.0, ids below 5.
-    0x0002_0011, 1, // OpCapability Shader
-    0x0003_000e, 0, 1, // OpMemoryModel Logical GLSL450
-    0x0005_000f, 4, 1, 0x6e69_616d, 0, // OpEntryPoint Fragment %1 "main"
-    0x0003_0010, 1, 7, // OpExecutionMode %1 OriginUpperLeft
-    0x0003_0010, 1, 6, // OpExecutionMode %1 PixelCenterInteger
-    0x0002_0013, 2, // %2 = OpTypeVoid
-    0x0003_0021, 3, 2, // %3 = OpTypeFunction %2
-    0x0005_0036, 2, 1, 0, 3, // %1 = OpFunction %2 None %3
-    0x0002_00f8, 4, // %4 = OpLabel
+    0x0723_0203,
+    0x0001_0000,
+    0,
+    5,
+    0, // Version 1.0, ids below 5.
+    0x0002_0011,
+    1, // OpCapability Shader
+    0x0003_000e,
+    0,
+    1, // OpMemoryModel Logical GLSL450
+    0x0005_000f,
+    4,
+    1,
+    0x6e69_616d,
+    0, // OpEntryPoint Fragment %1 "main"
+    0x0003_0010,
+    1,
+    7, // OpExecutionMode %1 OriginUpperLeft
+    0x0003_0010,
+    1,
+    6, // OpExecutionMode %1 PixelCenterInteger
+    0x0002_0013,
+    2, // %2 = OpTypeVoid
+    0x0003_0021,
+    3,
+    2, // %3 = OpTypeFunction %2
+    0x0005_0036,
+    2,
+    1,
+    0,
+    3, // %1 = OpFunction %2 None %3
+    0x0002_00f8,
+    4,           // %4 = OpLabel
     0x0001_00fd, // OpReturn
     0x0001_0038, // OpFunctionEnd
 ];

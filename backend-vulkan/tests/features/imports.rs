@@ -296,7 +296,8 @@ fn no_frame_is_drawn_before_the_program_s_own_is_handed_in_again() {
         frame(&mut between);
         let mut again = executor(device, &drawn_into());
         again.migrate_from(between).expect("they are of one device");
-        let refused = |executor: &mut Executor| executor.frame(&mut Nothing).expect_err("it isn't imported").to_string();
+        let refused =
+            |executor: &mut Executor| executor.frame(&mut Nothing).expect_err("it isn't imported").to_string();
         assert_eq!(refused(&mut again), "the Plan is another one: `shared` is to be imported again");
         let mut more = executor(device, &increased());
         more.migrate_from(increases).expect("they are of one device");

@@ -59,7 +59,8 @@ impl Program<'_> {
 
     fn layout(device: &Device) -> vk::PipelineLayout {
         // SAFETY: the device lives.
-        unsafe { device.raw().create_pipeline_layout(&vk::PipelineLayoutCreateInfo::default(), None) }.expect("a layout")
+        unsafe { device.raw().create_pipeline_layout(&vk::PipelineLayoutCreateInfo::default(), None) }
+            .expect("a layout")
     }
 
     fn dispatching(device: &Device) -> Program<'_> {
@@ -98,8 +99,7 @@ impl Program<'_> {
         let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
         let samples =
             vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
-        let blends =
-            [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let blends = [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
@@ -161,7 +161,8 @@ fn executor(device: &Device, frame: &Frame) -> Executor {
 #[test]
 fn what_a_compute_pass_wrote_is_drawn_indirectly_by_a_program() {
     let mut small = Small::default();
-    let [counts, places, indices] = [("counts", 5), ("places", 6), ("indices", 3)].map(|(name, words)| small.buffer(name, words));
+    let [counts, places, indices] =
+        [("counts", 5), ("places", 6), ("indices", 3)].map(|(name, words)| small.buffer(name, words));
     let shown = small.image("shown", Format::R32_UINT, [4, 2]);
     let written = (false, true);
     let make = dispatch("make", Groups::Count([1, 1, 1])).block("Counts", counts, written);

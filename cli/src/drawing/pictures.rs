@@ -64,7 +64,11 @@ pub(crate) fn encoded(
         losses.push(format!("of {mips} mip levels there is the first"));
     }
     if !losses.is_empty() {
-        text::say_once(&format!("note: `{}` is {format}: in its picture {}", text::escape(name), losses.join(", and ")));
+        text::say_once(&format!(
+            "note: `{}` is {format}: in its picture {}",
+            text::escape(name),
+            losses.join(", and ")
+        ));
     }
     file_format.encode(&picture).map_err(|problem| Error::Picture { image: name.to_string(), problem })
 }

@@ -68,7 +68,11 @@ impl FileFormat {
             && picture.bytes.chunks_exact(texel::bytes(format)).any(see_through)
         {
             let is_integer = format.is_integer();
-            losses.push(if is_integer { "the fourth component is left out" } else { "alpha is left out, which isn't 1" });
+            losses.push(if is_integer {
+                "the fourth component is left out"
+            } else {
+                "alpha is left out, which isn't 1"
+            });
         }
         losses
     }

@@ -169,7 +169,10 @@ mod tests {
         let floats = [0.5_f32, -2.0, f32::INFINITY, 1.0].map(f32::to_ne_bytes).concat();
         let file = written(FileFormat::OpenExr, Format::R32G32B32A32_SFLOAT, [1, 1], &floats);
         let light = Light::decode(&file).expect("a picture");
-        assert_eq!(light, Light { extent: [1, 1], texels: vec![[0.5, -2.0, f32::INFINITY]], is_light: true, left_out: Vec::new() });
+        assert_eq!(
+            light,
+            Light { extent: [1, 1], texels: vec![[0.5, -2.0, f32::INFINITY]], is_light: true, left_out: Vec::new() }
+        );
         let grey = written(FileFormat::OpenExr, Format::R32_SFLOAT, [1, 1], &0.25_f32.to_ne_bytes());
         assert_eq!(Light::decode(&grey).expect("a picture").texels, [[0.25; 3]]);
         let grey = written(FileFormat::Png, Format::R8_UNORM, [1, 1], &[255]);

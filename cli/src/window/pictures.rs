@@ -1,8 +1,8 @@
 //! Pictures of what a window shows.
 
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::outputs;
-use crate::drawing::pictures;
 use crate::picture::FileFormat;
 use crate::system::text;
 use framewright::Renderer;

@@ -202,7 +202,19 @@ fn what_the_layer_says_of_each_draw_is_one_finding() {
                 (name: "draw", draw: Objects(Opaque), shader: "red", color: [(image: "o", clear: (0, 0, 0, 1))], depth: (image: "d", test: Equal, write: false)),
             ], outputs: [(image: "o", encoding: Unorm)])"#,
     );
-    let words = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x9", "--frames", "2", "--validate", "--report", "r.json"];
+    let words = [
+        "run",
+        "p.ron",
+        "--scene",
+        "spheres_and_cubes",
+        "--size",
+        "16x9",
+        "--frames",
+        "2",
+        "--validate",
+        "--report",
+        "r.json",
+    ];
     let outcome = place.run_with(&variables, &words).exits(1);
     assert!(outcome.out.contains("validation: 1 finding by "), "{}", outcome.out);
     let report = std::fs::read_to_string(place.path("r.json")).expect("written");

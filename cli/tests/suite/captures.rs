@@ -153,7 +153,12 @@ fn odd_pipelines() -> [(&'static str, &'static str, &'static [&'static str], Opt
     [
         ("cube", cube, &["face_0_-c", "face_1_-c-layer1", "face_5_-c-layer5", "show-screen"], None),
         ("depth_alone", depth_alone, &["o-c", "o-d", "show-screen"], None),
-        ("samples", samples, &["o-c", "o-d", "show-screen"], Some("`d`: it has several samples, and stencil can't be resolved")),
+        (
+            "samples",
+            samples,
+            &["o-c", "o-d", "show-screen"],
+            Some("`d`: it has several samples, and stencil can't be resolved"),
+        ),
         ("stencil", stencil, &["o-c", "o-d", "o-d-stencil", "show-screen"], None),
     ]
 }
@@ -169,13 +174,19 @@ fn whatever_is_drawn_is_captured_and_what_is_left_out_is_said() {
         let run = |more: &[&str]| place.run_with(&variables, &[more, &SMALL].concat()).exits(0);
         let dumped = run(&["run", "p.ron", "--dump-all", "all", "-o", "beside.png", "--validate"]);
         assert!(dumped.out.contains("validation: silent; "), "{name}: {}", dumped.out);
-        let files: Vec<String> = listed(&place, "all").iter().map(|one| one["file"].as_str().expect("a file").to_owned()).collect();
+        let files: Vec<String> =
+            listed(&place, "all").iter().map(|one| one["file"].as_str().expect("a file").to_owned()).collect();
         for wanted in captured {
             let is_it = |file: &&String| file.rsplit_once('.').is_some_and(|(stem, _)| stem[4..] == **wanted);
             assert_eq!(files.iter().filter(is_it).count(), 1, "{name}: {wanted} in {files:?}");
         }
-        let said = |err: &str| err.lines().filter(|line| line.contains("not captured")).map(str::to_owned).collect::<Vec<_>>();
-        assert_eq!(said(&dumped.err), Vec::from_iter(left_out.map(|why| format!("note: not captured: {why}"))), "{name}");
+        let said =
+            |err: &str| err.lines().filter(|line| line.contains("not captured")).map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(
+            said(&dumped.err),
+            Vec::from_iter(left_out.map(|why| format!("note: not captured: {why}"))),
+            "{name}"
+        );
         // A capture changes no picture.
         run(&["run", "p.ron", "-o", "alone.png"]);
         let read = |file: &str| std::fs::read(place.path(file)).expect("written");
@@ -193,10 +204,13 @@ fn captured_stencil_is_what_the_pass_left() {
     place.file("p.ron", odd_pipelines()[3].1);
     place.run_with(&variables, &[&["run", "p.ron", "--dump-all", "all"][..], &SMALL].concat()).exits(0);
     let images = listed(&place, "all");
-    let stencil = images.iter().find(|one| one["file"].as_str().is_some_and(|file| file.contains("stencil"))).expect("captured");
+    let stencil =
+        images.iter().find(|one| one["file"].as_str().is_some_and(|file| file.contains("stencil"))).expect("captured");
     let file = place.path("all").join(stencil["file"].as_str().expect("a file"));
     let image = exr::prelude::read_first_flat_layer_from_file(file).expect("an OpenEXR file");
-    let exr::prelude::FlatSamples::U32(words) = &image.layer_data.channel_data.list[0].sample_data else { panic!("integers") };
+    let exr::prelude::FlatSamples::U32(words) = &image.layer_data.channel_data.list[0].sample_data else {
+        panic!("integers")
+    };
     let [marked, others] = [7, 0].map(|value| words.iter().filter(|word| **word == value).count());
     assert!(marked > 100 && others > 100 && marked + others == words.len(), "{marked} and {others} of {}", words.len());
 }

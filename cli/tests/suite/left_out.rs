@@ -52,7 +52,11 @@ fn layers_faces_and_slices_stand_side_by_side() {
     run(&place, &text, "cube.png").expect("drawn").exits(0);
     let (size, texels) = pixels(&place, "cube.png");
     assert_eq!((size, texels[0][0], texels[23][0]), ([24, 4], 0, 255));
-    let text = filled("format: R8_UNORM, size: Fixed(4, 2), shape: D3(3)", r#"(name: "f", fill: (to: "o", value: 1.0))"#, r#""o""#);
+    let text = filled(
+        "format: R8_UNORM, size: Fixed(4, 2), shape: D3(3)",
+        r#"(name: "f", fill: (to: "o", value: 1.0))"#,
+        r#""o""#,
+    );
     run(&place, &text, "slices.png").expect("drawn").exits(0);
     assert_eq!(pixels(&place, "slices.png"), ([12, 2], vec![[255; 3]; 24]));
 }
@@ -65,9 +69,21 @@ fn what_a_picture_leaves_out_is_said() {
     for (image, value, output, file, note) in [
         ("format: R8G8B8A8_UNORM, size: Output", "(1.0, 0.0, 0.0, 0.5)", unorm, "a.png", Some("alpha is left out")),
         ("format: R8G8B8A8_UNORM, size: Output", "(1.0, 0.0, 0.0, 1.0)", unorm, "a.png", None),
-        ("format: R8G8B8A8_UINT, size: Output", "(1, 2, 3, 4)", r#""o""#, "a.png", Some("the fourth component is left out")),
+        (
+            "format: R8G8B8A8_UINT, size: Output",
+            "(1, 2, 3, 4)",
+            r#""o""#,
+            "a.png",
+            Some("the fourth component is left out"),
+        ),
         ("format: R8G8B8A8_UINT, size: Output", "(1, 2, 3, 4)", r#""o""#, "a.exr", None),
-        ("format: R8_UNORM, size: Fixed(8, 8), mips: 3", "1.0", unorm, "a.png", Some("of 3 mip levels there is the first")),
+        (
+            "format: R8_UNORM, size: Fixed(8, 8), mips: 3",
+            "1.0",
+            unorm,
+            "a.png",
+            Some("of 3 mip levels there is the first"),
+        ),
         ("format: D32_SFLOAT_S8_UINT, size: Output", "(0.5, 3)", r#""o""#, "a.exr", Some("the stencil is left out")),
         ("format: R16G16B16A16_SFLOAT, size: Output", "(2.0, 0.0, 0.0, 0.5)", r#""o""#, "a.exr", None),
     ] {

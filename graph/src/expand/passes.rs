@@ -3,7 +3,8 @@
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
-    fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets, transfers, variant, work,
+    fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets, transfers, variant,
+    work,
 };
 use crate::base::Diagnostic;
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Remark, Resource, TransferUse, Work};

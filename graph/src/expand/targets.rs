@@ -158,7 +158,8 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
 pub(super) fn untaken(pass: &language::Pass, interface: &ShaderInterface, remarks: &mut Vec<Remark>) {
     let Some(shader) = pass.shader() else { return };
     let untaken = interface.outputs.iter().filter(|output| output.location as usize >= pass.color.len());
-    let names: Vec<String> = untaken.map(|output| format!("`{}` (location {})", output.name, output.location)).collect();
+    let names: Vec<String> =
+        untaken.map(|output| format!("`{}` (location {})", output.name, output.location)).collect();
     // A pass that runs for each eye by itself is there twice.
     let known = |remark: &Remark| remark.span == shader.span;
     if names.is_empty() || remarks.iter().any(known) {

@@ -1,8 +1,8 @@
 //! Accesses of a pass: its images and buffers, which part of each, and whether that part is read and written.
 
 use super::{
-    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
-    Work,
+    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, Sampled, Storage,
+    TransferUse, Work,
 };
 use crate::base::Span;
 use crate::vulkan::{Format, Subresources};

@@ -21,7 +21,8 @@ const SHADERS: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER);
 const MEMORY: Accesses = Accesses::MEMORY_READ.union(Accesses::MEMORY_WRITE);
 const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 
-const NOT_WAITED: &str = "is used by commands that only the program knows, and not waited for in all stages and accesses";
+const NOT_WAITED: &str =
+    "is used by commands that only the program knows, and not waited for in all stages and accesses";
 
 /// Who records the commands of a pass.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -210,9 +211,7 @@ impl<'p> Check<'_, 'p> {
         let sampled = Accesses::SHADER_SAMPLED_READ | Accesses::INPUT_ATTACHMENT_READ;
         let fits = match access.layout {
             Layout::General => true,
-            layout if is_read_only(layout) => {
-                (Accesses::DEPTH_STENCIL_ATTACHMENT_READ | sampled).contains(made)
-            }
+            layout if is_read_only(layout) => (Accesses::DEPTH_STENCIL_ATTACHMENT_READ | sampled).contains(made),
             layout if is_written(layout) => ATTACHMENT.contains(made),
             Layout::RenderingLocalReadKhr => (ATTACHMENT | Accesses::INPUT_ATTACHMENT_READ).contains(made),
             Layout::ShaderReadOnlyOptimal => sampled.contains(made),

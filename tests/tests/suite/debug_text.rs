@@ -23,16 +23,8 @@ const ALLOWED: [(&str, usize, &str); 12] = [
     ("passes/src/scene/gltf/nodes.rs", 1, "numbers in brackets, as glTF has them"),
 ];
 
-const ASSERTIONS: [&str; 8] = [
-    "assert",
-    "assert_eq",
-    "assert_ne",
-    "debug_assert",
-    "debug_assert_eq",
-    "debug_assert_ne",
-    "panic",
-    "unreachable",
-];
+const ASSERTIONS: [&str; 8] =
+    ["assert", "assert_eq", "assert_ne", "debug_assert", "debug_assert_eq", "debug_assert_ne", "panic", "unreachable"];
 
 /// How often format strings of a file ask for `Debug` text, outside of tests and assertions.
 fn debug_texts(text: &str) -> usize {
@@ -45,7 +37,8 @@ fn count(tokens: TokenStream) -> usize {
     let mut found = 0;
     let mut at = 0;
     while at < tokens.len() {
-        let is_mark = |at: usize, mark: char| matches!(tokens.get(at), Some(TokenTree::Punct(it)) if it.as_char() == mark);
+        let is_mark =
+            |at: usize, mark: char| matches!(tokens.get(at), Some(TokenTree::Punct(it)) if it.as_char() == mark);
         let is_of_tests = || match tokens.get(at + 1) {
             Some(TokenTree::Group(group)) => group.to_string().replace([' ', '\n'], "") == "[cfg(test)]",
             _ => false,
@@ -87,7 +80,8 @@ fn in_literal(literal: &Literal) -> usize {
 }
 
 fn of_folder(folder: &Path, name: &str, found: &mut BTreeMap<String, usize>) {
-    let mut entries: Vec<_> = folder.read_dir().expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    let mut entries: Vec<_> =
+        folder.read_dir().expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
     entries.sort();
     for path in entries {
         let name = format!("{name}/{}", path.file_name().expect("a name").to_string_lossy());
@@ -111,7 +105,8 @@ fn no_debug_text_reaches_people() {
     for name in CRATES {
         of_folder(&root.join(name).join("src"), &format!("{name}/src"), &mut found);
     }
-    let allowed: BTreeMap<String, usize> = ALLOWED.iter().map(|(file, count, _)| ((*file).to_owned(), *count)).collect();
+    let allowed: BTreeMap<String, usize> =
+        ALLOWED.iter().map(|(file, count, _)| ((*file).to_owned(), *count)).collect();
     let new: Vec<_> = found.iter().filter(|(file, count)| allowed.get(*file) != Some(count)).collect();
     assert!(new.is_empty(), "`{{:?}}` in sources: word it, or say in this test why it is no message: {new:#?}");
     let gone: Vec<_> = allowed.keys().filter(|file| !found.contains_key(*file)).collect();

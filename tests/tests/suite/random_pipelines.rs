@@ -90,7 +90,8 @@ fn what_every_pass_leaves_can_be_captured() {
     let (mut parts, mut planes) = (0, 0);
     for (seed, pipeline) in (0..).zip(many().take(120)) {
         let frame = to_frame(&pipeline);
-        let planned = |frame: &frame::Frame| compile(frame, &device, &mut Estimated(&device), &options(Order::Default, 1));
+        let planned =
+            |frame: &frame::Frame| compile(frame, &device, &mut Estimated(&device), &options(Order::Default, 1));
         let plan = planned(&frame).expect("it is valid");
         let flow = Dataflow::of(&plan);
         let runs: BTreeSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
