@@ -21,8 +21,8 @@ use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    Unbindable, Variant,
+    Binding, BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces,
+    ShaderProblem, Unbindable, Variant,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -273,8 +273,11 @@ impl ShaderLibrary {
             sized(files, found).map_err(unsupported)?;
         }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
-        // What was refused already has better words.
-        if let Verdict::Invalid(finding) = &verdict {
+        // What was refused already has better words, and so has what will be: resources that no pass can give.
+        let is_refused = |binding: &Binding| matches!(binding.kind, BindingKind::Other(_));
+        if let Verdict::Invalid(finding) = &verdict
+            && !reflected.interface.bindings.iter().any(is_refused)
+        {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
         reflected.interface.needs = placed_needs(&reflected.needs, &verdict, files, found);
