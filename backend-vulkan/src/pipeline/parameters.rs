@@ -4,8 +4,7 @@ use framewright_graph::frame::ParamValue;
 use framewright_graph::plan;
 use framewright_graph::shader::{Block, MatrixLayout, Member, ParamScalar, ParamType};
 
-/// Name of the block that holds a pass's parameters.
-pub(crate) const PARAMS: &str = "params";
+pub(crate) use framewright_graph::shader::PARAMS;
 
 /// The bytes of a parameter block.
 ///

@@ -13,8 +13,7 @@ use crate::vulkan::{Component, Dimension, ImageShape};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// The name of the block that a pass's parameters go to.
-pub(super) const PARAMS: &str = "params";
+pub(super) use crate::shader::PARAMS;
 
 /// The most bindings that are searched one by one; among more, a name is looked up.
 const MANY_GIVEN: usize = 16;
