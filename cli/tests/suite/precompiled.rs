@@ -189,6 +189,23 @@ fn a_shader_that_does_not_compile_as_its_pass_is_drawn_is_found_by_check() {
     ways("", "").run(&["check", "p.ron", "--stereo", "instanced", "--all-variants"]).exits(0);
 }
 
+#[test]
+fn a_shader_that_reads_more_than_its_pass_gives_as_it_is_drawn_is_found_by_check() {
+    let place = ways("", "");
+    let more = "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"include/texture.glsl\"\n\
+        layout(set = 0, binding = 0) uniform sampler2D depth;\nlayout(location = 0) in vec2 uv;\n\
+        layout(location = 0) out vec4 color;\n#ifdef FRAMEWRIGHT_BOTH_EYES\n\
+        layout(set = 0, binding = 1) uniform sampler2D more;\n#endif\nvoid main() {\n\
+        color = vec4(found_in(depth, depth_st, uv).r);\n#ifdef FRAMEWRIGHT_BOTH_EYES\n\
+        color += texture(more, uv);\n#endif\n}\n";
+    place.file("see.frag", more);
+    let check = |stereo| place.run(&["check", "p.ron", "--no-cache", "--stereo", stereo]);
+    check("off").exits(0);
+    let said = check("instanced").exits(1).err;
+    assert!(said.contains("shader `see` can't be used: it declares `more`, which pass `see` doesn't give"), "{said}");
+    assert!(said.contains("p.ron:12") && said.contains("for both eyes at once (`instanced`)"), "{said}");
+}
+
 /// In each way to draw for two eyes that this driver has; the profile is that of the device that is drawn on.
 #[test]
 fn what_drawing_compiles_is_compiled_ahead_by_check() {
