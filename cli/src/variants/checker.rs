@@ -196,8 +196,7 @@ mod tests {
             budget: &Budget::default(),
             stereo: loaded.stereo.clone(),
         };
-        let space =
-            Space::all_or_pairwise(subject.axes.sizes(), subject.axes.variants_of_presets()).expect("few variants").0;
+        let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets());
         let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interfaces()));
         let decisions = || SharedDecisions::of(subject.devices.len());
         let shared = decisions();

@@ -26,7 +26,7 @@ pub(crate) enum Space {
 
 impl Space {
     /// Every combination of values, of which there are few enough, then those of `more` that aren't among them.
-    fn all(sizes: Vec<usize>, mut more: Vec<Choice>) -> Space {
+    pub(crate) fn all(sizes: Vec<usize>, mut more: Vec<Choice>) -> Space {
         more.retain(|choice| choice.iter().zip(&sizes).any(|(value, size)| value >= size));
         each_once(&mut more);
         Space::All { sizes, more }
