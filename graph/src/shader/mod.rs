@@ -73,9 +73,6 @@ pub struct ShaderInterface {
 /// push constants that every device has.
 pub const MOST_PARTS: usize = 8;
 
-/// The name of the block that a pass's parameters go to.
-pub const PARAMS: &str = "params";
-
 /// A part of a shader that doesn't follow a turned picture; functions in shaders/include/rotation.glsl follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unturned {
