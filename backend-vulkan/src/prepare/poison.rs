@@ -89,7 +89,8 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
 
 /// Whether the step replaces all of a buffer, as its passes promise, and the buffer can be poisoned.
 fn replaces(step: &Step, buffer: &Buffer) -> bool {
-    let mut uses = passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
+    let mut uses =
+        passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
     let whole = |it: &BufferAccess| it.role == Some(BufferRole::Storage { read: false, write: true });
     buffer.usage.contains(BufferUsage::TRANSFER_DST) && uses.peek().is_some() && uses.all(whole)
 }

@@ -27,7 +27,8 @@ pub(super) fn uses_sample_mask(module: &IndexedModule<'_>, used: &HashSet<u32>) 
 
 /// The storage classes of the masks of samples that it uses.
 fn sample_masks(module: &IndexedModule<'_>, used: &HashSet<u32>) -> impl Iterator<Item = StorageClass> {
-    let masks = module.variables().filter(|(id, _)| used.contains(id) && built_in(module, *id) == Some(BuiltIn::SampleMask));
+    let masks =
+        module.variables().filter(|(id, _)| used.contains(id) && built_in(module, *id) == Some(BuiltIn::SampleMask));
     masks.filter_map(|(_, it)| storage_class(it))
 }
 
@@ -144,7 +145,8 @@ impl Output {
                 true => format!("doesn't set `{name}{place}{letters}` on every path"),
                 false => format!("never sets `{name}{place}{letters}`"),
             };
-            let location = self.location.map(|location| location.saturating_add(u32::try_from(number).unwrap_or(u32::MAX)));
+            let location =
+                self.location.map(|location| location.saturating_add(u32::try_from(number).unwrap_or(u32::MAX)));
             Some(Unset { location, name: name.to_owned(), what, refused, place: None })
         };
         (0..self.elements).filter_map(element).collect()
@@ -288,7 +290,9 @@ impl Paths {
                         }
                     }
                     Op::Store | Op::CopyMemory => {
-                        let Some((range, known)) = id(it, 0).and_then(|to| outputs.pointed_to(to, &chains)) else { continue };
+                        let Some((range, known)) = id(it, 0).and_then(|to| outputs.pointed_to(to, &chains)) else {
+                            continue;
+                        };
                         ever.add(range.clone());
                         if known || rounds == Rounds::AtLeastOne {
                             sets.add(range);
@@ -307,7 +311,8 @@ impl Paths {
                     Op::LoopMerge => loops.push((blocks.len(), id(it, 0), id(it, 1))),
                     Op::Branch => leads_to(id(it, 0)),
                     Op::BranchConditional => {
-                        let condition = id(it, 0).and_then(|condition| module.global(condition)).map(|it| it.class.opcode);
+                        let condition =
+                            id(it, 0).and_then(|condition| module.global(condition)).map(|it| it.class.opcode);
                         if condition != Some(Op::ConstantFalse) {
                             leads_to(id(it, 1));
                         }

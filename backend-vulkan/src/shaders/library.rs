@@ -1,8 +1,8 @@
 //! Shaders by name, for a kind of draw.
 
 use super::PrecompiledShaders;
-use super::compilers::Compilers;
 use super::colors;
+use super::compilers::Compilers;
 use super::coverage::LEAVES_OUT;
 use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};

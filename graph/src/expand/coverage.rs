@@ -15,7 +15,7 @@ use crate::shader::{ShaderInterface, Unset};
 use std::sync::Arc;
 
 /// Why a draw may leave texels of its targets as they were although it fills the screen, in words; `None`: it sets them all. An
-/// output that some path surely leaves is a mistake, which is reported elsewhere.
+/// output that some path leaves is told of elsewhere: it is written all the same, with an undefined value.
 pub(super) fn untouched(pass: &language::Pass, interface: Option<&ShaderInterface>) -> Option<Arc<str>> {
     let name = pass.shader().map_or("", |shader| &*shader.text);
     let full_screen = matches!(pass.work, language::Work::Draw { draw: language::Draw::FullScreen, .. });
@@ -27,8 +27,6 @@ pub(super) fn untouched(pass: &language::Pass, interface: Option<&ShaderInterfac
         "its alpha says which samples are covered".to_owned()
     } else if let Some(file) = &interface.own_vertices {
         format!("its vertex stage {file} is its own and may fill less than the screen")
-    } else if let Some(Unset { what, place, .. }) = unset(pass, interface).find(|unset| !unset.refused) {
-        format!("shader `{name}` {what}{}", at(place.as_deref()))
     } else {
         return None;
     };

@@ -3,7 +3,8 @@
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
-    coverage, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
+    coverage, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant,
+    work,
 };
 use crate::base::Diagnostic;
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};

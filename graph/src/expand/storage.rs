@@ -1,9 +1,9 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
-use super::resources::Resources;
-use super::shader::{self, PARAMS, component_words, shape_words};
 use super::coverage::Kept;
 use super::parts::Cells;
+use super::resources::Resources;
+use super::shader::{self, PARAMS, component_words, shape_words};
 use super::{accesses, arrays, parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};

@@ -161,14 +161,17 @@ pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &m
     let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
     let mut remarks = Vec::new();
     for Unset { location, what, refused, place, .. } in coverage::unset(pass, interface) {
-        let target = location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
+        let target =
+            location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
         let at = coverage::at(place.as_deref());
         let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
         if *refused {
             let help = "set it at the beginning of `main`; `discard` leaves texels as they were";
             errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
         } else {
-            let text = format!("{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`");
+            let text = format!(
+                "{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`"
+            );
             remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
         }
     }

@@ -57,7 +57,9 @@ impl Frame {
             Some("covers: true")
         } else if pass.storage.iter().any(|it| it.image == index && it.write && !it.read) && held() {
             Some("access: Write")
-        } else if matches!(pass.work, Work::Custom { .. }) && pass.transfers.iter().any(|it| it.write && it.resource == of) {
+        } else if matches!(pass.work, Work::Custom { .. })
+            && pass.transfers.iter().any(|it| it.write && it.resource == of)
+        {
             Some("writes")
         } else {
             None

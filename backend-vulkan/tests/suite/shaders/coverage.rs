@@ -7,9 +7,11 @@ use framewright_graph::shader::ShaderInterface;
 const COLOR: &str = "layout(location = 0) in vec2 uv; layout(location = 0) out vec4 color;\n";
 
 fn reflected(fragment: &str) -> ShaderInterface {
-    let quad = "#version 460\nlayout(location = 0) out vec2 uv;\nvoid main() { uv = vec2(0.0); gl_Position = vec4(0.0); }\n";
+    let quad =
+        "#version 460\nlayout(location = 0) out vec2 uv;\nvoid main() { uv = vec2(0.0); gl_Position = vec4(0.0); }\n";
     let fragment = format!("#version 460\n{COLOR}{fragment}");
-    drawn(Draw::FullScreen, &[("test.frag", &fragment), ("test.vert", quad)]).unwrap_or_else(|why| panic!("{fragment}: {why:?}"))
+    drawn(Draw::FullScreen, &[("test.frag", &fragment), ("test.vert", quad)])
+        .unwrap_or_else(|why| panic!("{fragment}: {why:?}"))
 }
 
 /// What a stage doesn't set, in words, and whether that is sure.
@@ -51,13 +53,19 @@ fn an_output_that_some_path_leaves_is_told_with_its_components() {
         ("void main() { if (uv.x < 0.5) return; color = vec4(1.0); }", on_every_path("color")),
         ("void main() { if (uv.x < 0.5) color = vec4(1.0); }", on_every_path("color")),
         ("void main() { color.rgb = vec3(1.0); if (uv.x < 0.5) color.a = 1.0; }", on_every_path("color.w")),
-        ("void main() { switch (int(uv.x * 4.0)) { case 0: color = vec4(0.0); break; case 1: color = vec4(1.0); } }", on_every_path("color")),
+        (
+            "void main() { switch (int(uv.x * 4.0)) { case 0: color = vec4(0.0); break; case 1: color = vec4(1.0); } }",
+            on_every_path("color"),
+        ),
         ("void set(float x) { if (x < 0.5) color = vec4(x); } void main() { set(uv.x); }", on_every_path("color")),
         ("void main() { color = vec4(0.0); if (uv.x < 0.5) gl_FragDepth = uv.x; }", on_every_path("gl_FragDepth")),
         ("void main() { color.rgb = vec3(1.0); }", never("color.w")),
         ("void main() { color.xz = uv; }", never("color.yw")),
         ("layout(location = 1) out vec4 more; void main() { color = vec4(0.0); }", never("more")),
-        ("layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more[0] = vec4(0.0); }", never("more[1]")),
+        (
+            "layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more[0] = vec4(0.0); }",
+            never("more[1]"),
+        ),
         (
             "layout(location = 1) out vec4 more[2]; void main() { color = more[0] = vec4(0.0); if (uv.x < 0.5) more[1] = vec4(1.0); }",
             on_every_path("more[1]"),
@@ -89,7 +97,8 @@ fn what_hangs_on_the_rounds_of_a_loop_or_on_an_index_is_not_sure() {
 
 #[test]
 fn what_is_not_set_has_its_location_and_its_line() {
-    let unset = reflected("layout(location = 3) out vec4 more[2];\nvoid main() { color = vec4(0.0); more[0] = color; }").unset;
+    let unset =
+        reflected("layout(location = 3) out vec4 more[2];\nvoid main() { color = vec4(0.0); more[0] = color; }").unset;
     let [unset] = &unset[..] else { panic!("{unset:?}") };
     assert_eq!((unset.location, unset.refused), (Some(4), true));
     assert!(unset.place.as_deref().is_some_and(|place| place.ends_with("test.frag:3")), "{unset:?}");
@@ -103,7 +112,10 @@ fn a_written_sample_mask_leaves_out_samples_and_a_read_one_tells_them_apart() {
     };
     assert_eq!(of("void main() { color = vec4(1.0); }"), (false, false, false, false));
     assert_eq!(of("void main() { color = vec4(1.0); gl_SampleMask[0] = 1; }"), (false, true, true, true));
-    assert_eq!(of("void mask(int to) { gl_SampleMask[0] = to; } void main() { color = vec4(1.0); mask(1); }"), (false, true, true, true));
+    assert_eq!(
+        of("void mask(int to) { gl_SampleMask[0] = to; } void main() { color = vec4(1.0); mask(1); }"),
+        (false, true, true, true)
+    );
     assert_eq!(of("void main() { color = vec4(float(gl_SampleMaskIn[0])); }"), (false, false, true, false));
     assert_eq!(of("void main() { if (uv.x < 0.5) discard; color = vec4(1.0); }"), (true, false, false, true));
     let demoting = "#extension GL_EXT_demote_to_helper_invocation : require\nlayout(location = 0) out vec4 color;

@@ -5,8 +5,8 @@ use super::stage_results::{StageResults, cause};
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
-use crate::plan::{Attachment, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
 use crate::frame::Blend;
+use crate::plan::{Attachment, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
 use crate::vulkan::{Layout, LoadOp};
 use std::sync::Arc;
 

@@ -95,7 +95,8 @@ fn a_shader_that_cannot_draw_depth_alone_is_known_where_that_is_asked_of_it() {
     assert_eq!(why("forgetful", "").as_deref(), Some(keeps_all));
     let unmasked = "has the shader `unmasked`, and with the macro `DEPTH_ONLY` it writes no `gl_SampleMask` any more";
     assert_eq!(why("unmasked", "").as_deref(), Some(unmasked));
-    let by_alpha = "has the shader `lit`, and with the macro `DEPTH_ONLY` it leaves out no samples, which its alpha does";
+    let by_alpha =
+        "has the shader `lit`, and with the macro `DEPTH_ONLY` it leaves out no samples, which its alpha does";
     assert_eq!(why("lit", "alpha_to_coverage: true,").as_deref(), Some(by_alpha));
     assert_eq!(why("lit_masked", "alpha_to_coverage: true,"), None);
 }
