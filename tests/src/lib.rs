@@ -23,9 +23,9 @@ pub mod happens_before;
 pub mod incidents;
 pub mod mutation;
 pub mod optima;
+pub mod partial_passes;
 #[path = "../../graph/tests/suite/testing/parts.rs"]
 mod parts;
-pub mod partial_passes;
 pub mod random_pipelines;
 pub mod raycast;
 pub mod render;

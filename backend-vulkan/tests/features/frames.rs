@@ -179,8 +179,8 @@ pub(crate) fn transfer(name: &str, work: Work, sides: &[(Resource, Subresources,
         frames_ago: 0,
         span: Span::NONE,
         write: *write,
-    keeps: false,
-        };
+        keeps: false,
+    };
     Pass { transfers: sides.iter().map(side).collect(), ..Pass::new(name, work) }
 }
 

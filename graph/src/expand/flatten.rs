@@ -6,8 +6,8 @@ use super::outputs::outputs;
 use super::resources::Resources;
 use super::state::State;
 use super::{
-    casters, coverage, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, targets,
-    views,
+    casters, coverage, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader,
+    targets, views,
 };
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Stereo, SwitchedOff, View};

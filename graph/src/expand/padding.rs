@@ -39,8 +39,7 @@ fn zero(resources: &Resources<'_>, copy: &Pass, resource: Resource) -> Pass {
     let name = &resources.name(resource).text;
     let why = format!("`{}` copies texels into `{name}` that take fewer bytes than it has", copy.name);
     let span = copy.span;
-    let transfer =
-        TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span, write: true, keeps: false };
+    let transfer = TransferUse { resource, range: Subresources::WHOLE, frames_ago: 0, span, write: true, keeps: false };
     Pass {
         span,
         view: copy.view,

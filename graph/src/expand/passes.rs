@@ -180,8 +180,7 @@ pub(super) fn stand_ins(
                 let format = resources.image(to.index).map(|image| image.image.format);
                 let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
-                let transfer =
-                    TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
+                let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
                 (Work::Fill { value: filled }, Some(transfer))
             }
         };

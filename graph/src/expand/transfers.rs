@@ -257,7 +257,8 @@ pub(super) fn draw_part(resources: &Resources<'_>, lowered: &mut Pass, errors: &
     let why = format!("`{}` scales `{}`, of which a frame uses a part, with a linear filter", lowered.name, one.name);
     if other.part(target.range) != other.whole() || other.layers > 1 || other.mips > 1 {
         let message = format!("{why}, and a blit would mix in texels beyond that part");
-        let help = format!("draw it: `draw: FullScreen(\"copy\"), sample: {{\"source\": \"{}\"}}, color: […]`", one.name);
+        let help =
+            format!("draw it: `draw: FullScreen(\"copy\"), sample: {{\"source\": \"{}\"}}, color: […]`", one.name);
         return errors.push(Diagnostic::new(target.span, message).label(source.span, one.name.to_string()).help(help));
     }
     lowered.work = Work::Forward { from, to, because: why.clone() };

@@ -246,8 +246,8 @@ fn transfers(name: &str, work: Work, of: &[(ImageIndex, bool)]) -> Pass {
         frames_ago: 0,
         span: Span::NONE,
         write: *write,
-    keeps: false,
-        };
+        keeps: false,
+    };
     Pass { transfers: of.iter().map(used).collect(), side_effect: true, ..Pass::new(name, work) }
 }
 

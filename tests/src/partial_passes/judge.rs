@@ -14,9 +14,7 @@ use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Layout, LoadOp, Rotation};
 use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
-use framewright_vulkan::{
-    Device, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary,
-};
+use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary};
 use std::fmt;
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -166,7 +164,8 @@ pub fn shrunk(judge: &mut Judge, chains: &[Chain], fault: &Fault, seed: u64) -> 
                 tried[chain].links.last_mut()?.shown = true;
             }
             let fails = judge.judge(&tried, seed).err()?;
-            (!tried.is_empty() && std::mem::discriminant(&fails) == std::mem::discriminant(fault)).then_some((tried, fails))
+            (!tried.is_empty() && std::mem::discriminant(&fails) == std::mem::discriminant(fault))
+                .then_some((tried, fails))
         });
         let Some((tried, fails)) = found else { return (smallest, why) };
         (smallest, why) = (tried, fails);
@@ -226,7 +225,9 @@ fn forgets(plan: &Plan, chains: &[Chain]) -> Result<(), Fault> {
         let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
         let mut first = barriers.filter(|it| it.hazard == Hazard::FirstUse && it.old_layout == Layout::Undefined);
         if first.any(|barrier| *plan.image(barrier.image).name == *name) {
-            return Err(Fault::Forgets(format!("each frame forgets what `{name}` held before it, and shows some of it")));
+            return Err(Fault::Forgets(format!(
+                "each frame forgets what `{name}` held before it, and shows some of it"
+            )));
         }
     }
     Ok(())

@@ -77,7 +77,8 @@ fn all_means_but_those_that_cover_leave_something_out() {
             (means.effect)(&mut texel, &At { x: 12, sample: 1, samples: 4, kept, value: 3 });
             texel == INITIAL
         });
-        let covers = ["covers", "reads_the_mask", "own_vertices_that_cover", "depth_covers", "depth_tests", "depth_tests_early"];
+        let covers =
+            ["covers", "reads_the_mask", "own_vertices_that_cover", "depth_covers", "depth_tests", "depth_tests_early"];
         let promised = means.name.ends_with("_all_as_promised");
         assert_eq!(leaves, !promised && !covers.contains(&means.name), "{}", means.name);
     }

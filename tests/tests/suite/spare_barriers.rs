@@ -34,9 +34,8 @@ fn does_without(plan: &Plan, leave_out: impl FnOnce(&mut Plan)) -> bool {
 
 /// The calls that could be left out, by step.
 fn spare_calls(plan: &Plan) -> Vec<usize> {
-    let calls = (0..plan.steps.len()).filter(|step| {
-        !plan.steps[*step].image_barriers.is_empty() || !plan.steps[*step].memory_barriers.is_empty()
-    });
+    let calls = (0..plan.steps.len())
+        .filter(|step| !plan.steps[*step].image_barriers.is_empty() || !plan.steps[*step].memory_barriers.is_empty());
     let spare = calls.filter(|step| {
         does_without(plan, |plan| {
             plan.steps[*step].image_barriers.clear();

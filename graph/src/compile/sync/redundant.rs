@@ -80,9 +80,8 @@ impl Calls<'_> {
     /// Whether the memory barrier of one call, without this barrier, says all that it says.
     fn cover(&self, it: Batched, barrier: &SubresourceBarrier) -> bool {
         let queues = &self.initial.queues;
-        let comes_before = |call: &[Batched]| {
-            call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at)
-        };
+        let comes_before =
+            |call: &[Batched]| call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at);
         let mut calls = self.batched.chunk_by(|one, other| one.at == other.at).filter(|call| comes_before(call));
         calls.any(|call| {
             let others = call.iter().filter(|other| other.barrier != it.barrier).map(|other| self.barrier(other));

@@ -32,8 +32,8 @@ fn plan(stereo: Stereo, form: EyeForm) -> Plan {
         frames_ago: 0,
         span: Span::NONE,
         write,
-    keeps: false,
-        };
+        keeps: false,
+    };
     let transfers = vec![used(screen, false), used(kept, true)];
     frame.passes.push(Pass { transfers, ..Pass::new("keep", Described::Copy) });
     let device = raster::device();
