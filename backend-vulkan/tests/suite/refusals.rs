@@ -237,9 +237,9 @@ fn images_and_outputs_of_another_type_than_the_shader_s_are_refused() {
     let cube = refusal(device, "cube", "show", plain);
     assert!(cube.starts_with("pass `draw`: the shader reads `picture` at set 1, binding 0"), "{cube}");
     let output = refusal(device, "whole", "show", plain);
-    assert_eq!(output, "pass `draw`: the shader writes Uint to `color`, which is R8G8B8A8_UNORM");
+    assert_eq!(output, "pass `draw`: the shader writes unsigned integers to `color`, which is R8G8B8A8_UNORM");
     let source = refusal(device, "white", "show_whole", plain);
-    assert_eq!(source, "pass `show`: the shader reads Uint from `source`, which is R8G8B8A8_UNORM");
+    assert_eq!(source, "pass `show`: the shader reads unsigned integers from `source`, which is R8G8B8A8_UNORM");
 }
 
 #[test]
