@@ -195,7 +195,7 @@ fn a_depth_resolve_that_a_device_does_not_have_is_refused() {
     assert_eq!(message(ResolveMode::SampleZero), "");
     // Neither software driver resolves depth by its largest sample.
     let said = message(ResolveMode::Max);
-    assert!(said.ends_with("can't resolve depth into `depth 1` by Max"), "{said}");
+    assert!(said.ends_with("can't resolve depth into `depth 1` by MAX"), "{said}");
 }
 
 /// Adds a depth image with memory of its own.
