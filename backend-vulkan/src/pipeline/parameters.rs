@@ -124,7 +124,7 @@ mod tests {
         let outside = fill(&Block { bytes: 16, members: vec![matrix(0, 16, false)] }, &given);
         assert_eq!(outside, Err("`m` lies outside its block".to_owned()));
         let short = fill(&Block { bytes: 64, members: vec![member("v", 0, "vec4")] }, &vector);
-        assert!(short.is_err_and(|said| said.starts_with("`v` is a vec4, and List(")));
+        assert!(short.is_err_and(|said| said.starts_with("`v` is a vec4, and (7, 8, 9) is none")));
     }
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
         let block = Block { bytes: 16, members: vec![member("steps", 0, "int")] };
         let message = |params: &[plan::Param]| fill(&block, params).err().unwrap_or_default();
         assert_eq!(message(&[]), "`steps` of the block `params` has no value");
-        assert_eq!(message(&[param("steps", ParamValue::Number(0.5))]), "`steps` is a int, and Number(0.5) is none");
+        assert_eq!(message(&[param("steps", ParamValue::Number(0.5))]), "`steps` is a int, and 0.5 is none");
         let two = [param("steps", ParamValue::Integer(1)), param("speed", ParamValue::Integer(1))];
         assert_eq!(message(&two), "the block `params` has no member `speed`");
     }

@@ -155,6 +155,6 @@ fn what_a_dynamic_buffer_cannot_do_is_refused() {
         let given =
             [(0, Resource::Dynamic(&vertices)), (1, Resource::Dynamic(&vertices)), (2, Resource::Buffer(&fixed))];
         let refused = device.bind_group(&interface(OBJECTS), 1, &given).err().expect("made for vertices");
-        assert!(refused.to_string().contains("`camera` is a UniformBlock, and something else was given"), "{refused}");
+        assert!(refused.to_string().contains("`camera` is a uniform block, and something else was given"), "{refused}");
     });
 }

@@ -209,8 +209,8 @@ fn a_shader_declares_as_many_elements_as_are_brought_along_or_fewer() {
     on_each_driver(|device| {
         assert_eq!(row(device, "shorter").expect("it fits"), [20; 8]);
         let said = refused(device, "longer", COUNT);
-        let what = "the shader reads `textures[9]` at set 2, binding 3, where this kind of draw brings along `textures`, 8 \
-                    of the kind SampledImage";
+        let what = "the shader reads `textures[9]` at set 2, binding 3, where this kind of draw brings along `textures`, \
+                    an array of 8, each a two-dimensional floating-point image (`sampler2D`)";
         assert_eq!(said, format!("pass `longer`: {what}"));
     });
 }

@@ -71,7 +71,7 @@ fn a_bind_group_refuses_what_its_interface_does_not_name() {
     assert_eq!(message(1, &[(3, given)]), "bind group for set 1: the draw interface has no binding 3");
     assert_eq!(
         message(1, &[(0, given)]),
-        "bind group for set 1: `view` is a UniformBlock, and something else was given"
+        "bind group for set 1: `view` is a uniform block, and something else was given"
     );
     assert_eq!(message(0, &[]), "bind group for set 0: it belongs to the pass");
 }

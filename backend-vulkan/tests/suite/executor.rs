@@ -379,7 +379,7 @@ fn misuse_of_the_recorder_is_an_error_and_no_crash() {
             it.bind_vertex_buffer(&vertices);
             it.draw(1..4, 0..1);
         }),
-        format!("{said}vertices 1..4 lie beyond the vertex buffer")
+        format!("{said}vertices 1 to 3 lie beyond the vertex buffer")
     );
     assert_eq!(message(&|it| it.draw_indexed(0..3, 0, 0..1)), format!("{said}an indexed draw without index buffer"));
     assert_eq!(message(&|_| ()), "", "the executor still works");

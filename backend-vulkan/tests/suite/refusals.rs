@@ -9,7 +9,9 @@ use framewright_graph::plan::{
     StepId, Work,
 };
 use framewright_graph::shader::{Attribute, BINDINGS, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
-use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage};
+use framewright_graph::vulkan::{
+    Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage, name_of,
+};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
 const SHADERS: &[(&str, &str)] = &[
@@ -201,7 +203,7 @@ fn a_depth_resolve_that_a_device_does_not_have_is_refused() {
     }
     for mode in lacking {
         let said = message(mode);
-        assert!(said.ends_with(&format!("can't resolve depth into `depth 1` by {mode:?}")), "{said}");
+        assert!(said.ends_with(&format!("can't resolve depth into `depth 1` by {}", name_of(&mode))), "{said}");
     }
 }
 
@@ -244,9 +246,9 @@ fn images_and_outputs_of_another_type_than_the_shader_s_are_refused() {
     let cube = refusal(device, "cube", "show", plain);
     assert!(cube.starts_with("pass `draw`: the shader reads `picture` at set 1, binding 0"), "{cube}");
     let output = refusal(device, "whole", "show", plain);
-    assert_eq!(output, "pass `draw`: the shader writes Uint to `color`, which is R8G8B8A8_UNORM");
+    assert_eq!(output, "pass `draw`: the shader writes unsigned integers to `color`, which is R8G8B8A8_UNORM");
     let source = refusal(device, "white", "show_whole", plain);
-    assert_eq!(source, "pass `show`: the shader reads Uint from `source`, which is R8G8B8A8_UNORM");
+    assert_eq!(source, "pass `show`: the shader reads unsigned integers from `source`, which is R8G8B8A8_UNORM");
 }
 
 #[test]
