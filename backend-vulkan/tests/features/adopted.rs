@@ -1,7 +1,9 @@
 //! Devices that the program made itself: adopted, drawn with, and left to the program (EM-2). Shaders are held to the features that it
 //! switched on (EM-5).
 
-use crate::frames::{Shaders, Small, Uses, draw, frame, indexing, lacks, library, on_each_driver, planned, texels};
+use crate::frames::{
+    Shaders, Small, Uses, draw, frame, indexing, lacks, library, on_each_driver, placeless, planned, texels,
+};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::vulkan::{Format, Subresources};
@@ -176,7 +178,7 @@ fn a_shader_that_needs_a_feature_which_is_not_switched_on_is_refused_with_its_na
             let plan = planned(&device, &small.frame, &Options::default());
             let mut shaders = library(&[CHOOSES, &[("tap.frag", WHOLE_ONE)]].concat().leak()[..]);
             let executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default());
-            let said = executor.err().map(|error| error.to_string()).unwrap_or_default();
+            let said = executor.err().map(|error| placeless(&error.to_string())).unwrap_or_default();
             drop(device);
             // SAFETY: nothing made from it is left.
             unsafe { raw.destroy_device(None) };

@@ -349,7 +349,14 @@ pub(crate) fn indexing(device: &Device) -> [(&'static str, bool); 2] {
 
 /// What is said of a shader that needs a feature.
 pub(crate) fn lacks(shader: &str, feature: &str) -> String {
-    format!("pass `{shader}`: its shader needs the feature {feature}, which this device doesn't have")
+    format!("pass `{shader}`: the fragment stage needs the feature {feature}, which this device doesn't have")
+}
+
+/// What is said of a shader that needs a feature, without the shader's place.
+pub(crate) fn placeless(said: &str) -> String {
+    let placed = said.split_once("`: ").and_then(|(pass, rest)| Some((pass, rest.split_once(": ")?.1)));
+    let placed = placed.filter(|(_, what)| what.contains(" needs the feature "));
+    placed.map_or_else(|| said.to_owned(), |(pass, what)| format!("{pass}`: {what}"))
 }
 
 /// Draws one frame.

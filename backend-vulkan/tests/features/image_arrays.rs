@@ -1,8 +1,8 @@
 //! Arrays of images of the frame, given to a pass element by element (EM-5).
 
 use crate::frames::{
-    Shaders, Small, Uses, dispatch, draw, everywhere, frame, indexing, lacks, library, on_each_driver, planned, texels,
-    transfer,
+    Shaders, Small, Uses, dispatch, draw, everywhere, frame, indexing, lacks, library, on_each_driver, placeless,
+    planned, texels, transfer,
 };
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Work};
@@ -115,7 +115,7 @@ fn each_element_is_the_image_that_was_given_to_it() {
 fn refused(device: &Device, frame: &Frame) -> String {
     let plan = planned(device, frame, &Options::default());
     let executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
-    executor.err().map(|error| error.to_string()).unwrap_or_default()
+    executor.err().map(|error| placeless(&error.to_string())).unwrap_or_default()
 }
 
 #[test]

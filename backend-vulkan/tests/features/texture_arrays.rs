@@ -1,6 +1,6 @@
 //! Arrays of textures that a draw source brings along (EM-5).
 
-use crate::frames::{Small, Uses, dispatch, draw, indexing, lacks, on_each_driver, planned, texels};
+use crate::frames::{Small, Uses, dispatch, draw, indexing, lacks, on_each_driver, placeless, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups};
 use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
@@ -199,7 +199,7 @@ fn each_pixel_shows_the_texture_of_its_number() {
         for (shader, needed) in [("by_turns", 1), ("by_pixel", 2)] {
             let lacking = indexing(device).iter().take(needed).find(|(_, there)| !there).map(|(name, _)| *name);
             let expected = lacking.map_or_else(|| Ok(BACKWARDS.to_vec()), |name| Err(lacks(shader, name)));
-            assert_eq!(row(device, shader), expected);
+            assert_eq!(row(device, shader).map_err(|said| placeless(&said)), expected);
         }
     });
 }
@@ -245,7 +245,7 @@ fn more_textures_than_a_stage_may_see_are_refused_with_the_limit() {
         let most = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
         let most = most.min(limits.max_descriptor_set_samplers).min(limits.max_descriptor_set_sampled_images);
         let words = format!(
-            "{} sampled images are bound, {} of them as `textures`, and this device allows {most} (max",
+            "{} sampled images are bound, {} of them as `textures`; this device allows {most} (max",
             most + 1,
             most + 1
         );

@@ -136,7 +136,7 @@ fn more_resources_than_a_stage_may_have_are_refused() {
         };
         DrawInterface { supplied: (0..3 * BINDINGS).map(block).collect(), ..plain(draw) }
     });
-    let refused = said.starts_with("pass `draw`: 768 storage blocks are bound, and this device allows ");
+    let refused = said.starts_with("pass `draw`: 768 storage blocks are bound; this device allows ");
     assert!(refused || said.is_empty(), "{said}");
     drop(device);
     // A device that allows them has nothing against them.
