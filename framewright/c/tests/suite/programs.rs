@@ -96,17 +96,17 @@ fn sanitized(text: &str) -> String {
 #[test]
 fn programs_in_c_free_all_that_they_are_given() {
     let Some(_) = program("examples/embed_minimal.c") else { return };
-    // Drivers leak a little. What this library made has its functions among the callers.
-    const OWN: &str = "framewright_c::";
+    // Drivers leak a little. What this library made has functions of Rust among the callers, as far as the sanitizer finds them.
+    let own = |said: &str| ["framewright_c", "/rustc/"].iter().any(|caller| said.contains(caller));
     for path in ["examples/embed_minimal.c", "framewright/c/tests/programs/bad_calls.c"] {
         let said = sanitized(&text(path));
-        assert!(!said.contains(OWN) && !said.contains("heap-use-after-free"), "{path}: {said}");
+        assert!(!own(&said) && !said.contains("heap-use-after-free"), "{path}: {said}");
     }
     for free in ["scene", "renderer", "device"] {
         let text = text("examples/embed_minimal.c");
         let leaky = text.replace(&format!("    framewright_{free}_free({free});\n"), "");
         assert_ne!(leaky, text);
-        assert!(sanitized(&leaky).contains(OWN), "the sanitizer sees no {free} that isn't freed");
+        assert!(own(&sanitized(&leaky)), "the sanitizer sees no {free} that isn't freed");
     }
 }
 
