@@ -64,7 +64,7 @@ fn values(fact: Fact, mentions: &Mentions<'_>) -> Vec<String> {
         // Scaling by a length or a factor makes no other variant; being compared with a number does.
         FactValue::Number(usual) if fact.is_measure() => {
             add(format!("{usual:?}"));
-            for number in mentions.numbers_compared_with(last(fact.name())).filter(|number| *number > 0.0) {
+            for number in mentions.numbers_compared_with(fact.name()).filter(|number| *number > 0.0) {
                 [number.next_down(), number, number.next_up()].into_iter().for_each(|near| add(format!("{near:?}")));
             }
         }
@@ -100,6 +100,8 @@ mod tests {
     fn a_length_varies_only_where_it_is_compared_with_a_number() {
         let only = |value: &str| vec![(Fact::Size, vec![value.to_owned()])];
         assert_eq!(of("\"0.1 * scene.size\""), only("1.0"));
+        // A setting may have the last part of its name.
+        assert_eq!(of("\"exposure > 2\""), [(Fact::Exposure, vec!["1.0".to_owned()])]);
         let compared = ["1.0", "99.99999999999999", "100.0", "100.00000000000001"].map(String::from).to_vec();
         assert_eq!(of("\"3.3 * scene.size\" \"scene.size > 100\""), [(Fact::Size, compared)]);
     }

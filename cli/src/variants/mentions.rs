@@ -54,10 +54,10 @@ impl<'a> Mentions<'a> {
         with_it.flat_map(|text| numbers(text))
     }
 
-    /// The numbers that stand in strings with `name` and a comparison.
+    /// The numbers that stand in strings with the whole name of a fact and a comparison.
     pub(crate) fn numbers_compared_with(&self, name: &str) -> impl Iterator<Item = f64> {
         let compared = self.numbers.iter().filter(|text| text.contains(['<', '>', '=']));
-        compared.filter(move |text| words(text).any(|word| word == name)).flat_map(|text| numbers(text))
+        compared.filter(move |text| text.contains(name)).flat_map(|text| numbers(text))
     }
 
     fn text(&mut self, text: &'a str) {

@@ -148,8 +148,8 @@ fn a_file_that_cannot_be_read_is_an_answer_for_programs_and_an_error_for_people(
     check(&place, &["forward", "--threads", "0"]).exits(2);
 }
 
-/// Of which a million variants aren't enough on all devices: of these every pair of choices is checked.
-const IN_PAIRS: [&str; 3] = ["deferred", "deferred_mobile", "image_quality"];
+/// Which have too many variants on all devices: of these every pair of choices is checked.
+const IN_PAIRS: [&str; 4] = ["deferred", "deferred_mobile", "image_quality", "shadows"];
 
 #[test]
 fn every_shipped_pipeline_is_fine_in_every_variant_on_every_shipped_device() {
@@ -205,7 +205,7 @@ fn of_too_many_variants_pairs_are_checked_and_that_is_said() {
     place.file("p.ron", switches(60));
     check(&place, &["p.ron"])
         .exits(0)
-        .mentions("note: there are 1152921504606846976 combinations, and of more than 1000000 each pair of values is checked, as by `--pairwise`");
+        .mentions("note: there are 1152921504606846976 combinations, and of more than 250000 each pair of values is checked, as by `--pairwise`");
     let answer = json(&place, &["p.ron"], 0);
     assert_eq!(answer, json(&place, &["p.ron", "--pairwise"], 0));
     assert_eq!((&answer["fine"], &answer["pairwise"]), (&true.into(), &true.into()));
@@ -228,7 +228,7 @@ fn pairs_find_what_two_settings_break() {
 fn an_interrupted_check_tells_what_it_found_so_far() {
     let place = Place::new();
     // Minutes of work.
-    place.file("p.ron", switches(19));
+    place.file("p.ron", switches(17));
     for format in ["human", "json"] {
         let arguments = ["check", "p.ron", "--all-variants", "--format", format];
         let child = place
@@ -247,11 +247,11 @@ fn an_interrupted_check_tells_what_it_found_so_far() {
         let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         assert_eq!(output.status.code(), Some(130), "{out}\n{err}");
         if format == "human" {
-            assert!(out.contains(" (interrupted: of 524288 in all): s0 (2) × "), "{out}");
+            assert!(out.contains(" (interrupted: of 131072 in all): s0 (2) × "), "{out}");
         } else {
             let answer: Value = serde_json::from_str(&out).expect("JSON");
-            assert_eq!((&answer["interrupted"], &answer["variants"]), (&true.into(), &524_288.into()));
-            assert!(answer["checked"].as_u64() < Some(524_288));
+            assert_eq!((&answer["interrupted"], &answer["variants"]), (&true.into(), &131_072.into()));
+            assert!(answer["checked"].as_u64() < Some(131_072));
         }
     }
 }
@@ -261,7 +261,7 @@ fn an_interrupted_check_tells_what_it_found_so_far() {
 fn without_a_terminal_a_line_every_few_seconds_says_how_many_how_fast_and_how_long() {
     use std::io::{BufRead, BufReader};
     let place = Place::new();
-    place.file("p.ron", switches(19));
+    place.file("p.ron", switches(17));
     let mut command = place.command(&["check", "p.ron", "--all-variants", "--threads", "1"]);
     command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
     let begun = std::time::Instant::now();
@@ -274,7 +274,7 @@ fn without_a_terminal_a_line_every_few_seconds_says_how_many_how_fast_and_how_lo
     assert!((8..30).contains(&took), "two lines after {took} s");
     for line in said {
         let words: Vec<&str> = line.split(' ').collect();
-        let ["note:", "checked", _, "of", "524288", "variants,", _, "a", "second,", .., "left"] = words[..] else {
+        let ["note:", "checked", _, "of", "131072", "variants,", _, "a", "second,", .., "left"] = words[..] else {
             panic!("{line}")
         };
     }

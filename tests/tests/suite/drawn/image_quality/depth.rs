@@ -52,6 +52,6 @@ fn each_way_to_see_depth_has_its_error_and_every_sample_the_least() -> Result<()
     println!("stripes of 4 samples: {}", told.join(", "));
     let [depth_only, one_of_them @ .., samples] = &errors[..] else { return Err("six ways".into()) };
     assert!(*samples < 0.6 * depth_only, "{told:?}");
-    assert!(one_of_them.iter().all(|error| *depth_only < 0.9 * error), "{told:?}");
+    assert!(one_of_them.iter().all(|error| *depth_only < 0.95 * error), "{told:?}");
     Ok(())
 }
