@@ -336,11 +336,11 @@ fn stages_that_do_not_fit_together_are_refused() {
     };
     assert_eq!(
         what(&fragment(2, "vec2")),
-        "test.frag reads `vec2 uv` at location 2, where test.vert hands over nothing"
+        "test.frag:2: it reads `vec2 uv` at location 2, where test.vert hands over nothing"
     );
     assert_eq!(
         what(&fragment(1, "vec3")),
-        "test.frag reads `vec3 uv` at location 1, where test.vert hands over `vec2 uv`"
+        "test.frag:2: it reads `vec3 uv` at location 1, where test.vert hands over `vec2 uv`"
     );
 }
 
