@@ -1,4 +1,4 @@
-//! `cargo bench --workspace --profile dev --bench dev_instructions`: the instructions that recording and submitting a frame
+//! `cargo bench --workspace --profile test --bench dev_instructions`: the instructions that recording and submitting a frame
 //! takes, beside the committed ones. It fails if a frame takes 3 % more, and names the command that accepts the new figures. It
 //! needs valgrind and a device. The profile `dev`, and that of the whole workspace, counts what tests build anyway.
 //!
@@ -23,7 +23,7 @@ use workload::Workload;
 /// The figures, and how new ones are accepted.
 const GUARD: Guard = Guard {
     figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
-    accept: "FRAMEWRIGHT_ACCEPT=backend-vulkan cargo bench --workspace --profile dev --bench dev_instructions",
+    accept: "FRAMEWRIGHT_ACCEPT=backend-vulkan cargo bench --workspace --profile test --bench dev_instructions",
 };
 
 /// A row of the table, and the frame that is recorded for it.

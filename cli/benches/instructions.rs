@@ -1,4 +1,4 @@
-//! `cargo bench --workspace --profile dev --bench dev_instructions`: the instructions that checking all variants of `forward`
+//! `cargo bench --workspace --profile test --bench dev_instructions`: the instructions that checking all variants of `forward`
 //! takes, beside the committed ones. It fails if they are 3 % more, and names the command that accepts the new figures. It
 //! needs valgrind. The profile `dev`, and that of the whole workspace, counts what tests build anyway.
 //!
@@ -14,7 +14,7 @@ use counts::{Code, Guard};
 use std::error::Error;
 use std::process::{Command, ExitCode};
 
-const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=cli cargo bench --workspace --profile dev --bench dev_instructions";
+const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT=cli cargo bench --workspace --profile test --bench dev_instructions";
 const FIGURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(shown(Format::R16_UNORM, &0x8000_u16.to_ne_bytes()), [188, 0, 0]);
         assert_eq!(shown(Format::R8G8B8A8_SNORM, &[0x40, 0x81, 0x7f, 0]), [188, 0, 255]);
         assert_eq!(shown(Format::R16G16B16A16_SINT, &[9, 0, 0xff, 0xff, 0, 1, 0, 0]), [9, 0, 255]);
-        assert_eq!(shown(Format::R32G32_UINT, &[7, 0, 0, 0, 8, 0, 0, 0]), [7, 0, 0]);
+        assert_eq!(shown(Format::R32G32_UINT, &[7, 0, 0, 0, 8, 0, 0, 0]), [7, 8, 0]);
     }
 
     #[test]
