@@ -472,7 +472,7 @@ fn too_many_open_files_are_no_mistake_of_a_file() {
     );
     let mut codes = Vec::new();
     for most in 4..12 {
-        let line = format!("ulimit -n {most}; XDG_CACHE_HOME=none exec \"$0\" check mine.ron");
+        let line = format!("ulimit -n {most}; exec \"$0\" check mine.ron --no-cache");
         let mut shell = std::process::Command::new("sh");
         let outcome = outcome(shell.args(["-c", &line, env!("CARGO_BIN_EXE_framewright")]).current_dir(place.path("")));
         assert!(matches!(outcome.code, Some(0 | 3)), "{most}: {:?} {}", outcome.code, outcome.err);

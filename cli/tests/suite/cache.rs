@@ -45,11 +45,11 @@ const CHECK: [&str; 2] = ["check", "p.ron"];
 #[test]
 fn what_was_compiled_is_not_compiled_again() {
     let place = place();
-    run_without_compiler(&place, &CHECK).exits(1).mentions("the helper process that compiles shaders");
+    run_without_compiler(&place, &CHECK).exits(3).mentions("the helper process that compiles shaders");
     let first = run(&place, &CHECK).exits(0);
     assert_eq!(kept(&place).len(), 2, "a fragment stage and a vertex stage");
     assert_eq!(run_without_compiler(&place, &CHECK).exits(0).out, first.out);
-    run_without_compiler(&place, &["check", "p.ron", "--no-cache"]).exits(1);
+    run_without_compiler(&place, &["check", "p.ron", "--no-cache"]).exits(3);
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_file_that_changed_is_compiled_whichever_it_is() {
     place.file("shade.glsl", "#define SHADE vec4(nothing)\n");
     run(&place, &CHECK).exits(1).mentions("'nothing' : undeclared identifier");
     place.file("shade.glsl", "#define SHADE vec4(0.5)\n");
-    run_without_compiler(&place, &CHECK).exits(1);
+    run_without_compiler(&place, &CHECK).exits(3);
     run(&place, &CHECK).exits(0);
     run_without_compiler(&place, &CHECK).exits(0);
     place.file("fill.frag", SHADER.replace("SHADE;", "SHADE * wrong;"));
@@ -91,16 +91,16 @@ fn a_stage_is_the_same_from_wherever_its_file_is_named() {
     let absolute = place.path("p.ron").to_string_lossy().into_owned();
     run_without_compiler(&place, &["check", &absolute]).exits(0);
     place.file("shade.glsl", "#define SHADE vec4(nothing)\n");
-    run_without_compiler(&place, &["check", &absolute]).exits(1);
+    run_without_compiler(&place, &["check", &absolute]).exits(3);
 }
 
 #[test]
 fn other_limits_compile_anew() {
     let place = place();
     run(&place, &CHECK).exits(0);
-    run_without_compiler(&place, &["check", "p.ron", "--shader-stack", "9"]).exits(1);
-    run_without_compiler(&place, &["check", "p.ron", "--shader-memory", "1025"]).exits(1);
-    run_without_compiler(&place, &["check", "p.ron", "--shader-seconds", "11"]).exits(1);
+    run_without_compiler(&place, &["check", "p.ron", "--shader-stack", "9"]).exits(3);
+    run_without_compiler(&place, &["check", "p.ron", "--shader-memory", "1025"]).exits(3);
+    run_without_compiler(&place, &["check", "p.ron", "--shader-seconds", "11"]).exits(3);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_damaged_file_counts_as_none_and_is_replaced() {
         damaged.push([&*whole, b"more"].concat());
         for bytes in damaged {
             fs::write(&file, &bytes).expect("written");
-            run_without_compiler(&place, &CHECK).exits(1);
+            run_without_compiler(&place, &CHECK).exits(3);
             run(&place, &CHECK).exits(0);
             assert!(fs::read(&file).expect("read") == whole, "it is written again as it was");
         }
