@@ -14,8 +14,14 @@ const TEXELS: usize = 6;
 /// Draws that leave every texel as it was cleared.
 const SHADERS: Shaders = &[
     ("nothing.frag", "#version 460\nlayout(location = 0) out vec4 color; void main() { color = vec4(0.0); discard; }"),
-    ("nothing_u.frag", "#version 460\nlayout(location = 0) out uvec4 color; void main() { color = uvec4(0); discard; }"),
-    ("nothing_i.frag", "#version 460\nlayout(location = 0) out ivec4 color; void main() { color = ivec4(0); discard; }"),
+    (
+        "nothing_u.frag",
+        "#version 460\nlayout(location = 0) out uvec4 color; void main() { color = uvec4(0); discard; }",
+    ),
+    (
+        "nothing_i.frag",
+        "#version 460\nlayout(location = 0) out ivec4 color; void main() { color = ivec4(0); discard; }",
+    ),
     ("nothing_d.frag", "#version 460\nvoid main() { discard; }"),
 ];
 

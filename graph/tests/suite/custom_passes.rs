@@ -39,9 +39,11 @@ fn target(image: u32) -> ColorTarget {
 
 /// A compute pass and a fill write what two custom passes read, and a compute pass reads what one of them writes.
 fn frame() -> Frame {
-    let mut frame = Frame::default();
-    frame.images = ["picture", "seen"].map(|name| Image::new(name, Format::R8G8B8A8_UNORM, 16, 16)).into();
-    frame.buffers = ["counts", "filled", "moved", "last"].map(|name| buffer(name, Lifetime::Transient)).into();
+    let mut frame = Frame {
+        images: ["picture", "seen"].map(|name| Image::new(name, Format::R8G8B8A8_UNORM, 16, 16)).into(),
+        buffers: ["counts", "filled", "moved", "last"].map(|name| buffer(name, Lifetime::Transient)).into(),
+        ..Frame::default()
+    };
     let make = Work::Dispatch { shader: "make".into(), groups: Groups::Count([1; 3]) };
     let draw = |draw| Work::Draw { draw, shader: "own".into(), discards: false, per_sample: false };
     frame.passes = vec![
