@@ -332,7 +332,9 @@ FramewrightStatus framewright_device_open(const FramewrightDeviceOptions *option
 const char *framewright_device_name(const FramewrightDevice *device);
 
 // Tells each finding of the validation layer so far, once however often the layer said it: none without `FramewrightDeviceOptions::validation`.
-FramewrightStatus framewright_device_findings(const FramewrightDevice *device, FramewrightFinding tell, void *context);
+FramewrightStatus framewright_device_findings(const FramewrightDevice *device,
+                                              FramewrightFinding tell,
+                                              void *context);
 
 // Frees the handle of a device. What was made from it keeps it open.
 void framewright_device_free(FramewrightDevice *device);
@@ -347,7 +349,8 @@ FramewrightStatus framewright_scene_load(const char *path, FramewrightScene **sc
 
 // The mistakes in the file of a scene that were passed over, by their numbers from 0, each with what was left out or changed; NULL behind
 // the last one, and for NULL. They live as long as the handle.
-const char *framewright_scene_mistake(const FramewrightScene *scene, size_t number);
+const char *framewright_scene_mistake(const FramewrightScene *scene,
+                                      size_t number);
 
 // Frees the handle of a scene. Renderers that show it go on.
 void framewright_scene_free(FramewrightScene *scene);

@@ -159,11 +159,14 @@ static void renderers(FramewrightRenderer *renderer, const FramewrightScene *sce
         facts.depth_range = odd[i];
         WRONG(framewright_renderer_set_facts(renderer, &facts), MISUSE, "`depth_range` is ");
         facts.depth_range = 0.0;
+        facts.size = odd[i];
+        WRONG(framewright_renderer_set_facts(renderer, &facts), MISUSE, "`size` is ");
+        facts.size = 0.0;
     }
     /* The largest of everything is fine. */
     memset(&facts, 0xff, sizeof facts);
     facts.struct_size = sizeof facts;
-    facts.peak_radiance = facts.depth_range = 1e308;
+    facts.peak_radiance = facts.depth_range = facts.size = 1e308;
     FINE(framewright_renderer_set_facts(renderer, &facts));
     FINE(framewright_renderer_set_facts(renderer, NULL));
     counts(renderer);
