@@ -3,11 +3,13 @@
 use super::check_steps::{bad, executable};
 use super::descriptions::{buffer_descriptor, cycle, descriptor};
 use super::textures::file_of;
+use super::uses::passes;
 use crate::base::{Error, by};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
+use framewright_graph::frame::BufferRole;
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, Usage, name_of};
@@ -91,13 +93,17 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
 fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
     let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
     let limits = gpu.shader_limits();
-    let allowed = [
-        (true, Limit::BufferBytes),
-        (buffer.usage.contains(BufferUsage::UNIFORM_BUFFER), Limit::UniformBytes),
-        (buffer.usage.contains(BufferUsage::STORAGE_BUFFER), Limit::StorageBytes),
-    ];
-    let exceeded = allowed.into_iter().find(|(used, limit)| *used && buffer.bytes > limits.of(*limit));
-    if let Some((_, limit)) = exceeded {
+    // Usage says less: what a custom pass reads may be used in any way.
+    let accesses = plan.steps.iter().flat_map(|step| passes(&step.work)).flat_map(|pass| &pass.buffers);
+    let bound = accesses.filter(|access| access.buffer == buffer.id).filter_map(|access| match access.role? {
+        BufferRole::Uniform => Some(Limit::UniformBytes),
+        BufferRole::Storage { .. } => Some(Limit::StorageBytes),
+        BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
+    });
+    let exceeds = |limit: &Limit| buffer.bytes > limits.of(*limit);
+    let is_small = ![Limit::UniformBytes, Limit::StorageBytes, Limit::BufferBytes].iter().any(exceeds);
+    let exceeded = if is_small { None } else { [Limit::BufferBytes].into_iter().chain(bound).find(exceeds) };
+    if let Some(limit) = exceeded {
         let (device, most) = (&gpu.summary.name, limits.of(limit));
         return bad(format!("`{name}` has {} bytes; {device} allows {most} ({})", buffer.bytes, limit.name()));
     }

@@ -2,7 +2,7 @@
 //! checks that can be switched off by itself has a mistake of its own.
 //!
 //! What is recorded is never submitted. The layer checks commands as they are recorded, and objects as they are made, and the device
-//! never sees them.
+//! never sees them. The driver sees one mistake: a fence that two threads use at once.
 
 use crate::base::{Error, convert};
 use crate::commands::Commands;
@@ -251,8 +251,8 @@ impl Things<'_> {
             let is_over = AtomicBool::new(false);
             let waits = || {
                 let wait = || {
-                    // SAFETY: the fence lives. Nothing signals it, so that the call ends when its time is over; to reset a
-                    // fence that is waited for and that no submission signals changes nothing.
+                    // SAFETY: the fence lives, and nothing signals it, so that the call ends when its time is over. That it is reset
+                    // meanwhile breaks Vulkan's rule on purpose: the layer must say so. Drivers clear a flag that isn't set.
                     let _ = unsafe { raw.wait_for_fences(&[fence], true, milliseconds * 1_000_000) };
                 };
                 let ((), messages) = self.messages.apart(wait);

@@ -2,8 +2,8 @@
 //!
 //! An output counts as set where each path through the control flow graph, from the beginning of the entry point to its end,
 //! stores to all its components, in the entry point itself or in functions that it calls. A path that ends the invocation has
-//! no outputs. Both ways of a branch count as taken, but for one on a constant, and a loop may end before its first round. Where it
-//! would do that each loop has a round, and that an index takes all its values, an output is taken for perhaps set.
+//! no outputs. Both ways of a branch count as taken, whatever is known of its condition, but for one on a constant. A loop may end before
+//! its first round. An output is perhaps set if it is set where each loop has a round, and an index takes all its values.
 
 use super::module::{IndexedModule, id, storage_class};
 use framewright_graph::shader::Unset;
@@ -118,7 +118,8 @@ impl Set {
 struct Output {
     variable: u32,
     location: Option<u32>,
-    elements: usize,
+    /// Of an array; for an array of arrays the outermost length comes first.
+    lengths: Vec<usize>,
     components: usize,
     first: usize,
 }
@@ -136,7 +137,7 @@ impl Output {
                 return None;
             }
             let lacking = if never.is_empty() { &sometimes } else { &never };
-            let place = if self.elements > 1 { format!("[{number}]") } else { String::new() };
+            let place = if self.lengths.is_empty() { String::new() } else { format!("[{number}]") };
             let letters = match lacking.len() == self.components {
                 true => String::new(),
                 false => format!(".{}", lacking.iter().filter_map(|at| "xyzw".get(*at..=*at)).collect::<String>()),
@@ -149,7 +150,12 @@ impl Output {
                 self.location.map(|location| location.saturating_add(u32::try_from(number).unwrap_or(u32::MAX)));
             Some(Unset { location, name: name.to_owned(), what, refused, place: None })
         };
-        (0..self.elements).filter_map(element).collect()
+        (0..self.elements()).filter_map(element).collect()
+    }
+
+    /// How many vectors or scalars it consists of.
+    fn elements(&self) -> usize {
+        self.lengths.iter().product()
     }
 }
 
@@ -171,20 +177,20 @@ impl Outputs {
             // A variable that is initialised is set.
             let initialised = it.operands.len() > 1;
             let Some(mut ty) = module.pointee(it).filter(|_| !initialised) else { continue };
-            let mut elements: usize = 1;
+            let mut lengths = Vec::new();
             while ty.class.opcode == Op::TypeArray {
-                elements = elements.saturating_mul(module.array_length(ty) as usize);
+                lengths.push(module.array_length(ty) as usize);
                 let Some(element) = id(ty, 0).and_then(|element| module.global(element)) else { break };
                 ty = element;
             }
             let components = ty.result_id.map_or(1, |ty| module.components(ty)) as usize;
-            let bits = elements.saturating_mul(components);
+            let bits = lengths.iter().fold(components, |bits, length| bits.saturating_mul(*length));
             // The number of outputs is bounded elsewhere.
             if bits > MOST_COMPONENTS {
                 continue;
             }
             outputs.by_id.insert(variable, outputs.variables.len());
-            outputs.variables.push(Output { variable, location, elements, components, first: outputs.bits });
+            outputs.variables.push(Output { variable, location, lengths, components, first: outputs.bits });
             outputs.bits += bits;
         }
         outputs
@@ -194,14 +200,9 @@ impl Outputs {
     fn pointed_to(&self, pointer: u32, chains: &HashMap<u32, (u32, Vec<Index>)>) -> Option<(Range<usize>, bool)> {
         let (variable, path) = chains.get(&pointer).map_or((pointer, &[][..]), |(variable, path)| (*variable, path));
         let output = &self.variables[*self.by_id.get(&variable)?];
-        let whole = output.first..output.first + output.elements * output.components;
-        // Arrays of arrays aren't followed into their elements.
+        let whole = output.first..output.first + output.elements() * output.components;
         let (mut known, mut range) = (true, whole.clone());
-        let mut sizes = match (output.elements, output.components) {
-            (1, components) => vec![components],
-            (elements, components) => vec![elements, components],
-        }
-        .into_iter();
+        let mut sizes = output.lengths.iter().copied().chain([output.components]);
         for index in path {
             let Some(count) = sizes.next() else { return Some((whole, false)) };
             let length = range.len() / count.max(1);
@@ -235,7 +236,7 @@ enum Index {
 enum Rounds {
     /// Any number, and any of them.
     AnyNumber,
-    /// One at least, and all of them.
+    /// One at least, and all of them; a function sets what a pointer that it is given points to.
     AtLeastOne,
 }
 
@@ -304,7 +305,12 @@ impl Paths {
                         }
                         // What is handed over may be set, or not.
                         let handed = it.operands.iter().skip(1).filter_map(Operand::id_ref_any);
-                        handed.filter_map(|it| outputs.pointed_to(it, &chains)).for_each(|(range, _)| ever.add(range));
+                        for (range, _) in handed.filter_map(|it| outputs.pointed_to(it, &chains)) {
+                            ever.add(range.clone());
+                            if rounds == Rounds::AtLeastOne {
+                                sets.add(range);
+                            }
+                        }
                     }
                     // What follows has no effect.
                     Op::DemoteToHelperInvocation => sets = Set::all(bits),

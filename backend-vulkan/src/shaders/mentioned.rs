@@ -107,12 +107,17 @@ const NO_TYPES: [&str; 24] = [
 /// Whether a text without comments declares `name`, as a variable, a parameter, a member or a function, or defines it as a
 /// macro without asking first whether there is one.
 fn declares(text: &str, name: &str) -> bool {
+    // A line that goes on is one line.
+    let text = &*text.replace("\\\r\n", "   ").replace("\\\n", "  ");
     let letter = |letter: char| letter == '_' || letter.is_ascii_alphanumeric();
     let before = text.match_indices(name).filter_map(|(at, _)| {
         let behind = text[at + name.len()..].chars().next();
         let (before, whole) = (&text[..at], !text[..at].ends_with(letter) && !behind.is_some_and(letter));
         let line = before.rsplit('\n').next().unwrap_or(before);
-        whole.then(|| (line.trim_start(), before.trim_end()))
+        // A directive before it is no type.
+        let code = before[..before.len() - line.len()].lines().rev().find(|line| !line.trim().is_empty());
+        let own = line.trim().is_empty() && code.is_some_and(|line| line.trim_start().starts_with('#'));
+        whole.then(|| (line.trim_start(), if own { "" } else { before.trim_end() }))
     });
     let (mut asked, mut defined) = (false, false);
     for (line, before) in before {

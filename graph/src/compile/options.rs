@@ -5,8 +5,8 @@
 pub struct Options {
     /// Whether transient images share memory.
     pub alias: bool,
-    /// Whether transient images can be filled with poison before their first use: adds `TRANSFER_DST`, and leaves no
-    /// image `TRANSIENT_ATTACHMENT`, which excludes it.
+    /// Whether images and buffers can be filled with poison where what they held is given up: adds `TRANSFER_DST`, and leaves no image
+    /// `TRANSIENT_ATTACHMENT`, which excludes it.
     pub poison: bool,
     /// The order of execution.
     pub order: Order,

@@ -169,7 +169,7 @@ impl Structure {
     ) -> Result<Settled, Vec<Diagnostic>> {
         let placed = self.place(&barriers, device, memory, options)?;
         let aliasing = Aliasing::of(&placed, &self.by_first_step);
-        let barriers = self.barriers(barriers, &aliasing);
+        let barriers = self.barriers(barriers, &aliasing, options);
         Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
     }
 
@@ -213,7 +213,7 @@ impl Structure {
         }
         let mut barriers = std::mem::take(&mut settled.barriers.barriers);
         barriers.clone_from(&self.timeline.barriers);
-        settled.barriers = self.barriers(barriers, &settled.aliasing);
+        settled.barriers = self.barriers(barriers, &settled.aliasing, options);
         Ok(Settling::OtherBarriers)
     }
 
@@ -236,8 +236,8 @@ impl Structure {
         memory::place(&self.adapted, times, device, memory, options)
     }
 
-    fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing) -> Barriers {
+    fn barriers(&self, barriers: Vec<SubresourceBarrier>, aliasing: &Aliasing, options: &Options) -> Barriers {
         let steps = self.scoped.steps.len() as u32;
-        sync::barriers(&self.adapted, &self.timeline, barriers, &aliasing.edges, steps)
+        sync::barriers(&self.adapted, &self.timeline, barriers, &aliasing.edges, steps, options.poison)
     }
 }

@@ -10,9 +10,10 @@ use super::{
     targets, views,
 };
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
-use crate::frame::{Frame, Stereo, SwitchedOff, View};
+use crate::frame::{Frame, Remark, Stereo, SwitchedOff, View};
 use crate::language::{self, Document, Read, Reads};
 use crate::shader::ShaderInterfaces;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Puts settings, facts, sizes and the device into a pipeline and checks it against its shaders. `sources` are those that
@@ -138,7 +139,8 @@ fn expand_so(
             let settings = settings::shown(&document.settings, &values);
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [shared, views::remarks(&pipeline), kept, coarse, checked.remarks, stored].concat();
+            let remarks =
+                each_once([shared, views::remarks(&pipeline), kept, coarse, checked.remarks, stored].concat());
             Ok(Frame {
                 sources,
                 settings,
@@ -171,4 +173,11 @@ fn view(described: &language::View) -> View {
     let camera = camera.as_ref().map(|camera| camera.text.clone());
     let (allows, jitter) = (*allows, jitter.clone());
     View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter, eye: *eye }
+}
+
+/// The remarks without those that were made before of the same place: a pass that runs for each eye by itself is there twice.
+fn each_once(mut remarks: Vec<Remark>) -> Vec<Remark> {
+    let mut seen = HashSet::new();
+    remarks.retain(|remark| seen.insert((remark.span, remark.text.clone())));
+    remarks
 }

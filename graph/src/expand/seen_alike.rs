@@ -17,10 +17,6 @@ pub(super) fn note(
     let Some(block) = interface.sees_alike.first().filter(|_| own && is_for_each_eye(resources, pass)) else { return };
     let given = pass.uniform.iter().map(|it| &it.binding).chain(pass.storage.iter().map(|it| &it.binding));
     let span = given.into_iter().find(|name| *name.text == **block).map_or(pass.name.span, |name| name.span);
-    // A pass that runs for each eye by itself is there twice.
-    if remarks.iter().any(|known| known.span == span) {
-        return;
-    }
     let text = format!(
         "draws for each eye by `{block}`, which holds a matrix and is the same for both eyes: they see no parallax; let the buffer hold \
          a matrix for each, and choose by `eye_index` of `include/stereo.glsl`"

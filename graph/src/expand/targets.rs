@@ -189,9 +189,7 @@ pub(super) fn untaken(pass: &language::Pass, interface: &ShaderInterface, remark
     let untaken = interface.outputs.iter().filter(|output| output.location as usize >= pass.color.len());
     let names: Vec<String> =
         untaken.map(|output| format!("`{}` (location {})", output.name, output.location)).collect();
-    // A pass that runs for each eye by itself is there twice.
-    let known = |remark: &Remark| remark.span == shader.span;
-    if names.is_empty() || remarks.iter().any(known) {
+    if names.is_empty() {
         return;
     }
     let taken = match pass.color.len() {

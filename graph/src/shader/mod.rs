@@ -234,7 +234,8 @@ pub struct Unset {
     pub name: String,
     /// What the stage doesn't do, in words: "never sets `color.a`".
     pub what: String,
-    /// Whether that is sure: the path doesn't depend on how many rounds a loop has, nor on an index.
+    /// Whether the stage is refused: some path leaves the output, however many rounds loops have and whatever indices are. Conditions
+    /// aren't looked at: paths count that exclude each other.
     pub refused: bool,
     /// File and line of its declaration, `FILE:LINE`, if they are known.
     pub place: Option<String>,

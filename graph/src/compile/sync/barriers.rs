@@ -23,13 +23,14 @@ pub(in crate::compile) struct Barriers {
     pub(in crate::compile) steps: u32,
 }
 
-/// Completes `barriers`, which are those of the timeline, and puts them into calls. `steps`: the frame's own.
+/// Completes `barriers`, which are those of the timeline, and puts them into calls. `steps`: the frame's own. `poison`: images are poisoned.
 pub(in crate::compile) fn barriers(
     adapted: &Adapted,
     timeline: &AccessTimeline,
     barriers: Vec<SubresourceBarrier>,
     edges: &[AliasEdge],
     steps: u32,
+    poison: bool,
 ) -> Barriers {
     let mut initial = initial_barriers::complete(adapted, timeline, barriers, edges);
     let mut batched = batches::batch(&initial.queues, &initial.barriers);
@@ -37,7 +38,7 @@ pub(in crate::compile) fn barriers(
         batches::gather_buffers(&initial.queues, &adapted.resources, &initial.barriers, &mut batched);
     }
     if adapted.buffers > 0 || adapted.resources.iter().any(|it| matches!(it.memory, MemorySource::Persistent { .. })) {
-        redundant::take_out(adapted, timeline, &mut initial, &mut batched);
+        redundant::take_out(adapted, timeline, poison, &mut initial, &mut batched);
     }
     let initial_barriers::Initial { barriers, queues, aliased } = initial;
     let has_final_states =

@@ -16,21 +16,27 @@ use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Stages};
 
-/// Takes redundant barriers out of the calls.
+/// Takes redundant barriers out of the calls. With `poison`, barriers stay where an image gives up what it held: there it is poisoned.
 pub(super) fn take_out(
     adapted: &Adapted,
     timeline: &AccessTimeline,
+    poison: bool,
     initial: &mut Initial,
     batched: &mut Vec<Batched>,
 ) {
+    // Barriers that make others redundant. They stay.
+    let mut needed: Vec<u32> = Vec::new();
     let mut at = 0;
     while let Some(it) = batched.get(at).copied() {
         let barrier = &initial.barriers[it.barrier as usize];
-        let is_redundant = waits_alone(timeline, barrier)
+        let may_go = waits_alone(timeline, barrier)
+            && (barrier.keeps || !poison)
             && !initial.queues.is_crossed(barrier.resource)
             && !initial.queues.is_held(it.barrier)
-            && Calls { adapted, timeline, initial, batched }.make_redundant(it);
-        if is_redundant {
+            && !needed.contains(&it.barrier);
+        let others = may_go.then(|| Calls { adapted, timeline, initial, batched }.make_redundant(it)).flatten();
+        if let Some(others) = others {
+            needed.extend(others);
             initial.barriers[it.barrier as usize].step = NEVER;
             batched.remove(at);
         } else {
@@ -71,32 +77,35 @@ impl Calls<'_> {
         &self.initial.barriers[it.barrier as usize]
     }
 
-    /// Whether the other barriers make this one redundant.
-    fn make_redundant(&self, it: Batched) -> bool {
+    /// Other barriers that make this one redundant, if there are such.
+    fn make_redundant(&self, it: Batched) -> Option<Vec<u32>> {
         let barrier = self.barrier(&it);
-        self.cover(it, barrier) || barrier.src_accesses.is_empty() && self.lead_on(it, barrier)
+        let by_reads = || barrier.src_accesses.is_empty().then(|| self.lead_on(it, barrier)).flatten();
+        self.cover(it, barrier).or_else(by_reads)
     }
 
-    /// Whether the memory barrier of one call, without this barrier, says all that it says.
-    fn cover(&self, it: Batched, barrier: &SubresourceBarrier) -> bool {
+    /// The barriers of a call whose memory barrier, without this barrier, says all that it says.
+    fn cover(&self, it: Batched, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
         let queues = &self.initial.queues;
         let comes_before =
             |call: &[Batched]| call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at);
         let mut calls = self.batched.chunk_by(|one, other| one.at == other.at).filter(|call| comes_before(call));
-        calls.any(|call| {
-            let others = call.iter().filter(|other| other.barrier != it.barrier).map(|other| self.barrier(other));
-            let mut of_buffers = others.filter(|other| self.is_buffer(other.resource));
-            let Some(first) = of_buffers.next().copied() else { return false };
-            let all = of_buffers.fold(first, |mut all, other| {
+        calls.find_map(|call| {
+            let others = call.iter().filter(|other| other.barrier != it.barrier);
+            let of_buffers = others.filter(|other| self.is_buffer(self.barrier(other).resource));
+            let mut barriers = of_buffers.clone().map(|other| self.barrier(other));
+            let first = *barriers.next()?;
+            let all = barriers.fold(first, |mut all, other| {
                 all.widen(other.dst_stages, other.dst_accesses);
                 all.src_stages |= other.src_stages;
                 all.src_accesses |= other.src_accesses;
                 all
             });
-            all.src_stages.contains(barrier.src_stages)
+            let covers = all.src_stages.contains(barrier.src_stages)
                 && all.src_accesses.contains(barrier.src_accesses)
                 && all.dst_stages.contains(barrier.dst_stages)
-                && all.dst_accesses.contains(barrier.dst_accesses)
+                && all.dst_accesses.contains(barrier.dst_accesses);
+            covers.then(|| of_buffers.map(|other| other.barrier).collect())
         })
     }
 
@@ -104,14 +113,22 @@ impl Calls<'_> {
         self.adapted.resources[resource as usize].image().is_none()
     }
 
-    /// Whether a chain of barriers leads from the reads that this one waits for to the access behind it.
-    fn lead_on(&self, it: Batched, barrier: &SubresourceBarrier) -> bool {
+    /// Barriers that form a chain from the reads that this one waits for to the access behind it, if there are such: with those that
+    /// make the write before the reads visible.
+    fn lead_on(&self, it: Batched, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
         let reads = self.earlier_reads(barrier);
         let known = reads.iter().fold(Stages::empty(), |all, reads| all | reads.stages);
         let behind_write = reads.last().and_then(|reads| reads.behind_write);
-        known == barrier.src_stages
-            && behind_write.is_some_and(|shows| self.is_shown(shows, barrier))
-            && reads.iter().all(|reads| reads.stages.iter().all(|stage| self.is_followed(it, reads, stage)))
+        if known != barrier.src_stages {
+            return None;
+        }
+        let mut needed = self.showing(behind_write?, barrier)?;
+        for reads in &reads {
+            for stage in reads.stages.iter() {
+                needed.extend(self.following(it, reads, stage)?);
+            }
+        }
+        Some(needed)
     }
 
     /// The reads of a subresource since it was written last, in earlier frames.
@@ -138,26 +155,32 @@ impl Calls<'_> {
         reads
     }
 
-    /// Whether barrier number `shows`, or the memory barrier that it is part of, makes the same write visible to the access behind
+    /// Barrier number `shows`, or those that form a memory barrier with it, if it makes the same write visible to the access behind
     /// `barrier`.
-    fn is_shown(&self, shows: u32, barrier: &SubresourceBarrier) -> bool {
-        if !self.is_buffer(barrier.resource) {
-            let shows = &self.initial.barriers[shows as usize];
-            return shows.dst_stages.contains(barrier.dst_stages) && shows.dst_accesses.contains(barrier.dst_accesses);
-        }
-        let Some(call) = self.batched.iter().find(|it| it.barrier == shows).map(|it| it.at) else { return false };
-        let of_call = self.batched.iter().filter(|it| it.at == call).map(|it| self.barrier(it));
-        let of_buffers = of_call.filter(|it| self.is_buffer(it.resource));
-        let (stages, accesses) = of_buffers.fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
-            (stages | it.dst_stages, accesses | it.dst_accesses)
-        });
-        stages.contains(barrier.dst_stages) && accesses.contains(barrier.dst_accesses)
+    fn showing(&self, shows: u32, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
+        let one = self.batched.iter().find(|it| it.barrier == shows)?;
+        let parts: Vec<&Batched> = match self.is_buffer(barrier.resource) {
+            false => vec![one],
+            true => {
+                let of_call = self.batched.iter().filter(|it| it.at == one.at);
+                of_call.filter(|it| self.is_buffer(self.barrier(it).resource)).collect()
+            }
+        };
+        let (stages, accesses) = parts
+            .iter()
+            .map(|it| self.barrier(it))
+            .fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
+                (stages | it.dst_stages, accesses | it.dst_accesses)
+            });
+        let shows = stages.contains(barrier.dst_stages) && accesses.contains(barrier.dst_accesses);
+        shows.then(|| parts.iter().map(|it| it.barrier).collect())
     }
 
-    /// Whether barriers form a chain from reads in `stage` to the stages before which the barrier `it` stands.
-    fn is_followed(&self, it: Batched, reads: &Reads, stage: Stages) -> bool {
+    /// Barriers that form a chain from reads in `stage` to the stages before which the barrier `it` stands, if there are such.
+    fn following(&self, it: Batched, reads: &Reads, stage: Stages) -> Option<Vec<u32>> {
         let queues = &self.initial.queues;
         let mut reach = Stages::empty();
+        let mut links = Vec::new();
         for frames_ago in (0..=reads.frames_ago).rev() {
             let comes_between = |other: &&Batched| {
                 other.barrier != it.barrier
@@ -166,14 +189,15 @@ impl Calls<'_> {
                     && (frames_ago > 0 || other.at < it.at)
             };
             for call in self.batched.chunk_by(|one, other| one.at == other.at) {
-                let waits = |other: &&SubresourceBarrier| {
-                    let from = and_earlier(other.src_stages);
+                let waits = |other: &&Batched| {
+                    let from = and_earlier(self.barrier(other).src_stages);
                     from.contains(stage) || from.intersects(reach)
                 };
-                let leads = call.iter().filter(comes_between).map(|other| self.barrier(other)).filter(waits);
-                reach = leads.fold(reach, |reach, other| reach | and_later(other.dst_stages));
+                let of_call: Vec<&Batched> = call.iter().filter(comes_between).filter(waits).collect();
+                links.extend(of_call.iter().map(|other| other.barrier));
+                reach = of_call.iter().fold(reach, |reach, other| reach | and_later(self.barrier(other).dst_stages));
             }
         }
-        reach.contains(self.barrier(&it).dst_stages)
+        reach.contains(self.barrier(&it).dst_stages).then_some(links)
     }
 }
