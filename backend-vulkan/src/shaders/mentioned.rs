@@ -161,6 +161,8 @@ mod tests {
         for asks in [
             "#ifndef a_st\n#define a_st vec4(1, 1, 0, 0)\n#endif",
             "#if COMPONENTS_a == 1 && defined(HAS_a)",
+            "#if defined HAS_a || \\\n    defined HAS_b\nfloat c;\n#endif",
+            "vec2 c = b +\n#ifdef OTHER\na_st.xy;\n#else\n\na_st.zw;\n#endif",
             "vec4 f() { return a_st; }",
             "f(a, a_st, b * a_st, (a_st), eye_index)",
             "#define SCALE a_st.xy",

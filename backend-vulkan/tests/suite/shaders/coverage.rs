@@ -38,6 +38,7 @@ fn an_output_that_every_path_sets_is_set() {
         "void ends() { discard; } void main() { if (uv.x < 0.5) color = vec4(1.0); else ends(); }",
         "layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more[0] = vec4(1.0); more[1].xyzw = vec4(0.0); }",
         "layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more = vec4[2](vec4(1.0), vec4(2.0)); }",
+        "layout(location = 1) out vec4 more[1]; void main() { color = vec4(0.0); more[0] = vec4(1.0); }",
         "layout(location = 1) out uint id; void main() { color = vec4(0.0); id = 7u; }",
         "void main() { color = vec4(0.0); gl_FragDepth = uv.x; }",
     ] {
