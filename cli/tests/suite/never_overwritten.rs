@@ -163,8 +163,8 @@ fn run_writes_over_no_file_that_it_read_by_whatever_name() {
 #[test]
 fn new_and_devices_write_over_no_file() {
     let place = place();
-    place.run(&["new", "p"]).exits(2).mentions("there is a file `p.ron` already");
-    place.run(&["new", "parts/fill"]).exits(2).mentions("there is a file `parts/fill.ron` already");
+    place.run(&["new", "p"]).exits(1).mentions("there is a file `p.ron` already");
+    place.run(&["new", "parts/fill"]).exits(1).mentions("there is a file `parts/fill.ron` already");
     all_is_as_it_was(&place);
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     place.run_with(&variables, &["devices", "--save", "show.frag"]).exits(2).mentions("is a shader by its name");
