@@ -30,6 +30,9 @@ const CHECKS: [&str; 10] = [
     "THREAD_SAFETY",
 ];
 
+/// Settings that choose among messages, or among checks.
+const FILTERS: [&str; 3] = ["MESSAGE_ID_FILTER", "DISABLES", "REPORT_FLAGS"];
+
 /// A setting that is made.
 struct Setting {
     /// Its name in capitals.
@@ -62,7 +65,10 @@ fn mutes(setting: &Setting) -> bool {
 fn all() -> Vec<Setting> {
     let of_environment = env::vars_os().filter_map(|(variable, value)| {
         let (variable, value) = (variable.into_string().ok()?, value.to_string_lossy().into_owned());
-        let name = PREFIXES.iter().find_map(|prefix| variable.strip_prefix(prefix))?.to_owned();
+        let name = PREFIXES.iter().find_map(|prefix| variable.strip_prefix(prefix));
+        // The shortest form is told from other variables of Vulkan by the setting's name.
+        let short = || variable.strip_prefix("VK_").filter(|name| CHECKS.contains(name) || FILTERS.contains(name));
+        let name = name.or_else(short)?.to_owned();
         // They lead to the layer and its settings, and are none.
         let leads = ["PATH", "SETTINGS_PATH"].contains(&&*name);
         (!leads).then(|| Setting { name, shown: format!("{variable}={value}"), value })

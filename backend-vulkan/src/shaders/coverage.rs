@@ -48,17 +48,33 @@ pub(super) fn unset(module: &IndexedModule<'_>) -> Vec<Unset> {
         module.module.functions.iter().filter_map(|it| Some((it.def.as_ref()?.result_id?, it))).collect();
     let order = callees_first(entry, &functions);
     let mut ever = Set::none(outputs.bits);
+    // What the entry point itself reads of outputs where no path has set it.
+    let mut read_before: Vec<Range<usize>> = Vec::new();
     let [always, perhaps] = [Rounds::AnyNumber, Rounds::AtLeastOne].map(|rounds| {
         let mut always = HashMap::new();
         // A function is looked at after those that it calls.
         for function in order.iter().filter_map(|number| functions.get(number).copied()) {
-            let set = Paths::of(module, function, &outputs, (&always, rounds), &mut ever).set_at_the_end();
-            always.extend(function.def.as_ref().and_then(|def| def.result_id).map(|number| (number, set)));
+            let paths = Paths::of(module, function, &outputs, (&always, rounds), &mut ever);
+            let number = function.def.as_ref().and_then(|def| def.result_id);
+            let (set, read) = paths.set_at_the_end();
+            if number == Some(entry) && rounds == Rounds::AtLeastOne {
+                read_before = read;
+            }
+            always.extend(number.map(|number| (number, set)));
         }
         always.remove(&entry).unwrap_or_else(|| Set::none(outputs.bits))
     });
-    let mut unset: Vec<Unset> =
-        outputs.variables.iter().flat_map(|it| it.unset(module, [&always, &perhaps, &ever])).collect();
+    let mut unset: Vec<Unset> = Vec::new();
+    for output in &outputs.variables {
+        let own = output.first..output.first + output.elements() * output.components;
+        if read_before.iter().any(|read| own.contains(&read.start)) {
+            let name = module.name(output.variable).to_owned();
+            let what = format!("reads `{name}` before it sets it");
+            unset.push(Unset { location: output.location, name, what, refused: true, place: None });
+        } else {
+            unset.extend(output.unset(module, [&always, &perhaps, &ever]));
+        }
+    }
     unset.sort_by_key(|it| it.location);
     unset
 }
@@ -249,6 +265,8 @@ struct Paths {
 /// A block: what it sets, where it leads to, and how it ends.
 struct Block {
     sets: Set,
+    /// What it reads, each with what it has set before.
+    reads: Vec<(Range<usize>, Set)>,
     next: Vec<usize>,
     returns: bool,
 }
@@ -272,6 +290,7 @@ impl Paths {
         let mut loops = Vec::new();
         for block in &function.blocks {
             let (mut sets, mut next, mut returns) = (Set::none(bits), Vec::new(), false);
+            let mut reads = Vec::new();
             let mut leads_to = |label: Option<u32>| next.extend(label.and_then(|label| numbers.get(&label).copied()));
             for it in &block.instructions {
                 match it.class.opcode {
@@ -298,6 +317,10 @@ impl Paths {
                         if known || rounds == Rounds::AtLeastOne {
                             sets.add(range);
                         }
+                    }
+                    Op::Load => {
+                        let range = id(it, 0).and_then(|from| outputs.pointed_to(from, &chains));
+                        reads.extend(range.map(|(range, _)| (range, sets.clone())));
                     }
                     Op::FunctionCall => {
                         if let Some(called) = id(it, 0).and_then(|callee| always.get(&callee)) {
@@ -335,7 +358,7 @@ impl Paths {
                     _ => {}
                 }
             }
-            blocks.push(Block { sets, next, returns });
+            blocks.push(Block { sets, reads, next, returns });
         }
         for (header, behind, again) in loops.into_iter().filter(|_| rounds == Rounds::AtLeastOne) {
             let number = |label: Option<u32>| label.and_then(|label| numbers.get(&label).copied());
@@ -353,11 +376,12 @@ impl Paths {
         Paths { blocks, bits }
     }
 
-    /// What is set on every path through the function that returns; all, if none does.
-    fn set_at_the_end(&self) -> Set {
+    /// What is set on every path through the function that returns; all, if none does. And what it reads of which no component is
+    /// set on every path to there: part of a vector is read by a load of all of it.
+    fn set_at_the_end(&self) -> (Set, Vec<Range<usize>>) {
         let mut at_the_end = Set::all(self.bits);
         if self.blocks.is_empty() {
-            return Set::none(self.bits);
+            return (Set::none(self.bits), Vec::new());
         }
         // What is set where each block begins; `None`: no path was found to it yet.
         let mut before: Vec<Option<Set>> = vec![None; self.blocks.len()];
@@ -378,13 +402,17 @@ impl Paths {
                 before[*next] = Some(met);
             }
         }
+        let mut read = Vec::new();
         for (block, before) in self.blocks.iter().zip(before) {
-            if let (true, Some(mut set)) = (block.returns, before) {
+            let Some(mut set) = before else { continue };
+            let unset = |range: &Range<usize>, own: &Set| range.clone().all(|bit| !set.has(bit) && !own.has(bit));
+            read.extend(block.reads.iter().filter(|(range, own)| unset(range, own)).map(|(range, _)| range.clone()));
+            if block.returns {
                 set.add_all_of(&block.sets);
                 at_the_end.keep_those_of(&set);
             }
         }
-        at_the_end
+        (at_the_end, read)
     }
 }
 

@@ -38,6 +38,8 @@ fn an_output_that_every_path_sets_is_set() {
         "void ends() { discard; } void main() { if (uv.x < 0.5) color = vec4(1.0); else ends(); }",
         "layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more[0] = vec4(1.0); more[1].xyzw = vec4(0.0); }",
         "layout(location = 1) out vec4 more[2]; void main() { color = vec4(0.0); more = vec4[2](vec4(1.0), vec4(2.0)); }",
+        "void main() { color.rgb = vec3(1.0); color.rgb *= uv.x; color.a = color.r; }",
+        "void main() { color = vec4(0.0); for (int i = 0; i < 4; ++i) color += vec4(0.1); }",
         "layout(location = 1) out vec4 more[1]; void main() { color = vec4(0.0); more[0] = vec4(1.0); }",
         "layout(location = 1) out uint id; void main() { color = vec4(0.0); id = 7u; }",
         "void main() { color = vec4(0.0); gl_FragDepth = uv.x; }",
@@ -70,6 +72,11 @@ fn an_output_that_some_path_leaves_is_told_with_its_components() {
         (
             "layout(location = 1) out vec4 more[2]; void main() { color = more[0] = vec4(0.0); if (uv.x < 0.5) more[1] = vec4(1.0); }",
             on_every_path("more[1]"),
+        ),
+        ("void main() { color += vec4(0.5); }", "reads `color` before it sets it".to_owned()),
+        (
+            "void main() { if (color.x < 0.5) color = vec4(0.0); else color = vec4(1.0); }",
+            "reads `color` before it sets it".to_owned(),
         ),
     ] {
         let found = unset(fragment);
