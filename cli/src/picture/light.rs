@@ -90,8 +90,11 @@ impl Light {
     }
 }
 
+type Png<'f> = Reader<Cursor<&'f [u8]>>;
+type Exr<'f> = OpenExr<Cursor<&'f [u8]>>;
+
 /// A PNG whose header was read, and its size.
-fn opened_png(file: &[u8]) -> Result<(Reader<Cursor<&[u8]>>, [usize; 2]), DecodingError> {
+fn opened_png(file: &[u8]) -> Result<(Png<'_>, [usize; 2]), DecodingError> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(file), Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
     let reader = decoder.read_info()?;
@@ -128,7 +131,7 @@ fn of_png(file: &[u8]) -> Result<Light, DecodingError> {
 }
 
 /// An OpenEXR file whose header was read, and its size.
-fn opened_exr(file: &[u8]) -> Result<(OpenExr<Cursor<&[u8]>>, [usize; 2]), DecodingError> {
+fn opened_exr(file: &[u8]) -> Result<(Exr<'_>, [usize; 2]), DecodingError> {
     let opened = OpenExr::open(Cursor::new(file)).map_err(DecodingError::OpenExr)?;
     if !opened.is_color() {
         return Err(DecodingError::NoColors);

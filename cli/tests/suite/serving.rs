@@ -171,7 +171,8 @@ fn a_folder_a_pipe_and_a_device_in_place_of_a_file_are_told_and_what_takes_their
     let make_pipe = |path: &std::path::Path| {
         assert!(std::process::Command::new("mkfifo").arg(path).status().expect("mkfifo").success());
     };
-    let odd: [(&str, &dyn Fn(&std::path::Path)); 3] = [
+    type Make<'m> = &'m dyn Fn(&std::path::Path);
+    let odd: [(&str, Make<'_>); 3] = [
         ("Is a directory", &|path| std::fs::create_dir(path).expect("made")),
         ("it is a pipe or a device", &make_pipe),
         ("it is a pipe or a device", &|path| std::os::unix::fs::symlink("/dev/zero", path).expect("linked")),

@@ -248,7 +248,10 @@ mod tests {
 
     /// What isn't there, a folder, a pipe and a device.
     #[cfg(unix)]
-    fn no_files() -> Vec<(&'static str, fn(&Path))> {
+    /// Makes something at a path.
+    type Make = fn(&Path);
+
+    fn no_files() -> Vec<(&'static str, Make)> {
         let pipe = |path: &Path| {
             let made = std::process::Command::new("mkfifo").arg(path).status().expect("mkfifo");
             assert!(made.success());

@@ -164,8 +164,11 @@ mod tests {
         VertexInput { location, component, name: format!("a{location}{component}"), ty: ty.to_owned(), used: true }
     }
 
-    /// Location, buffer, offset and components of each location, and the strides.
-    fn layout(inputs: &[VertexInput], buffers: usize) -> (Vec<(u32, usize, u32, u32)>, Vec<u32>) {
+    /// Location, buffer, offset and components of a location.
+    type Place = (u32, usize, u32, u32);
+
+    /// The places of all locations, and the strides.
+    fn layout(inputs: &[VertexInput], buffers: usize) -> (Vec<Place>, Vec<u32>) {
         let VertexLayout { locations, strides } = VertexLayout::of(inputs, buffers).expect("a layout");
         (locations.iter().map(|it| (it.location, it.buffer, it.offset, it.components)).collect(), strides)
     }

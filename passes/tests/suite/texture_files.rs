@@ -108,10 +108,13 @@ fn exr(channels: &[(&str, [f32; 2])]) -> Vec<u8> {
     file.into_inner()
 }
 
+/// Names and values of the channels of two texels.
+type Channels<'c> = &'c [(&'c str, [f32; 2])];
+
 #[test]
 fn every_set_of_channels_that_is_a_picture_is_read() {
     let [a, b, c, half] = [[0.25, 4.0], [2.0, 3.0], [5.0, 6.0], [0.5, 0.75]];
-    let cases: [(&[(&str, [f32; 2])], [[f32; 4]; 2]); 9] = [
+    let cases: [(Channels<'_>, [[f32; 4]; 2]); 9] = [
         (&[("Y", a)], [[0.25, 0.25, 0.25, 1.0], [4.0, 4.0, 4.0, 1.0]]),
         (&[("Y", a), ("A", half)], [[0.25, 0.25, 0.25, 0.5], [4.0, 4.0, 4.0, 0.75]]),
         (&[("Z", a)], [[0.25, 0.25, 0.25, 1.0], [4.0, 4.0, 4.0, 1.0]]),

@@ -50,10 +50,16 @@ fn spare_barriers(plan: &Plan) -> (usize, usize) {
     let (mut spare, mut all) = (0, 0);
     for (number, step) in plan.steps.iter().enumerate() {
         all += step.memory_barriers.len() + step.image_barriers.len();
-        let memory = (0..step.memory_barriers.len())
-            .filter(|at| does_without(plan, |plan| drop(plan.steps[number].memory_barriers.remove(*at))));
-        let images = (0..step.image_barriers.len())
-            .filter(|at| does_without(plan, |plan| drop(plan.steps[number].image_barriers.remove(*at))));
+        let memory = (0..step.memory_barriers.len()).filter(|at| {
+            does_without(plan, |plan| {
+                plan.steps[number].memory_barriers.remove(*at);
+            })
+        });
+        let images = (0..step.image_barriers.len()).filter(|at| {
+            does_without(plan, |plan| {
+                plan.steps[number].image_barriers.remove(*at);
+            })
+        });
         spare += memory.count() + images.count();
     }
     (spare, all)

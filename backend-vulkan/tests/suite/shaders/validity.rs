@@ -89,7 +89,7 @@ fn set_constants(module: &mut Module, from: u32, to: u32) {
 }
 
 fn is_decoration(it: &Instruction, wanted: Decoration) -> bool {
-    it.operands.iter().any(|operand| *operand == Operand::Decoration(wanted))
+    it.operands.contains(&Operand::Decoration(wanted))
 }
 
 #[test]
@@ -113,9 +113,9 @@ fn a_module_that_vulkan_does_not_allow_is_refused_with_its_place_and_the_rule() 
     assert!(what.contains("test.frag:2: ") && what.contains("`Params`"), "{what}");
 
     let what = refused("test.frag", FRAGMENT, |module| {
-        module.execution_modes.retain(|it| {
-            !it.operands.iter().any(|mode| *mode == Operand::ExecutionMode(ExecutionMode::OriginUpperLeft))
-        });
+        module
+            .execution_modes
+            .retain(|it| !it.operands.contains(&Operand::ExecutionMode(ExecutionMode::OriginUpperLeft)));
     });
     assert!(what.contains("OriginUpperLeft"), "{what}");
 

@@ -58,8 +58,11 @@ fn scene(light: f64, length: f64) -> Result<Scene, Box<dyn Error>> {
     text::read(&mut sources, "unit.ron", "unit.ron", file).map_err(|mistakes| format!("{mistakes:?}").into())
 }
 
+/// Settings and their values.
+type Choices = Vec<(&'static str, &'static str)>;
+
 /// The shipped pipelines, each with what is switched on in it.
-fn pipelines() -> Result<Vec<(String, Vec<(&'static str, &'static str)>)>, Box<dyn Error>> {
+fn pipelines() -> Result<Vec<(String, Choices)>, Box<dyn Error>> {
     let mut found = Vec::new();
     for file in std::fs::read_dir(in_repository("examples/pipelines"))? {
         let name = file?.file_name().to_string_lossy().into_owned();
