@@ -4,6 +4,7 @@
 use std::env::var_os;
 
 mod build {
+    #[cfg(feature = "shader-compiler")]
     pub(crate) mod glsl_compiler;
     #[cfg(feature = "spirv-validator")]
     pub(crate) mod validator;
