@@ -41,7 +41,7 @@ fn other_programs_read_mistakes_as_json() {
 }
 
 #[test]
-fn a_byte_order_mark_is_named() {
+fn a_byte_order_mark_is_taken() {
     pinned("byte_order_mark", &answer("\u{feff}Pipeline(version: 1)"));
 }
 
