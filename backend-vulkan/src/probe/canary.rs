@@ -12,6 +12,7 @@ use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::Queue;
 use framewright_graph::vulkan::{Format, Shape, Sharing, Subresources, Usage};
+use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -33,6 +34,8 @@ const EXTENT: u32 = 4;
 struct Things<'g> {
     gpu: &'g Arc<Gpu>,
     messages: &'g Messages,
+    /// One for all: older layers take what was recorded into a freed command buffer for the beginning of the next one.
+    commands: RefCell<Commands>,
     image: Image,
     view: vk::ImageView,
     /// Nothing may be copied to it.
@@ -114,7 +117,8 @@ impl Device {
         let view = image.view(Subresources::all(descriptor.format, 1, 1), ViewShape::Flat)?;
         let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let buffer = RawBuffer::new(&self.gpu, "canary", 16, usage, MemoryUse::Buffers)?;
-        let things = Things { gpu: &self.gpu, messages: &validation.messages, image, view, buffer };
+        let commands = RefCell::new(Commands::new(&self.gpu, Queue::Graphics)?);
+        let things = Things { gpu: &self.gpu, messages: &validation.messages, commands, image, view, buffer };
         let layer = validation.layer.shown.clone();
         let blind = |planted, checks| {
             Err(Error::LayerIsBlind { layer: layer.clone(), planted, checks, settings: switched_off::settings() })
@@ -161,7 +165,7 @@ fn breaks_a_rule(message: &Message) -> bool {
 impl Things<'_> {
     /// What the layer says while commands are recorded.
     fn recorded(&self, record: impl Fn(vk::CommandBuffer)) -> Result<Vec<Message>, Error> {
-        let mut commands = Commands::new(self.gpu, Queue::Graphics)?;
+        let mut commands = self.commands.borrow_mut();
         let (recorded, messages) = self.messages.apart(|| {
             commands.record(|buffer| {
                 self.clear(buffer);

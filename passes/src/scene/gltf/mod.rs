@@ -86,7 +86,7 @@ fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Sc
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
     let placed = nodes::walk(document, &mut notes);
     let (objects, bounds) = objects(document, &placed, &meshes, &groups, &mut notes)?;
-    if !objects.iter().any(|object| has_area(&meshes[object.mesh], object.transform)) {
+    if !objects.iter().any(|object| meshes[object.mesh].has_area(object.transform)) {
         notes.mistake(Problem::Nothing.to_string());
     }
     let lights = lights::read(document, &placed, &mut notes)?;
@@ -114,15 +114,6 @@ fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Sc
         mistakes,
     };
     Ok(scene.exposed(exposure, Invented { sun: invented_sun, ambient: true, sky: true }))
-}
-
-/// Whether any triangle of a mesh has an area where it stands.
-fn has_area(mesh: &Mesh, transform: DMat4) -> bool {
-    mesh.indices.as_chunks::<3>().0.iter().any(|triangle| {
-        let corner = |index: u32| transform.transform_point3(Vec3::from(mesh.positions[index as usize]).as_dvec3());
-        let [a, b, c] = triangle.map(corner);
-        (b - a).cross(c - a) != DVec3::ZERO
-    })
 }
 
 /// A primitive of a glTF mesh, as a mesh and a material of the scene.

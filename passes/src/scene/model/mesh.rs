@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use super::bounds::Bounds;
-use glam::Vec3;
+use glam::{DMat4, DVec3, Vec3};
 
 /// A list of triangles. `positions`, `normals` and `uvs` have the same length, at least 3.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,5 +33,16 @@ pub(crate) fn flat_shaded(positions: &[[f32; 3]], uvs: &[[f32; 2]], indices: &[u
         uvs: indices.iter().map(|index| uvs[*index as usize]).collect(),
         indices: (0..indices.len() as u32).collect(),
         bounds,
+    }
+}
+
+impl Mesh {
+    /// Whether any triangle has an area where the mesh stands.
+    pub(crate) fn has_area(&self, transform: DMat4) -> bool {
+        self.indices.as_chunks::<3>().0.iter().any(|triangle| {
+            let corner = |index: u32| transform.transform_point3(Vec3::from(self.positions[index as usize]).as_dvec3());
+            let [a, b, c] = triangle.map(corner);
+            (b - a).cross(c - a) != DVec3::ZERO
+        })
     }
 }

@@ -63,17 +63,22 @@ impl Scene {
 
     /// A length that is typical of the scene, metres: the geometric mean of the radius of the box around all objects and of the
     /// median radius of the boxes around each. A floor that is far wider than what stands on it makes it only somewhat larger.
-    /// 1 if there is nothing to measure.
+    /// Objects that can't be seen, without area or smaller than a millionth of all, don't count. 1 if there is nothing to measure.
     #[must_use]
     pub fn size(&self) -> f64 {
-        let boxes = self.objects.iter().map(|object| self.meshes[object.mesh].bounds.transformed(object.transform));
-        let mut radii: Vec<f64> = boxes.map(Bounds::radius).collect();
+        let around = self.bounds().map_or(0.0, Bounds::radius);
+        let radius = |object: &Object| self.meshes[object.mesh].bounds.transformed(object.transform).radius();
+        let seen = self
+            .objects
+            .iter()
+            .filter(|object| radius(object) > around * 1e-6 && self.meshes[object.mesh].has_area(object.transform));
+        let mut radii: Vec<f64> = seen.map(radius).collect();
         let middle = radii.len() / 2;
         if radii.is_empty() {
             return 1.0;
         }
         let (_, median, _) = radii.select_nth_unstable_by(middle, f64::total_cmp);
-        let size = (*median * self.bounds().map_or(0.0, Bounds::radius)).sqrt();
+        let size = (*median * around).sqrt();
         if size > 0.0 { size } else { 1.0 }
     }
 
