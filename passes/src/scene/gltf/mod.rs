@@ -43,7 +43,7 @@ use super::{defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::base::Root;
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat4, DVec3};
 use nodes::Placed;
 use picture::Textures;
 use problem::{at_most_in_all, leave_out, within};
