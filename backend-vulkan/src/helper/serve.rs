@@ -4,9 +4,9 @@ use crate::base::{end_process, limit_this_process, take_standard_output};
 use crate::gpu::Device;
 use crate::probe::{multiview, sample_resolve};
 use crate::process::{
-    self, ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, Request, SelfTest,
+    self, ARGUMENT, Answer, CompileFailure, CompileJob, Compiled, IncludedFile, LARGEST_FRAME, Request, SelfTest,
 };
-use crate::shaders::{Compiled, compile};
+use crate::shaders::compile;
 use std::fs::File;
 use std::sync::mpsc;
 use std::sync::mpsc::Receiver;

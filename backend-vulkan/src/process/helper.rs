@@ -1,10 +1,10 @@
 //! The program that is started as a helper, and what it is asked.
 
+use super::compiled::Compiled;
 use super::limits::Limits;
 use super::protocol::{Answer, CompileFailure, CompileJob, IncludedFile, Request, SampleResolve, SelfTest};
 use super::running::{NoAnswer, Running, Streams};
 use crate::base::{Cache, Cancel};
-use crate::shaders::Compiled;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;

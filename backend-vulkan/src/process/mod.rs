@@ -1,5 +1,6 @@
 //! The helper process as the program sees it: how it is started, what it is asked, what bounds it.
 
+mod compiled;
 mod helper;
 mod limits;
 mod protocol;
@@ -8,6 +9,7 @@ mod running;
 pub use helper::{Helper, LongTest};
 pub use limits::Limits;
 
+pub(crate) use compiled::{Compiled, Finding, Verdict};
 pub(crate) use helper::DeviceName;
 pub(crate) use protocol::{
     ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request, SampleResolve,

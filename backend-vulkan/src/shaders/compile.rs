@@ -1,22 +1,12 @@
 //! GLSL to SPIR-V, and the validator's verdict on it.
 
-use super::validator::Verdict;
-use crate::process::{CompileFailure, CompileJob, IncludedFile};
+use crate::process::{CompileFailure, CompileJob, Compiled, IncludedFile};
 
 /// A shader may include this many files, repetitions counted.
 pub(super) const MAX_INCLUDES: usize = 256;
 
 /// Finds the file that the file of one name includes by another name.
 pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, String> + 'a;
-
-/// A stage that was compiled.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Compiled {
-    /// SPIR-V.
-    pub(crate) spirv: Vec<u32>,
-    /// Whether it is valid.
-    pub(crate) verdict: Verdict,
-}
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3. Fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides.
 ///
@@ -27,6 +17,7 @@ pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<C
     {
         use super::by_shaderc;
         use super::validator::judge;
+        use crate::process::Verdict;
         let spirv = by_shaderc::compile(job, includes, false)?;
         let verdict = match judge(&spirv) {
             // SPIR-V has lines only if they are asked for. They cost time, and what is valid needs none.

@@ -1,12 +1,12 @@
 //! Where stages come from: from a folder of precompiled ones, or of the GLSL compiler, in this process or in a helper process.
 
-use super::compile::{Compiled, Includes, compile};
+use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
 use super::precompiled::PrecompiledShaders;
 use super::spirv_cache::{Inclusions, SpirvCache};
 use super::validator::judge;
-use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
+use crate::process::{CompileFailure, CompileJob, Compiled, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
 use std::collections::HashMap;

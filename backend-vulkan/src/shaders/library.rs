@@ -2,7 +2,6 @@
 
 use super::PrecompiledShaders;
 use super::colors;
-use super::compile::Compiled;
 use super::compilers::Compilers;
 use super::coverage::LEAVES_OUT;
 use super::eyes::{self, BothEyes};
@@ -14,9 +13,8 @@ use super::needs::Needed;
 use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, Refused};
-use super::validator::{Finding, Verdict};
 use super::varyings::without_idle_inputs;
-use crate::process::{CompileJob, Helper, ShaderStage};
+use crate::process::{CompileJob, Compiled, Finding, Helper, ShaderStage, Verdict};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};

@@ -33,5 +33,4 @@ pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled::PrecompiledShaders;
 pub use stages::Spirv;
 
-pub(crate) use compile::{Compiled, compile};
-pub(crate) use validator::Verdict;
+pub(crate) use compile::compile;

@@ -3,11 +3,11 @@
 //! A file holds digests of all that its SPIR-V was made from: the compiler, the stage's text and macros, and each file that was
 //! included. It is taken only where all of that is the same now, but for line endings.
 
-use super::compile::{Compiled, Includes};
-use super::validator::Verdict;
+use super::compile::Includes;
 use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file, shrink, used_now};
 use crate::process::{
-    CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, parse, read_frame, write, write_frame,
+    CompileJob, Compiled, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, Verdict, parse, read_frame, write,
+    write_frame,
 };
 use framewright_graph::base::unix_lines;
 use serde::{Deserialize, Serialize};

@@ -1,31 +1,7 @@
 //! The validator of SPIR-V, SPIRV-Tools', where the feature `spirv-validator` and the system have it. See build/validator.rs.
 
 use super::text::Words;
-use serde::{Deserialize, Serialize};
-
-/// The validator's verdict on a module.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Verdict {
-    /// There is no validator.
-    None,
-    /// It is valid, whatever the layout of its blocks takes.
-    Valid,
-    /// The validator doesn't know one of its words, as it says.
-    Unknown(String),
-    /// It isn't valid.
-    Invalid(Finding),
-}
-
-/// What is wrong with a module.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Finding {
-    /// The validator's words, with names in place of numbers.
-    pub(crate) words: String,
-    /// The file and line of what is wrong, if the module tells lines.
-    pub(crate) place: Option<(String, u32)>,
-    /// Words of GLSL that show it in the text, the likeliest first.
-    named: Vec<String>,
-}
+use crate::process::{Finding, Verdict};
 
 impl Finding {
     /// The words of a text that show what is wrong.
@@ -53,7 +29,7 @@ pub(super) fn is_valid(spirv: &[u32], standard: bool, scalar: bool) -> bool {
 
 #[cfg(spirv_validator)]
 mod told {
-    use super::Finding;
+    use crate::process::Finding;
     use std::collections::HashMap;
 
     /// Whether a message of the reader says that it doesn't know a word.

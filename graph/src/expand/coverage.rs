@@ -1,15 +1,8 @@
-//! What passes may leave as it was of what they write, as far as their shaders tell. `frame/covers.rs` decides by it.
+//! What draws may leave as it was of what they draw into, as far as their shaders tell. `frame/covers.rs` decides by it.
 //!
-//! A full-screen draw sets every texel unless something here says otherwise. Of storage writes nothing is proven: `writeonly` says
-//! that a shader doesn't read, not that it writes all. So what was there is kept, if anything was, unless the file promises more.
+//! A full-screen draw sets every texel unless something here says otherwise.
 
-use super::parts::Cells;
-use super::resources::Resources;
-use super::state::State;
-use super::written::Written;
-use super::{accesses, storage, writers};
-use crate::base::Span;
-use crate::frame::{Draw, Remark, Resource};
+use crate::frame::Draw;
 use crate::language;
 use crate::shader::{ShaderInterface, Unset};
 use std::sync::Arc;
@@ -55,47 +48,4 @@ pub(super) fn at(place: Option<&str>) -> String {
 /// Whether a draw tells the samples of a texel apart, or has edges although it fills the screen.
 pub(super) fn per_sample(draw: Draw, interface: Option<&ShaderInterface>) -> bool {
     interface.is_some_and(|it| it.per_sample || it.own_vertices.is_some() && draw == Draw::FullScreen)
-}
-
-/// Lets storage writes that nobody promises to be whole keep what earlier passes, or earlier frames, left. `states` are those of
-/// the pipeline's passes. Returns remarks that say so.
-pub(super) fn keep_stored(resources: &Resources<'_>, states: &mut [State]) -> Vec<Remark> {
-    let mut remarks = Vec::new();
-    let described = &resources.pipeline.passes;
-    if described.iter().flat_map(|pass| &pass.storage).all(|storage| storage.access.is_some()) {
-        return remarks;
-    }
-    let images = resources.images.len();
-    let mut written: Vec<Written> = Vec::new();
-    written.resize_with(images + resources.buffers.len(), Written::default);
-    for (state, described) in states.iter_mut().zip(described) {
-        if let State::On(pass) = state {
-            let holds = |of: Resource, cells: &Cells| {
-                let holds = resources.lifetime(of).is_some_and(|lifetime| lifetime.has_contents(of));
-                holds || written[writers::number(images, of)].has_any(cells)
-            };
-            for Kept { of, span } in storage::keep(resources, described, pass, holds) {
-                let text = format!(
-                    "keeps what it doesn't write of `{}`: its shader doesn't read it, which doesn't say that it writes all of it; \
-                     `access: Write` promises that",
-                    resources.name(of).text
-                );
-                remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
-            }
-        }
-        for pass in state.runs() {
-            accesses::for_each_write(resources, pass, |write| {
-                if let Some(whole) = accesses::whole(resources, write.resource) {
-                    written[writers::number(images, write.resource)].add(&write.cells, &whole);
-                }
-            });
-        }
-    }
-    remarks
-}
-
-/// An image or buffer that a storage write keeps, and where it is named.
-pub(super) struct Kept {
-    pub(super) of: Resource,
-    pub(super) span: Span,
 }

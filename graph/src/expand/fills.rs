@@ -1,8 +1,7 @@
 //! Values for all texels of an image or all words of a buffer, typed by the image or buffer that they fill.
 
-use super::resources::Resources;
 use crate::base::shown_number;
-use crate::language::{Fill, Part};
+use crate::language::Fill;
 use crate::vulkan::{Aspects, FillValue, Format, Numeric};
 
 /// Zero, as the format has it; `None`: a buffer.
@@ -16,13 +15,6 @@ pub(super) fn zero(format: Option<Format>) -> FillValue {
 
 /// What is filled: a format and the planes of it; `None`: a buffer.
 pub(super) type Filled = Option<(Format, Aspects)>;
-
-/// What of an image or buffer a part of it is.
-pub(super) fn filled(resources: &Resources<'_>, part: &Part) -> Filled {
-    let Part::Image(part) = part else { return None };
-    let format = resources.image(part.image.index)?.image.format;
-    Some((format, part.plane.map_or(format.aspects(), |plane| plane.value)))
-}
 
 /// The value as the format has it. An error says why the value doesn't fit, and which value would.
 pub(super) fn typed(fill: Fill, filled: Filled) -> Result<FillValue, (String, String)> {

@@ -6,7 +6,7 @@ use super::outputs::outputs;
 use super::resources::Resources;
 use super::state::State;
 use super::{
-    casters, coverage, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader,
+    casters, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, stored,
     targets, views,
 };
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
@@ -119,7 +119,7 @@ fn expand_so(
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
     let before = errors.len();
-    let stored = coverage::keep_stored(&resources, &mut states);
+    let stored = stored::keep(&resources, &mut states);
     order::check(&resources, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
     if errors.is_empty() {

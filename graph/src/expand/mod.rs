@@ -40,6 +40,7 @@ mod shapes;
 mod state;
 mod states;
 mod storage;
+mod stored;
 mod supplied;
 mod targets;
 mod transfers;

@@ -181,7 +181,7 @@ pub(super) fn stand_ins(
             StandIn::Clear { to, value } => {
                 let part = language::Part::Image(language::ImagePart::whole(to));
                 transfers::fill(resources, &part, value, errors);
-                let filled = fills::typed(value.value, fills::filled(resources, &part));
+                let filled = fills::typed(value.value, resources.filled(&part));
                 let filled = filled.unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
                 let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };

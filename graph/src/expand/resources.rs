@@ -5,7 +5,7 @@ use super::inputs::Inputs;
 use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
-use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Pipeline};
+use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Part, Pipeline};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::states::{Subject, When};
 use crate::vulkan::{Format, State};
@@ -73,6 +73,13 @@ impl<'a> Resources<'a> {
     /// The image, if it could be resolved.
     pub(super) fn image(&self, index: ImageIndex) -> Option<&images::FrameImage> {
         self.images.get(index.0 as usize)?.as_ref()
+    }
+
+    /// What of an image or buffer a part of it is.
+    pub(super) fn filled(&self, part: &Part) -> fills::Filled {
+        let Part::Image(part) = part else { return None };
+        let format = self.image(part.image.index)?.image.format;
+        Some((format, part.plane.map_or(format.aspects(), |plane| plane.value)))
     }
 
     /// The buffer, if it could be resolved.

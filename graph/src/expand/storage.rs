@@ -1,11 +1,10 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
-use super::coverage::Kept;
 use super::parts::Cells;
 use super::resources::Resources;
 use super::shader::{self, PARAMS, shape_words};
 use super::{accesses, arrays, parts, sampled, transfers, work};
-use crate::base::{Diagnostic, nearest, suggestion};
+use crate::base::{Diagnostic, Span, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
 use crate::ron::Name;
@@ -296,4 +295,10 @@ pub(super) fn used(
         role,
         stages,
     }
+}
+
+/// An image or buffer that a storage write keeps, and where it is named.
+pub(super) struct Kept {
+    pub(super) of: Resource,
+    pub(super) span: Span,
 }

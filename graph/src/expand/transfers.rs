@@ -273,7 +273,7 @@ pub(super) fn fill(resources: &Resources<'_>, to: &Part, value: Spanned<Fill>, e
         Part::Buffer(part) => resources.buffer(part.buffer.index).map(|buffer| &buffer.name),
     };
     let Some(name) = name else { return };
-    if let Err((message, help)) = fills::typed(value.value, fills::filled(resources, to)) {
+    if let Err((message, help)) = fills::typed(value.value, resources.filled(to)) {
         errors.push(Diagnostic::new(value.span, format!("`{name}` can't be filled: {message}")).help(help));
     }
 }

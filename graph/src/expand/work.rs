@@ -51,7 +51,7 @@ pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface:
             Work::Blit { filter: filter.map_or(default, |filter| filter.value) }
         }
         language::Work::Fill { to, value } => {
-            let value = fills::typed(value.value, fills::filled(resources, to));
+            let value = fills::typed(value.value, resources.filled(to));
             Work::Fill { value: value.unwrap_or(FillValue::Bits([0; 4])) }
         }
         language::Work::Custom { callback, .. } if is_drawn(pass) => drawn(Draw::Custom, callback),

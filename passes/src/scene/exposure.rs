@@ -6,7 +6,7 @@
 
 use super::model::{Bounds, PointLight, Sky, Sun};
 use super::{Scene, limits};
-use crate::twin::exposure;
+use crate::srgb;
 use glam::DVec3;
 
 /// Where a text file says nothing, this much light and more is taken to be in a unit of its own: a white surface in it would
@@ -16,7 +16,7 @@ const BRIGHTEST: f64 = 64.0;
 const DARKEST: f64 = 1.0 / 256.0;
 
 fn luminance(color: [f32; 3]) -> f64 {
-    exposure::luminance(color.map(f64::from))
+    srgb::luminance(color.map(f64::from))
 }
 
 /// The lights that a file has.

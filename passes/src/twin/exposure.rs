@@ -4,16 +4,12 @@
 //! Images", SIGGRAPH 2002, equations 1 and 2; of the exponential adaptation: G. Krawczyk, K. Myszkowski, H.-P. Seidel,
 //! "Perceptual Effects in Real-Time Tone Mapping", SCCG 2005.
 
+pub use crate::srgb::luminance;
+
 /// Bins of the histogram.
 pub const BINS: usize = 256;
 const DARKEST_STOP: f64 = -16.0;
 const BINS_A_STOP: f64 = 8.0;
-
-/// Luminance of linear colour with the primaries of Rec. 709 (ITU-R BT.709-6, item 3.2).
-#[must_use]
-pub fn luminance([red, green, blue]: [f64; 3]) -> f64 {
-    0.2126 * red + 0.7152 * green + 0.0722 * blue
-}
 
 /// The place of a luminance among the bins: the whole part is its bin.
 #[must_use]

@@ -1,0 +1,47 @@
+//! What storage writes may leave as it was. Nothing is proven of them: `writeonly` says that a shader doesn't read, not that it writes
+//! all. So what was there is kept, if anything was, unless the file promises more.
+
+use super::parts::Cells;
+use super::resources::Resources;
+use super::state::State;
+use super::storage::{self, Kept};
+use super::written::Written;
+use super::{accesses, writers};
+use crate::frame::{Remark, Resource};
+
+/// Lets storage writes that nobody promises to be whole keep what earlier passes, or earlier frames, left. `states` are those of
+/// the pipeline's passes. Returns remarks that say so.
+pub(super) fn keep(resources: &Resources<'_>, states: &mut [State]) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let described = &resources.pipeline.passes;
+    if described.iter().flat_map(|pass| &pass.storage).all(|storage| storage.access.is_some()) {
+        return remarks;
+    }
+    let images = resources.images.len();
+    let mut written: Vec<Written> = Vec::new();
+    written.resize_with(images + resources.buffers.len(), Written::default);
+    for (state, described) in states.iter_mut().zip(described) {
+        if let State::On(pass) = state {
+            let holds = |of: Resource, cells: &Cells| {
+                let holds = resources.lifetime(of).is_some_and(|lifetime| lifetime.has_contents(of));
+                holds || written[writers::number(images, of)].has_any(cells)
+            };
+            for Kept { of, span } in storage::keep(resources, described, pass, holds) {
+                let text = format!(
+                    "keeps what it doesn't write of `{}`: its shader doesn't read it, which doesn't say that it writes all of it; \
+                     `access: Write` promises that",
+                    resources.name(of).text
+                );
+                remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
+            }
+        }
+        for pass in state.runs() {
+            accesses::for_each_write(resources, pass, |write| {
+                if let Some(whole) = accesses::whole(resources, write.resource) {
+                    written[writers::number(images, write.resource)].add(&write.cells, &whole);
+                }
+            });
+        }
+    }
+    remarks
+}
