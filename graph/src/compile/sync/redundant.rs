@@ -93,20 +93,22 @@ impl Calls<'_> {
         calls.find_map(|call| {
             let others = call.iter().filter(|other| other.barrier != it.barrier);
             let of_buffers = others.filter(|other| self.is_buffer(self.barrier(other).resource));
-            let mut barriers = of_buffers.clone().map(|other| self.barrier(other));
-            let first = *barriers.next()?;
-            let all = barriers.fold(first, |mut all, other| {
-                all.widen(other.dst_stages, other.dst_accesses);
-                all.src_stages |= other.src_stages;
-                all.src_accesses |= other.src_accesses;
-                all
-            });
-            let covers = all.src_stages.contains(barrier.src_stages)
-                && all.src_accesses.contains(barrier.src_accesses)
-                && all.dst_stages.contains(barrier.dst_stages)
-                && all.dst_accesses.contains(barrier.dst_accesses);
-            covers.then(|| of_buffers.map(|other| other.barrier).collect())
+            enough(of_buffers.map(|other| other.barrier).collect(), |parts| self.say(parts, barrier))
         })
+    }
+
+    /// Whether barriers, taken together, say all that a barrier says.
+    fn say(&self, parts: &[u32], barrier: &SubresourceBarrier) -> bool {
+        let (mut src, mut dst) = ((Stages::empty(), Accesses::empty()), (Stages::empty(), Accesses::empty()));
+        for part in parts.iter().map(|part| &self.initial.barriers[*part as usize]) {
+            src = (src.0 | part.src_stages, src.1 | part.src_accesses);
+            dst = (dst.0 | part.dst_stages, dst.1 | part.dst_accesses);
+        }
+        !parts.is_empty()
+            && src.0.contains(barrier.src_stages)
+            && src.1.contains(barrier.src_accesses)
+            && dst.0.contains(barrier.dst_stages)
+            && dst.1.contains(barrier.dst_accesses)
     }
 
     fn is_buffer(&self, resource: PhysicalIndex) -> bool {
@@ -155,35 +157,42 @@ impl Calls<'_> {
         reads
     }
 
-    /// Barrier number `shows`, or those that form a memory barrier with it, if it makes the same write visible to the access behind
+    /// Barrier number `shows`, with those that form a memory barrier with it, if it makes the same write visible to the access behind
     /// `barrier`.
     fn showing(&self, shows: u32, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
         let one = self.batched.iter().find(|it| it.barrier == shows)?;
-        let parts: Vec<&Batched> = match self.is_buffer(barrier.resource) {
-            false => vec![one],
-            true => {
-                let of_call = self.batched.iter().filter(|it| it.at == one.at);
-                of_call.filter(|it| self.is_buffer(self.barrier(it).resource)).collect()
-            }
+        let of_call = self.batched.iter().filter(|it| it.at == one.at && self.is_buffer(self.barrier(it).resource));
+        let others: Vec<u32> = match self.is_buffer(barrier.resource) {
+            true => of_call.map(|it| it.barrier).filter(|it| *it != shows).collect(),
+            false => Vec::new(),
         };
-        let (stages, accesses) = parts
-            .iter()
-            .map(|it| self.barrier(it))
-            .fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
+        let shown = |others: &[u32]| {
+            let parts = others.iter().chain([&shows]).map(|part| &self.initial.barriers[*part as usize]);
+            let (stages, accesses) = parts.fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
                 (stages | it.dst_stages, accesses | it.dst_accesses)
             });
-        let shows = stages.contains(barrier.dst_stages) && accesses.contains(barrier.dst_accesses);
-        shows.then(|| parts.iter().map(|it| it.barrier).collect())
+            stages.contains(barrier.dst_stages) && accesses.contains(barrier.dst_accesses)
+        };
+        let mut needed = enough(others, shown)?;
+        needed.push(shows);
+        Some(needed)
     }
 
     /// Barriers that form a chain from reads in `stage` to the stages before which the barrier `it` stands, if there are such.
     fn following(&self, it: Batched, reads: &Reads, stage: Stages) -> Option<Vec<u32>> {
+        let links = self.links(it, reads, stage, |_| true)?;
+        enough(links, |links| self.links(it, reads, stage, |other| links.contains(&other)).is_some())
+    }
+
+    /// Those of some barriers that lead on from reads in `stage`, if they lead to the stages before which the barrier `it` stands.
+    fn links(&self, it: Batched, reads: &Reads, stage: Stages, is_among: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
         let queues = &self.initial.queues;
         let mut reach = Stages::empty();
         let mut links = Vec::new();
         for frames_ago in (0..=reads.frames_ago).rev() {
             let comes_between = |other: &&Batched| {
                 other.barrier != it.barrier
+                    && is_among(other.barrier)
                     && queues.queue_number(other.at) == queues.queue_number(it.at)
                     && (frames_ago < reads.frames_ago || other.at > reads.step)
                     && (frames_ago > 0 || other.at < it.at)
@@ -198,6 +207,28 @@ impl Calls<'_> {
                 reach = of_call.iter().fold(reach, |reach, other| reach | and_later(self.barrier(other).dst_stages));
             }
         }
+        links.sort_unstable();
+        links.dedup();
         reach.contains(self.barrier(&it).dst_stages).then_some(links)
     }
+}
+
+/// Of more barriers than this all stay that a proof could rest on. To try each takes their square.
+const MOST_TRIED: usize = 32;
+
+/// Those of some barriers that are enough for a proof. It can do without none of them if they were few. `None`: all of them aren't enough.
+fn enough(mut barriers: Vec<u32>, prove: impl Fn(&[u32]) -> bool) -> Option<Vec<u32>> {
+    if !prove(&barriers) {
+        return None;
+    }
+    if barriers.len() > MOST_TRIED {
+        return Some(barriers);
+    }
+    for at in (0..barriers.len()).rev() {
+        let left_out = barriers.remove(at);
+        if !prove(&barriers) {
+            barriers.insert(at, left_out);
+        }
+    }
+    Some(barriers)
 }
