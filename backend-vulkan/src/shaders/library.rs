@@ -12,7 +12,7 @@ use super::mentioned::Mentioned;
 use super::needs::Needed;
 use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
-use super::text::{self, Refused};
+use super::text::{self, Refused, Words};
 use super::varyings::without_idle_inputs;
 use crate::process::{CompileJob, Compiled, Finding, Helper, ShaderStage, Verdict};
 use framewright_graph::base::{FilePath, NoFile, Root};
@@ -371,7 +371,7 @@ fn invalid(finding: &Finding, files: &ShaderFiles, stage: &SourceFile) -> String
     let what = format!("SPIR-V that Vulkan 1.3 doesn't allow: {}", finding.words);
     match &finding.place {
         Some((file, line)) => format!("{file}:{line}: {what}"),
-        None => Refused::shown_by(finding.shown_by(), what).placed(files, stage),
+        None => Refused::shown_by(Words::First(finding.named.clone()), what).placed(files, stage),
     }
 }
 

@@ -1,14 +1,6 @@
 //! The validator of SPIR-V, SPIRV-Tools', where the feature `spirv-validator` and the system have it. See build/validator.rs.
 
-use super::text::Words;
-use crate::process::{Finding, Verdict};
-
-impl Finding {
-    /// The words of a text that show what is wrong.
-    pub(super) fn shown_by(&self) -> Words {
-        Words::First(self.named.clone())
-    }
-}
+use crate::process::Verdict;
 
 /// Judges a module by the rules of Vulkan 1.3. Which layout blocks may have is the device's matter, see `block_layout.rs`.
 pub(crate) fn judge(spirv: &[u32]) -> Verdict {
