@@ -196,7 +196,7 @@ fn block(
     }
 }
 
-/// That a block of so many bytes lies within a buffer, of whose `there` bytes a device may read `held`.
+/// Checks that a block fits its buffer. `held`: bytes that the device may read, padding included; `there`: bytes of the buffer itself.
 fn long_enough(name: &str, bytes: u32, held: u64, there: u64) -> Result<(), String> {
     if u64::from(bytes) > held {
         return Err(format!("the block `{name}` takes {bytes} bytes, and its buffer holds {there}"));

@@ -271,7 +271,7 @@ impl ShaderLibrary {
             sized(files, found).map_err(unsupported)?;
         }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
-        // What was refused already has better words, and so has what will be: resources that no pass can give.
+        // A resource that no pass can give is refused later, in better words.
         let is_refused = |binding: &Binding| matches!(binding.kind, BindingKind::Other(_));
         if let Verdict::Invalid(finding) = &verdict
             && !reflected.interface.bindings.iter().any(is_refused)

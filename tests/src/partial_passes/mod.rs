@@ -35,7 +35,7 @@ pub struct Chain {
 /// What passes are done to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// An image of so many samples, perhaps with depth.
+    /// An image with this many samples. A means may add depth.
     Picture(u32),
     /// A buffer of one word for each texel of an image.
     Words,

@@ -133,7 +133,7 @@ fn a_text_that_says_nothing_is_drawn_as_it_is_unless_it_would_be_nothing_but_whi
         let lit = lit(beyond, "");
         assert!(is_close(sun(lit.sun.color), 1.0), "{beyond}: {:?}", lit.sun.color);
     }
-    // Whoever says it, has it.
+    // An exposure that the file gives counts.
     assert_eq!(lit(6830.0, ", exposure: 1").sun.color, [6830.0; 3]);
     assert_eq!(lit(6830.0, ", exposure: 0.001").exposure, 0.001);
     // One thing that is seen is enough for night to stay night.

@@ -24,8 +24,8 @@ const ROUNDING: f64 = 1.0 / 16_777_216.0;
 /// What Vulkan allows a quotient, in ulp ("Precision and Operation of SPIR-V Instructions").
 const QUOTIENT: f64 = 2.5;
 
-/// What so many roundings and quotients come to in ulp, where none is taken from another: an ulp is one to two times as much as
-/// [`ROUNDING`].
+/// The largest error of a sum with this many roundings and quotients, in units of [`ROUNDING`]. A quotient's error is given in ulp, and an
+/// ulp is one to two of these units.
 fn within(roundings: u32, quotients: u32) -> f64 {
     f64::from(roundings) + 2.0 * QUOTIENT * f64::from(quotients)
 }
