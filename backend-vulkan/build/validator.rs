@@ -14,7 +14,7 @@ const VERSION: &str = "0.13.3";
 /// The one function that is seen from outside.
 const FUNCTION: &str = "framewright_validate_spirv";
 
-/// Names of variables of the environment that name another folder with the crate's contents.
+/// A variable of the environment that names another folder with the crate's contents.
 const FOLDER: &str = "FRAMEWRIGHT_SPIRV_TOOLS";
 
 /// Files of `spirv-tools/source` that the validator needs beside those in `val`.
