@@ -181,7 +181,11 @@ fn work(pipeline: &Pipeline, pass: &Pass, shader: &str) -> frame::Work {
 #[must_use]
 pub fn fill(pipeline: &Pipeline, to: Region, value: u8) -> FillValue {
     match to {
-        Region::Image(part) => texels::fill(pipeline.images[part.image].format, value),
+        Region::Image(part) => match (texels::fill(pipeline.images[part.image].format, value), part.plane) {
+            (FillValue::Depth(depth, _), Plane::Depth) => FillValue::Depth(depth, 0),
+            (FillValue::Depth(_, stencil), Plane::Stencil) => FillValue::Depth(0.0, stencil),
+            (value, _) => value,
+        },
         Region::Buffer(_) => FillValue::Bits([value.into(), 0, 0, 0]),
     }
 }
