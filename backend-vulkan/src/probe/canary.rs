@@ -57,7 +57,12 @@ const MISTAKES: [Mistake; 6] = [
     Mistake {
         planted: "a clear that doesn't wait for another clear",
         checks: "checks of synchronisation",
-        make: |it| it.recorded(|commands| it.clear(commands)),
+        make: |it| {
+            it.recorded(|commands| {
+                it.clear(commands);
+                it.clear(commands);
+            })
+        },
         is_told: is_hazard,
     },
     Mistake {
@@ -168,7 +173,6 @@ impl Things<'_> {
         let mut commands = self.commands.borrow_mut();
         let (recorded, messages) = self.messages.apart(|| {
             commands.record(|buffer| {
-                self.clear(buffer);
                 record(buffer);
                 Ok(())
             })
