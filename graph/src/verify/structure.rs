@@ -163,7 +163,7 @@ pub(super) fn fill_fits(image: &Image, value: &FillValue) -> bool {
             let count = image.format.components() as usize;
             image.format.is_integer() && bits.iter().take(count).all(|bits| is_component(image.format, number(*bits)))
         }
-        FillValue::Depth(depth, _) => image.format.is_depth() && depth.is_finite(),
+        FillValue::Depth(depth, _) => image.format.is_depth() && (0.0..=1.0).contains(depth),
     }
 }
 

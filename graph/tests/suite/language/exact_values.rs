@@ -235,3 +235,21 @@ fn a_fill_of_one_plane_takes_the_number_for_that_plane() {
         assert!(answer.contains(said) && answer.contains("test.ron:5:"), "{said}\n{answer}");
     }
 }
+
+#[test]
+fn the_checker_refuses_a_depth_beyond_0_to_1() {
+    let device = shipped("lavapipe");
+    let text = planes("");
+    let plan =
+        compile(&right(&text, &INPUTS), &device, &mut Estimated(&device), &Options::default()).expect("it is valid");
+    for (depth, right) in [(0.0, true), (1.0, true), (-0.25, false), (1.5, false), (f32::NAN, false)] {
+        let mut plan = plan.clone();
+        let fills = plan.steps.iter_mut().filter_map(|step| match &mut step.work {
+            PlanWork::Fill(fill) => Some(fill),
+            _ => None,
+        });
+        fills.for_each(|fill| fill.value = FillValue::Depth(depth, 3));
+        let found = verify(&plan);
+        assert_eq!(found.is_empty(), right, "{depth}: {found:?}");
+    }
+}
