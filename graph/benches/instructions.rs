@@ -1,11 +1,11 @@
 //! `cargo bench -p framewright-graph --bench instructions`: the instructions that compiling and checking take, beside the
 //! committed ones. It fails if a graph takes 3 % more, and names the command that accepts the new figures. It needs
-//! valgrind.
+//! valgrind. With `--workspace --profile test` it counts those of the program that tests build anyway, which no build waits for.
 //!
 //! Valgrind's callgrind counts what happens within [`counted`] alone: neither building the graph nor a first run, which fills
 //! the allocator's lists, is part of it. The C library is counted too: its allocator takes much of a short compilation.
 //!
-//! `instructions.txt` holds the committed figures.
+//! `instructions.txt` holds the committed figures of what is shipped, `dev_instructions.txt` those of what tests build.
 
 #[path = "compile/changed.rs"]
 mod changed;
@@ -35,9 +35,16 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// The figures, and how new ones are accepted.
-const GUARD: Guard = Guard {
-    figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
-    accept: "FRAMEWRIGHT_ACCEPT=graph cargo bench -p framewright-graph --bench instructions",
+const GUARD: Guard = if cfg!(debug_assertions) {
+    Guard {
+        figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/dev_instructions.txt"),
+        accept: "FRAMEWRIGHT_ACCEPT=graph cargo bench --workspace --profile test --bench instructions --bench dev_instructions",
+    }
+} else {
+    Guard {
+        figures: concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt"),
+        accept: "FRAMEWRIGHT_ACCEPT=graph cargo bench -p framewright-graph --bench instructions",
+    }
 };
 
 /// A row of the table, and what is run for it.

@@ -2,6 +2,7 @@
 
 use crate::testing::browser::Browser;
 use crate::testing::{Place, Vulkan, shipped_pipelines};
+use framewright_tests::sweep;
 use serde_json::Value;
 
 const SMALL: [&str; 4] = ["--scene", "spheres_and_cubes", "--size", "96x54"];
@@ -15,7 +16,7 @@ fn listed(place: &Place, folder: &str) -> Vec<Value> {
 #[test]
 fn captures_leave_every_picture_as_it_is_and_the_last_one_is_the_picture() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
-    for name in shipped_pipelines() {
+    for name in sweep::of("captures of shipped pipelines", shipped_pipelines(), 4) {
         let place = Place::new();
         let run = |more: &[&str]| {
             place.run_with(&variables, &[&["run", &*name][..], &SMALL, &["--frames", "2"], more].concat()).exits(0)

@@ -3,6 +3,7 @@
 use crate::large::back_and_forth;
 use crate::testing::browser::Browser;
 use crate::testing::{Place, shipped_pipelines};
+use framewright_tests::sweep;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -39,51 +40,48 @@ fn is_transient(resource: &&Value) -> bool {
 fn every_view_of_every_shipped_pipeline_shows_what_its_plan_says() {
     let Some(mut browser) = Browser::start() else { return };
     let place = Place::new();
-    for name in shipped_pipelines() {
-        for options in [&[][..], &["--stereo", "multi-pass", "--device", "nvidia-rtx-2080"]] {
-            let arguments = [&[&*name][..], options].concat();
-            let (plan, page) = plan_and_page(&place, &arguments);
-            let resources = || list(&plan, "images").iter().chain(list(&plan, "buffers"));
-            browser.open_file(&page, "#view=graph");
-            browser.ask("printing = true, VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); })");
-            let mut shown = |selector: &str| browser.count(&format!("document.querySelectorAll('{selector}').length"));
-            let about = format!("{arguments:?}");
-            assert_eq!(shown("#view-graph g[data-key]:not(.beside)"), nodes(&plan), "{about}: graph");
-            let culled = list(&plan, "notes").iter().filter(|note| note["stage"] == "cull").count();
-            assert_eq!(
-                shown(
-                    "#view-grid g:is(.draw,.dispatch,.custom,.folded_resolve,.resolve,.copy,.blit,.fill,.culled)[data-key]"
-                ),
-                nodes(&plan) + culled,
-                "{about}: grid"
-            );
-            assert_eq!(shown("#view-memory rect.block"), resources().filter(is_transient).count(), "{about}: memory");
-            assert_eq!(shown("#view-steps details"), list(&plan, "steps").len(), "{about}: steps");
-            assert_eq!(shown("#view-cost tbody tr"), list(&plan, "steps").len(), "{about}: cost");
-            assert_eq!(shown("#view-queues g[data-key]"), list(&plan, "steps").len(), "{about}: queues");
-            let waits = list(&plan, "steps").iter().flat_map(|step| list(step, "waits"));
-            assert_eq!(
-                shown("#view-queues path.wait"),
-                waits.filter(|wait| wait["frames_ago"] == 0).count(),
-                "{about}: waits"
-            );
-            assert_eq!(shown("#view-images tbody tr"), resources().count(), "{about}: images");
-            assert_eq!(shown("#view-notes li[data-key]"), list(&plan, "notes").len(), "{about}: notes");
-            assert_eq!(shown("#view-devices details") + 1, 7, "{about}: other devices");
-            // Every step that is opened says each of its barriers, with stages and accesses.
-            browser.ask("document.querySelectorAll('#view-steps details').forEach((step) => { step.open = true; })");
-            browser.settle();
-            let barriers = |step: &Value| {
-                ["memory_barriers", "image_barriers", "releases"]
-                    .map(|kind| list(step, kind).len())
-                    .iter()
-                    .sum::<usize>()
-            };
-            let expected: usize = list(&plan, "steps").iter().map(barriers).sum();
-            let lines = "[...document.querySelectorAll('#view-steps li')].filter((line) => line.textContent.startsWith('barrier: ') && / before /.test(line.textContent)).length";
-            assert_eq!(browser.count(lines), expected, "{about}: barriers");
-            browser.has_no_errors();
-        }
+    let ways = [&[][..], &["--stereo", "multi-pass", "--device", "nvidia-rtx-2080"]];
+    let cases = shipped_pipelines().into_iter().flat_map(|name| ways.map(|options| (name.clone(), options)));
+    for (name, options) in sweep::of("pages of shipped pipelines", cases.collect(), 8) {
+        let arguments = [&[&*name][..], options].concat();
+        let (plan, page) = plan_and_page(&place, &arguments);
+        let resources = || list(&plan, "images").iter().chain(list(&plan, "buffers"));
+        browser.open_file(&page, "#view=graph");
+        browser.ask("printing = true, VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); })");
+        let mut shown = |selector: &str| browser.count(&format!("document.querySelectorAll('{selector}').length"));
+        let about = format!("{arguments:?}");
+        assert_eq!(shown("#view-graph g[data-key]:not(.beside)"), nodes(&plan), "{about}: graph");
+        let culled = list(&plan, "notes").iter().filter(|note| note["stage"] == "cull").count();
+        assert_eq!(
+            shown(
+                "#view-grid g:is(.draw,.dispatch,.custom,.folded_resolve,.resolve,.copy,.blit,.fill,.culled)[data-key]"
+            ),
+            nodes(&plan) + culled,
+            "{about}: grid"
+        );
+        assert_eq!(shown("#view-memory rect.block"), resources().filter(is_transient).count(), "{about}: memory");
+        assert_eq!(shown("#view-steps details"), list(&plan, "steps").len(), "{about}: steps");
+        assert_eq!(shown("#view-cost tbody tr"), list(&plan, "steps").len(), "{about}: cost");
+        assert_eq!(shown("#view-queues g[data-key]"), list(&plan, "steps").len(), "{about}: queues");
+        let waits = list(&plan, "steps").iter().flat_map(|step| list(step, "waits"));
+        assert_eq!(
+            shown("#view-queues path.wait"),
+            waits.filter(|wait| wait["frames_ago"] == 0).count(),
+            "{about}: waits"
+        );
+        assert_eq!(shown("#view-images tbody tr"), resources().count(), "{about}: images");
+        assert_eq!(shown("#view-notes li[data-key]"), list(&plan, "notes").len(), "{about}: notes");
+        assert_eq!(shown("#view-devices details") + 1, 7, "{about}: other devices");
+        // Every step that is opened says each of its barriers, with stages and accesses.
+        browser.ask("document.querySelectorAll('#view-steps details').forEach((step) => { step.open = true; })");
+        browser.settle();
+        let barriers = |step: &Value| {
+            ["memory_barriers", "image_barriers", "releases"].map(|kind| list(step, kind).len()).iter().sum::<usize>()
+        };
+        let expected: usize = list(&plan, "steps").iter().map(barriers).sum();
+        let lines = "[...document.querySelectorAll('#view-steps li')].filter((line) => line.textContent.startsWith('barrier: ') && / before /.test(line.textContent)).length";
+        assert_eq!(browser.count(lines), expected, "{about}: barriers");
+        browser.has_no_errors();
     }
 }
 

@@ -1,6 +1,7 @@
 //! `run --plan`: a Plan from a file is verified and drawn as it is, or refused with a reason.
 
 use crate::testing::{Outcome, Place, Vulkan, shipped_pipelines};
+use framewright_tests::sweep;
 use serde_json::Value;
 
 const SCENE: [&str; 2] = ["--scene", "spheres_and_cubes"];
@@ -54,7 +55,7 @@ impl Bench {
 fn every_shipped_pipeline_draws_the_same_from_its_plan() {
     let Some(bench) = Bench::new() else { return };
     bench.place.run_with(&bench.variables, &["devices", "--save", "live.ron", "--device", "0"]).exits(0);
-    for name in shipped_pipelines() {
+    for name in sweep::of("Plans of shipped pipelines", shipped_pipelines(), 4) {
         bench.draws_the_same(&[&*name], &[]);
         // A Plan made without the device at hand, too.
         let estimated =
