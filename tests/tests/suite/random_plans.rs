@@ -11,6 +11,7 @@ use framewright_tests::happens_before::judge;
 use framewright_tests::random_pipelines::allowed::Allowed;
 use framewright_tests::random_pipelines::rng::Rng;
 use framewright_tests::random_pipelines::{generate, passes, to_frame};
+use framewright_tests::sweep;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -126,10 +127,10 @@ fn check(seeds: Range<u64>, most: u32) {
 
 #[test]
 fn plans_of_random_pipelines_do_no_harm_whatever_the_options() {
-    check(0..1000, 40);
+    check(sweep::row("random Plans", 0..1000, 500), 40);
 }
 
 #[test]
 fn plans_of_long_random_pipelines_do_no_harm_either() {
-    check(5000..5100, 200);
+    check(sweep::row("long random Plans", 5000..5100, 30), 200);
 }

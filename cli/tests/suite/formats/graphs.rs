@@ -5,6 +5,7 @@ use crate::testing::{Place, repository, shipped_pipelines};
 use framewright_graph::base::escape;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::plan::{Plan, Resource, Work};
+use framewright_tests::sweep;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -120,7 +121,7 @@ const SEVERAL_QUEUES: &str = r#"Pipeline(version: 1, images: [
 pub(super) fn graphs(place: &Place, format: &str) -> Vec<(String, String, Held)> {
     place.file("words.ron", words());
     place.file("queues.ron", SEVERAL_QUEUES);
-    let shipped = shipped_pipelines();
+    let shipped = sweep::of(&format!("graphs for {format}"), shipped_pipelines(), 4);
     let names = shipped.iter().map(String::as_str).chain(["words.ron", "queues.ron"]);
     let ways = [
         &[][..],
