@@ -193,7 +193,7 @@ fn a_stage_that_draws_depth_alone_has_no_colour_however_the_text_sets_it() {
         let outputs = |depth_only: bool| {
             let variant = Variant { depth_only, ..Variant::default() };
             let compiled = library(folder.path()).compiled("test", Draw::FullScreen, &variant).expect("it compiles");
-            let module = rspirv::dr::load_words(&compiled.fragment.expect("it discards")).expect("SPIR-V");
+            let module = rspirv::dr::load_words(compiled.fragment.expect("it discards")).expect("SPIR-V");
             let is_output = |it: &&Instruction| {
                 it.class.opcode == Op::Variable && it.operands[0] == Operand::StorageClass(StorageClass::Output)
             };
