@@ -37,14 +37,16 @@ enum Channels {
 const ABSENT: [&str; 2] = ["(absent 1)", "(absent 2)"];
 
 impl<R: BufRead + Seek> OpenExr<R> {
-    /// Looks at a file's headers. Of several parts the first one with colours counts.
+    /// Looks at a file's headers. Of several parts the first one with colours counts; where none has colours, the first one that can be
+    /// read.
     ///
     /// # Errors
     /// In words: the file is damaged, or has no channels that are colours.
     pub fn open(mut file: R) -> Result<OpenExr<R>, String> {
         let headers = MetaData::read_from_buffered(&mut file, false).map_err(|error| error.to_string())?.headers;
         let flat = || headers.iter().filter(|header| !header.deep);
-        let found = flat().find_map(|header| Some((header, Channels::of(header)?)));
+        let readable = || flat().filter_map(|header| Some((header, Channels::of(header)?)));
+        let found = readable().find(|(_, channels)| channels.are_colors()).or_else(|| readable().next());
         let Some((header, channels)) = found else {
             let channels: Vec<_> = flat().flat_map(|header| &header.channels.list).collect();
             let is_sparse = |channel: &&ChannelDescription| channel.sampling != Vec2(1, 1) || is_chroma(channel);
@@ -86,10 +88,7 @@ impl<R: BufRead + Seek> OpenExr<R> {
     /// Whether it holds colours or greys, and not depth or other values.
     #[must_use]
     pub fn is_color(&self) -> bool {
-        match &self.channels {
-            Channels::Colors | Channels::RedGreen => true,
-            Channels::Grey(name) => name.eq("Y"),
-        }
+        self.channels.are_colors()
     }
 
     /// Red, green, blue and alpha of each texel that is shown, in rows from the top. What isn't stored is 0.
@@ -155,6 +154,14 @@ impl Channels {
             [only] => Some(Channels::Grey(only.name.clone())),
             [] => list.first().map(|alpha| Channels::Grey(alpha.name.clone())),
             _ => None,
+        }
+    }
+
+    /// Whether they are colours or greys, and not depth or other values.
+    fn are_colors(&self) -> bool {
+        match self {
+            Channels::Colors | Channels::RedGreen => true,
+            Channels::Grey(name) => name.eq("Y"),
         }
     }
 

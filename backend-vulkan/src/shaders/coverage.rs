@@ -12,8 +12,10 @@ use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+/// Words of a text that discard fragments.
+pub(super) const DISCARDS: &[&str] = &["discard", "demote", "terminateInvocation"];
 /// Words of a text that leave samples out.
-pub(super) const LEAVES_OUT: [&str; 4] = ["discard", "demote", "terminateInvocation", "gl_SampleMask"];
+pub(super) const MASKS_SAMPLES: &[&str] = &["gl_SampleMask"];
 
 /// Whether it writes the mask of covered samples.
 pub(super) fn writes_sample_mask(module: &IndexedModule<'_>, used: &HashSet<u32>) -> bool {

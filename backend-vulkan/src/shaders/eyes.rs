@@ -17,7 +17,8 @@ pub(super) const EYE: &str = "framewright_eye";
 pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 
 /// The location of that varying. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this
-/// is the last, so that a shader fits every way to draw for both eyes.
+/// is the last, so that a shader fits every way to draw for both eyes. (By "Required Limits" every device hands over 64 components,
+/// `maxVertexOutputComponents` and `maxFragmentInputComponents`: 16 locations, of which `gl_Position` may take one.)
 pub(super) const LOCATION: u32 = 14;
 
 /// How a stage draws for both eyes at once.

@@ -3,7 +3,7 @@
 use super::PrecompiledShaders;
 use super::colors;
 use super::compilers::Compilers;
-use super::coverage::LEAVES_OUT;
+use super::coverage::{DISCARDS, MASKS_SAMPLES};
 use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
@@ -292,8 +292,15 @@ impl ShaderLibrary {
             }
         }
         if reflected.interface.discards || reflected.interface.masks_samples {
-            reflected.interface.leaves_out_at = text::place(files, found, |word| LEAVES_OUT.contains(&word));
+            let words = if reflected.interface.discards { DISCARDS } else { MASKS_SAMPLES };
+            reflected.interface.leaves_out_at = text::place(files, found, |word| words.contains(&word));
         }
+        let only_written = reflected.interface.bindings.iter().filter(|binding| binding.kind.is_only_written());
+        let places = only_written.filter_map(|Binding { name, .. }| {
+            let place = text::place(files, found, |word| word == name)?;
+            Some((name.clone(), place))
+        });
+        reflected.interface.only_written_at = places.collect();
         for unset in &mut reflected.interface.unset {
             unset.place = text::place(files, found, |word| word == unset.name);
         }

@@ -31,8 +31,9 @@ pub(super) struct StageInterface {
     pub(super) input_attachments: Vec<(String, u32)>,
 }
 
-/// Locations of vertex attributes are below this, which every Vulkan device has. The compiler itself limits those of colour
-/// outputs.
+/// Locations of vertex attributes are below this, which every device has by Vulkan's "Required Limits" (`maxVertexInputAttributes`), as
+/// it has as many buffers of them. 16 bytes each end long before the offset (2,047) and the stride (2,048) that every device allows.
+/// So no device is asked. The compiler itself limits those of colour outputs.
 const ATTRIBUTES: u32 = 16;
 /// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.
 const OUTPUTS: u32 = 256;
@@ -81,6 +82,7 @@ pub(super) fn reflect(
         masks_samples: fragment && coverage::writes_sample_mask(&module, &used),
         // The text says it, not the SPIR-V.
         leaves_out_at: None,
+        only_written_at: Vec::new(),
         unset: if fragment { coverage::unset(&module) } else { Vec::new() },
         own_vertices: None,
         uses_frag_coord: built_in_used(&module, &used, &[BuiltIn::FragCoord]),

@@ -114,19 +114,22 @@ fn thumbnails_on_the_page_are_the_dumped_images() {
     place.run(&["inspect", "forward", "--capture"]).exits(2);
 }
 
-const FACE: &str = "#version 460
+pub(crate) const FACE: &str = "#version 460
 layout(set = 0, binding = 0) uniform Params { vec4 v; } params;
 layout(location = 0) out vec4 c;
 void main() { c = params.v; }";
 
-const LOOK: &str = "#version 460
+pub(crate) const LOOK: &str = "#version 460
 layout(set = 0, binding = 0) uniform samplerCube c;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 o;
 void main() { o = texture(c, vec3(uv - 0.5, 0.5)); }";
 
-/// What is drawn and was refused by each tool that captures, with the captures that there are.
-fn odd_pipelines() -> [(&'static str, &'static str, &'static [&'static str], Option<&'static str>); 4] {
+/// A pipeline by its name, with the captures that there are, and what is left out of them.
+pub(crate) type Captured = (&'static str, &'static str, &'static [&'static str], Option<&'static str>);
+
+/// What is drawn and was refused by each tool that captures.
+pub(crate) fn odd_pipelines() -> [Captured; 4] {
     let cube = r#"Pipeline(version: 1,
         images: [(name: "c", format: R16G16B16A16_SFLOAT, size: Fixed(16, 16), shape: Cube), (name: "screen", format: Output, size: Output)],
         passes: [
@@ -152,7 +155,20 @@ fn odd_pipelines() -> [(&'static str, &'static str, &'static [&'static str], Opt
             (name: "show", draw: FullScreen("reinhard"), sample: {"source": "c"}, color: ["screen"]),
         ], outputs: ["screen"])"#;
     [
-        ("cube", cube, &["face_0_-c", "face_1_-c-layer1", "face_5_-c-layer5", "show-screen"], None),
+        (
+            "cube",
+            cube,
+            &[
+                "face_0_-c",
+                "face_1_-c-layer1",
+                "face_2_-c-layer2",
+                "face_3_-c-layer3",
+                "face_4_-c-layer4",
+                "face_5_-c-layer5",
+                "show-screen",
+            ],
+            None,
+        ),
         ("depth_alone", depth_alone, &["o-c", "o-d", "show-screen"], None),
         (
             "samples",
@@ -177,6 +193,7 @@ fn whatever_is_drawn_is_captured_and_what_is_left_out_is_said() {
         assert!(dumped.out.contains("validation: silent; "), "{name}: {}", dumped.out);
         let files: Vec<String> =
             listed(&place, "all").iter().map(|one| one["file"].as_str().expect("a file").to_owned()).collect();
+        assert_eq!(files.len(), captured.len(), "{name}: {files:?}");
         for wanted in captured {
             let is_it = |file: &&String| file.rsplit_once('.').is_some_and(|(stem, _)| stem[4..] == **wanted);
             assert_eq!(files.iter().filter(is_it).count(), 1, "{name}: {wanted} in {files:?}");

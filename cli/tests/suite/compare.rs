@@ -34,7 +34,7 @@ fn light(place: &Place, name: &str, color: [f32; 3], others: &[[f32; 3]]) {
 }
 
 /// A PNG of one grey, which is small whatever its size.
-fn grey(place: &Place, name: &str, side: u32) {
+pub(crate) fn grey(place: &Place, name: &str, side: u32) {
     let file = std::fs::File::create(place.path(name)).expect("made");
     let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), side, side);
     encoder.set_compression(png::Compression::Fast);

@@ -99,6 +99,103 @@ fn what_a_picture_leaves_out_is_said() {
     assert_eq!(pixels(&place, "two.png").1[0], [255, 128, 0]);
 }
 
+/// What `--dump` writes of an image that is no output.
+#[test]
+fn dumps_hold_as_much_as_outputs_and_say_what_they_leave_out() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let by = |count: u32| {
+        format!(
+            r#"(name: "f", repeat: ("i", {count}), fill: (to: (image: "o", layer: "i"), value: "i / {}"))"#,
+            count - 1
+        )
+    };
+    let all = |value: &str| format!(r#"(name: "f", fill: (to: "o", value: {value}))"#);
+    // The size of the picture, some of its texels by their places, as a display shows them, and the note.
+    type Dump<'d> = (&'d str, String, &'d str, [u32; 2], &'d [(usize, u8)], Option<&'d str>);
+    let dumps: [Dump<'_>; 9] = [
+        ("format: R8_UNORM, size: Output, layers: 3", by(3), "a.png", [12, 2], &[(0, 0), (4, 188), (23, 255)], None),
+        (
+            "format: R8_UNORM, size: Fixed(4, 4), shape: Cube",
+            by(6),
+            "a.png",
+            [24, 4],
+            &[(0, 0), (4, 124), (95, 255)],
+            None,
+        ),
+        (
+            "format: R8_UNORM, size: Fixed(4, 2), shape: D3(3)",
+            all("1.0"),
+            "a.png",
+            [12, 2],
+            &[(0, 255), (23, 255)],
+            None,
+        ),
+        (
+            "format: R8_UNORM, size: Fixed(8, 8), mips: 3",
+            all("1.0"),
+            "a.png",
+            [8, 8],
+            &[(0, 255)],
+            Some("of 3 mip levels there is the first"),
+        ),
+        (
+            "format: R8_UNORM, size: Fixed(4, 4), layers: 2, mips: 2",
+            all("1.0"),
+            "a.png",
+            [8, 4],
+            &[(31, 255)],
+            Some("of 2 mip levels there is the first"),
+        ),
+        (
+            "format: R8G8B8A8_UNORM, size: Output",
+            all("(1.0, 0.0, 0.0, 0.5)"),
+            "a.png",
+            [4, 2],
+            &[(0, 255)],
+            Some("alpha is left out, which isn't 1"),
+        ),
+        ("format: R16G16B16A16_SFLOAT, size: Output", all("(1.0, 0.0, 0.0, 0.5)"), "a.exr", [4, 2], &[(0, 255)], None),
+        (
+            "format: R16G16B16A16_SFLOAT, size: Fixed(4, 4), shape: Cube",
+            by(6),
+            "a.exr",
+            [24, 4],
+            &[(0, 0), (95, 255)],
+            None,
+        ),
+        (
+            "format: D32_SFLOAT_S8_UINT, size: Output",
+            all("(0.5, 3)"),
+            "a.exr",
+            [4, 2],
+            &[],
+            Some("the stencil is left out"),
+        ),
+    ];
+    for (image, passes, file, size, texels, note) in dumps {
+        let text = format!(
+            r#"Pipeline(version: 1, images: [(name: "o", {image}), (name: "screen", format: R8_UNORM, size: Output)],
+                passes: [{passes}, (name: "show", fill: (to: "screen", value: 0.0))], outputs: ["screen"])"#
+        );
+        place.file("p.ron", text);
+        let dump = format!("o={file}");
+        let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "4x2", "--dump", &dump];
+        let said = place.run_with(&variables, &run).exits(0).err;
+        let told: Vec<&str> = said.lines().filter(|line| line.contains("in its picture")).collect();
+        assert_eq!(told.len(), usize::from(note.is_some()), "{image}: {said}");
+        assert!(note.is_none_or(|note| told[0].ends_with(note)), "{image}: {said}");
+        if texels.is_empty() {
+            continue;
+        }
+        let (found, all) = pixels(&place, file);
+        assert_eq!(found, size, "{image}");
+        for (at, light) in texels {
+            assert_eq!(all[*at][0], *light, "{image}, texel {at}");
+        }
+    }
+}
+
 #[test]
 fn integers_keep_their_values_in_openexr_files() {
     let place = Place::new();
@@ -142,4 +239,27 @@ fn compare_says_what_it_does_not_compare() {
     let two = filled("format: R16G16_SFLOAT, size: Output", half, r#""o""#);
     run(&place, &two, "two.exr").expect("drawn").exits(0);
     place.run(&["compare", "two.exr", "two.exr"]).exits(0).says("");
+}
+
+#[test]
+fn compare_names_the_layers_of_a_file_that_it_leaves_out() {
+    use exr::prelude::*;
+    let place = Place::new();
+    let layer = |name: &str, channels: &[&str], value: f32| {
+        let channel = |name: &&str| AnyChannel::new(*name, FlatSamples::F32(vec![value; 16 * 16]));
+        let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = channels.iter().map(channel).collect();
+        Layer::new((16, 16), LayerAttributes::named(name), Encoding::UNCOMPRESSED, AnyChannels::sort(channels))
+    };
+    let write = |file: &str, layers: Vec<Layer<AnyChannels<FlatSamples>>>| {
+        let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((16, 16)));
+        Image::from_layers(attributes, layers).write().non_parallel().to_file(place.path(file)).expect("written");
+    };
+    let (colors, other) = (["R", "G", "B"], ["R", "G", "B", "id"]);
+    write("one.exr", vec![layer("shown", &colors, 0.5)]);
+    write("two.exr", vec![layer("shown", &colors, 0.5), layer("hidden", &colors, 0.75)]);
+    write("three.exr", vec![layer("depth", &["Z"], 3.0), layer("shown", &other, 0.5), layer("hidden", &colors, 0.25)]);
+    let compared = |reference: &str, test: &str| place.run(&["compare", reference, test, "--max-error", "0"]).exits(0);
+    compared("one.exr", "one.exr").says("");
+    compared("one.exr", "two.exr").says("note: not compared of `two.exr`: 1 of 2 layers");
+    compared("three.exr", "one.exr").says("note: not compared of `three.exr`: channel id, 2 of 3 layers");
 }

@@ -29,6 +29,7 @@ mod image_quality;
 mod included_files;
 mod interrupts;
 mod large;
+mod left_as_it_was;
 mod left_out;
 mod licences;
 mod many_machines;

@@ -114,7 +114,7 @@ fn pipelines_are_silent_under_gpu_assisted_validation() {
     variables.push(("VK_KHRONOS_VALIDATION_GPUAV_ENABLE", "true"));
     let run = |place: &Place, pipeline: &str| {
         let words = ["run", pipeline, "--scene", "spheres_and_cubes", "--size", "32x18", "--validate", "--frames", "2"];
-        place.run_with(&variables, &words)
+        place.run_with(&variables, &[&words[..], &["-o", "o.png"]].concat())
     };
     let place = Place::new();
     let head = "#version 460\nlayout(local_size_x = 1) in;\n";
@@ -138,8 +138,35 @@ fn pipelines_are_silent_under_gpu_assisted_validation() {
     );
     let planted = run(&place, "many.ron").exits(1).out;
     assert!(planted.contains("VUID-VkDispatchIndirectCommand-x-"), "GPU-assisted validation is off: {planted}");
-    for pipeline in ["forward", "snow"] {
-        let outcome = run(&Place::new(), pipeline).exits(0);
+    // An indirect draw whose first instance is the object's number, as GPU-driven draws have it.
+    let counts = "layout(set = 0, binding = 0) buffer Counts { uint words[]; } counts;
+        void main() { for (int i = 0; i < 4; ++i) counts.words[i] = uint[](3, 1, 0, 7)[i]; }";
+    place.file("make.comp", format!("{head}{counts}"));
+    place.file(
+        "seventh.vert",
+        "#version 460\nlayout(location = 0) flat out int number;
+        void main() {
+            number = gl_InstanceIndex;
+            gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.5, 1.0);
+        }",
+    );
+    place.file(
+        "seventh.frag",
+        "#version 460\nlayout(location = 0) flat in int number; layout(location = 0) out vec4 color;
+        void main() { color = vec4(0.0, float(number) / 10.0, 0.0, 1.0); }",
+    );
+    place.file(
+        "seventh.ron",
+        r#"Pipeline(version: 1,
+            buffers: [(name: "counts", bytes: 16)],
+            images: [(name: "o", format: R8G8B8A8_UNORM, size: Output)],
+            passes: [
+                (name: "make", dispatch: "make", groups: Count(1), storage: {"counts": (buffer: "counts", access: Write)}),
+                (name: "draw", draw: Indirect("counts"), shader: "seventh", color: [(image: "o", clear: (0.0, 0.0, 1.0, 1.0))]),
+            ], outputs: [(image: "o", encoding: Unorm)])"#,
+    );
+    for pipeline in ["seventh.ron", "forward", "snow"] {
+        let outcome = run(&place, pipeline).exits(0);
         assert!(outcome.out.contains("validation: silent; "), "{pipeline}: {}", outcome.out);
     }
 }

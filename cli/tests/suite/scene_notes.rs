@@ -1,5 +1,6 @@
 //! Entries of a scene that aren't drawn are told by every command that reads it.
 
+use crate::testing::server::Server;
 use crate::testing::{Place, Vulkan};
 use serde_json::Value;
 
@@ -74,9 +75,47 @@ fn mistakes_in_a_scene_are_notes_and_with_strict_an_error_in_every_command_that_
     }
     // What is right and isn't drawn is no mistake.
     place.run(&["facts", "scene.gltf", "--strict"]).exits(0).mentions("are ignored");
-    for command in ["run", "serve", "window", "measure"] {
-        let help = place.run(&[command, "--help"]).exits(0).out;
-        assert!(help.contains("--strict"), "{command}: {help}");
+    // The window reads it as the others do, and needs a screen.
+    let help = place.run(&["window", "--help"]).exits(0).out;
+    assert!(help.contains("--strict"), "{help}");
+}
+
+#[test]
+fn with_strict_a_scene_with_mistakes_is_neither_drawn_nor_measured_nor_shown() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = place();
+    with_mistakes(&place);
+    let scene = ["forward", "--scene", "wrong.gltf", "--size", "16x16"];
+    let said = format!("`wrong.gltf` has mistakes, and `--strict` passes over none:\n  {}", MISTAKES.join("\n  "));
+    for (command, made) in [("run", "made.png"), ("measure", "made")] {
+        let further: &[&str] =
+            if command == "run" { &[] } else { &["--frames", "1", "--sweep", "msaa=1", "--reference", "none"] };
+        let run = [&[command], &scene[..], further, &["-o", made]].concat();
+        place.run_with(&variables, &[&run[..], &["--strict"]].concat()).exits(1).mentions(&format!("error: {said}\n"));
+        assert!(!place.path(made).exists(), "{command}");
+        let outcome = place.run_with(&variables, &run).exits(0);
+        assert!(MISTAKES.iter().all(|mistake| outcome.err.contains(mistake)), "{command}: {}", outcome.err);
+    }
+    // A page tells it, and shows a picture as soon as the file is mended.
+    for strict in [&["--strict"][..], &[]] {
+        with_mistakes(&place);
+        let server = Server::start(&place, &variables, &[&scene[..], strict].concat());
+        let mut state = server.state_after(0);
+        let message = |state: &Value| state["live"]["message"].as_str().expect("a text").to_owned();
+        if !strict.is_empty() {
+            assert!(message(&state).contains(&said), "{}", state["live"]);
+            assert_eq!(state["live"]["outputs"], Value::from(Vec::<Value>::new()), "{}", state["live"]);
+            place.file("wrong.gltf", SCENE);
+            while !message(&state).is_empty() {
+                state = server.state_after(state["live"]["version"].as_u64().expect("a number"));
+            }
+        }
+        assert_eq!(
+            (&*message(&state), state["live"]["outputs"].as_array().map(Vec::len)),
+            ("", Some(1)),
+            "{}",
+            state["live"]
+        );
     }
 }
 

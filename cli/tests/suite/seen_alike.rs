@@ -1,6 +1,6 @@
 //! What a file draws by vertices of its own for two eyes: a camera in a buffer is one for both.
 
-use crate::testing::{Outcome, Place};
+use crate::testing::{Outcome, Place, Vulkan};
 
 const STRUCT: &str = "struct CameraData { mat4 world_to_clip; vec4 place; };";
 const FRAGMENT: &str = "#version 460
@@ -79,6 +79,45 @@ fn what_has_no_camera_or_asks_for_the_eye_is_not_noted() {
         quiet(BY_UNIFORM, false, &["--stereo", mode]);
     }
     quiet(BY_UNIFORM, true, &[]);
+}
+
+/// Depth that is drawn again with one sample leaves nothing without a taker, although its stage discards and so is drawn too: the
+/// validation layer would say so of each draw.
+#[test]
+fn depth_that_is_drawn_again_leaves_no_output_unused() {
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        r#"Pipeline(version: 1,
+            images: [(name: "a", format: R8G8B8A8_UNORM, size: Output, samples: 4), (name: "d", format: Depth, size: Output, samples: 4),
+                     (name: "o", format: R8G8B8A8_UNORM, size: Output)],
+            passes: [
+                (name: "holes", draw: Objects(Opaque), shader: "holes", color: [(image: "a", clear: (0, 0, 0, 1))], depth: (image: "d", clear: 0.0)),
+                (name: "show", draw: FullScreen("show"), sample: {"a": "a", "d": "d"}, color: ["o"]),
+            ], outputs: [(image: "o", encoding: Unorm)])"#,
+    );
+    place.file(
+        "show.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform sampler2D a; layout(set = 0, binding = 1) uniform sampler2D d;
+        layout(location = 0) out vec4 color;
+        void main() { color = texelFetch(a, ivec2(gl_FragCoord.xy), 0) + texelFetch(d, ivec2(gl_FragCoord.xy), 0); }",
+    );
+    for set in ["color = vec4(1.0);", "color.rgb = vec3(1.0); color.a = 0.5;", "put(color);"] {
+        place.file(
+            "holes.frag",
+            format!(
+                "#version 460\nlayout(location = 0) out vec4 color; void put(out vec4 to) {{ to = vec4(1.0); }}
+                void main() {{ if ((int(gl_FragCoord.x) & 1) == 0) discard; {set} }}"
+            ),
+        );
+        let plan = place.run(&["inspect", "p.ron", "--scene", "spheres_and_cubes", "--format", "json"]).exits(0).out;
+        assert!(plan.contains("is drawn again with 1"), "{plan}");
+        let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x16", "--validate"];
+        let out = place.run_with(&variables, &run).exits(0).out;
+        assert!(out.contains("validation: silent; ") && !out.contains("OutputNotConsumed"), "{set}: {out}");
+    }
 }
 
 /// Vulkan allows outputs that nothing takes, and the validation layer warns of them: `check` says so before.

@@ -1,5 +1,6 @@
 //! The live page: edits show, mistakes leave the last good frame, settings are turned in the page, and strangers are refused (IN-11).
 
+use crate::captures::{FACE, LOOK, odd_pipelines};
 use crate::testing::browser::Browser;
 use crate::testing::server::Server;
 use crate::testing::{Place, Vulkan, repository};
@@ -428,6 +429,37 @@ fn captures_are_drawn_and_served() {
         let (head, png) =
             server.ask(&format!("GET /{}", capture["file"].as_str().expect("an address")), &server.own(), "");
         assert!(head.starts_with("HTTP/1.1 200") && png.starts_with(b"\x89PNG"), "{head}");
+    }
+}
+
+/// Faces of a cube one by one, depth whose stencil nobody touched, stencil, several samples with stencil.
+#[test]
+fn whatever_is_drawn_is_captured_and_served_and_what_is_left_out_is_said() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    for (name, text, captured, left_out) in odd_pipelines() {
+        let place = Place::new();
+        place.file("p.ron", text);
+        place.file("face.frag", FACE);
+        place.file("look.frag", LOOK);
+        let shown = ["p.ron", "--scene", "spheres_and_cubes", "--size", "64x36", "--capture"];
+        let server = Server::start(&place, &variables, &shown);
+        let state = server.state_after(0);
+        assert_eq!(
+            (&state["live"]["mistakes"], &state["live"]["message"]),
+            (&serde_json::json!([]), &"".into()),
+            "{name}"
+        );
+        let captures = state["page"]["captures"].as_array().expect("a list");
+        assert_eq!(captures.len(), captured.len(), "{name}: {captures:?}");
+        for capture in captures {
+            let address = format!("GET /{}", capture["file"].as_str().expect("an address"));
+            let (head, png) = server.ask(&address, &server.own(), "");
+            assert!(head.starts_with("HTTP/1.1 200") && png.starts_with(b"\x89PNG"), "{name}: {head}");
+        }
+        let said = server.said();
+        let said: Vec<&String> = said.iter().filter(|line| line.contains("not captured")).collect();
+        assert_eq!(said.len(), usize::from(left_out.is_some()), "{name}: {said:?}");
+        assert!(left_out.is_none_or(|why| said[0].ends_with(why)), "{name}: {said:?}");
     }
 }
 

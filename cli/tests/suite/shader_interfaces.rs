@@ -161,6 +161,28 @@ fn attributes_that_no_buffer_holds_are_refused_with_their_line() {
 }
 
 #[test]
+fn locations_that_not_every_device_has_are_refused_with_their_line() {
+    let last = vertices("layout(location = 15) in float a;", "a == 5.0", &[5.0]);
+    check(&last, &["--device", "all"]).exits(0);
+    draws(&last, &[], GREEN);
+    for (declared, name, stage, most) in [
+        ("layout(location = 16) in float a;", "a", "vert", 15),
+        ("layout(location = 13) in mat4 m;", "m", "vert", 15),
+        ("layout(location = 14) in vec2 a[3];", "a", "vert", 15),
+        ("layout(location = 14) out float a;", "a", "vert", 13),
+        ("layout(location = 13) out mat2 m;", "m", "vert", 13),
+        ("layout(location = 14) in float a;", "a", "frag", 13),
+    ] {
+        let place = vertices("", "true", &[0.0]);
+        let file = format!("s.{stage}");
+        let text = std::fs::read_to_string(place.path(&file)).expect("a text");
+        place.file(&file, text.replacen("#version 460\n", &format!("#version 460\n{declared}\n"), 1));
+        let said = format!("{file}:2: `{name}` at location {}: locations go up to {most}", most + 1);
+        check(&place, &["--device", "all"]).exits(1).mentions(&said).mentions("p.ron:6:");
+    }
+}
+
+#[test]
 fn a_vertex_buffer_that_is_shorter_than_its_vertices_is_refused() {
     let place = vertices("layout(location = 1) in mat4 m;", "m[0][0] == 1.0", &[1.0; 16]);
     check(&place, &[]).exits(0);

@@ -138,6 +138,47 @@ fn encoded(value: u8) -> u8 {
     encoded
 }
 
+/// OpenEXR files of one component, as `run` writes them of numbers and integers, hold for a texture what was drawn.
+#[test]
+fn a_picture_of_one_component_that_run_wrote_is_read_back_as_a_texture() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let run = |pipeline: &str, images: &str, passes: &str, file: &str| {
+        let text = format!("Pipeline(version: 1, {images}, passes: [{passes}], outputs: [\"o\"])");
+        place.file(pipeline, text);
+        let run = ["run", pipeline, "--scene", "spheres_and_cubes", "--size", "4x2", "-o", file];
+        place.run_with(&variables, &run).exits(0);
+        std::fs::read(place.path(file)).expect("written")
+    };
+    let image = |format: &str| format!(r#"images: [(name: "o", format: {format}, size: Output)]"#);
+    // No number has all its bits in half of them.
+    place.file(
+        "numbers.frag",
+        "#version 460\nlayout(location = 0) out float v;
+        void main() { v = 1000.0 * gl_FragCoord.x + gl_FragCoord.y + 0.1; }",
+    );
+    place.file(
+        "read.frag",
+        "#version 460\nlayout(set = 0, binding = 0) uniform sampler2D t;\nlayout(location = 0) out float v;
+        void main() { v = texelFetch(t, ivec2(gl_FragCoord.xy), 0).r; }",
+    );
+    let read_back = |file: &str| {
+        let texture =
+            format!(r#"textures: [(name: "t", file: "{file}", color_space: Linear, format: R32G32B32A32_SFLOAT)]"#);
+        let passes = r#"(name: "f", draw: FullScreen("read"), sample: {"t": "t"}, color: ["o"])"#;
+        run("read.ron", &format!("{texture}, {}", image("R32_SFLOAT")), passes, "read.exr")
+    };
+    let drawn = r#"(name: "f", draw: FullScreen("numbers"), color: ["o"])"#;
+    let numbers = run("numbers.ron", &image("R32_SFLOAT"), drawn, "numbers.exr");
+    assert!(read_back("numbers.exr") == numbers, "they are others");
+    let filled = |value: &str| format!(r#"(name: "f", fill: (to: "o", value: {value}))"#);
+    for (format, value) in [("R16_UINT", "65535"), ("R32_UINT", "1234567"), ("R8_SINT", "-7")] {
+        run("whole.ron", &image(format), &filled(value), "whole.exr");
+        let as_float = run("float.ron", &image("R32_SFLOAT"), &filled(value), "float.exr");
+        assert!(read_back("whole.exr") == as_float, "{format}");
+    }
+}
+
 #[test]
 fn lavapipe_draws_what_the_files_hold_and_what_lies_beyond_their_edges() {
     draws_what_the_files_hold(Vulkan::LAVAPIPE_CURRENT);

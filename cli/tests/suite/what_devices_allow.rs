@@ -141,6 +141,28 @@ fn elements_of_arrays_and_arrays_of_cubes_need_their_features_on_the_device_that
 }
 
 #[test]
+fn parameters_may_lie_in_scalar_layout_where_the_device_can() {
+    let shader = stores(
+        "#extension GL_EXT_scalar_block_layout : require",
+        SMALL,
+        "layout(set = 0, binding = 1, scalar) uniform Params { vec2 b; vec3 a; vec3 c; float d; } params;",
+        "void main() { imageStore(o, ivec2(gl_GlobalInvocationID.xy), vec4(params.b.y, params.a.z, params.c.x, params.d)); }",
+    );
+    let params = r#"params: {"a": (0, 0, 0.4), "b": (0, 0.2), "c": (0.6, 0, 0), "d": 1}, storage"#;
+    let place = place(&STORES.replace("storage", params), &shader);
+    check(&place, "all").exits(0);
+    for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
+        let Some(variables) = vulkan.variables() else { continue };
+        let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "8x8", "--validate", "-o", "o.png"];
+        place.run_with(&variables, &run).exits(0);
+        let picture = image::open(place.path("o.png")).expect("a picture").into_rgb8();
+        assert!(picture.pixels().all(|texel| texel.0 == [51, 102, 153]), "{:?}", picture.get_pixel(0, 0));
+    }
+    device(&place, |profile| profile.features.as_mut().expect("known").retain(|it| it != "scalarBlockLayout"));
+    check(&place, "mine.ron").exits(1).mentions("k.comp:5: it needs the feature scalarBlockLayout");
+}
+
+#[test]
 fn workgroups_and_shared_memory_are_held_to_the_devices_limits_at_their_line() {
     let shader = stores("", "local_size_x = 32, local_size_y = 32", "", MAIN);
     let big = place(STORES, &shader);
@@ -313,6 +335,54 @@ fn input_attachments_without_a_local_read_are_refused_with_the_reason() {
             .mentions("error: shader `k` declares `a` as an input attachment where it is none")
             .mentions("help: declare it `subpassInput` where `LOCAL_READ_a` is defined, and else `sampler2D`");
     }
+}
+
+/// Puts a decoration that no validator knows upon the output of a stage that was compiled ahead.
+fn decorate(spirv: &std::path::Path) {
+    const DECORATE: u32 = 71;
+    const VARIABLE: u32 = 59;
+    const OUTPUT: u32 = 3;
+    const BANK_NV: u32 = 5397;
+    let bytes = std::fs::read(spirv).expect("read");
+    let mut words: Vec<u32> = bytes.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let (mut decorations, mut output) = (None, None);
+    let mut at = 5;
+    while at < words.len() {
+        match words[at] & 0xffff {
+            DECORATE => decorations = decorations.or(Some(at)),
+            VARIABLE if words[at + 3] == OUTPUT => output = Some(words[at + 2]),
+            _ => {}
+        }
+        at += words[at] as usize >> 16;
+    }
+    let at = decorations.expect("a decoration");
+    words.splice(at..at, [(4 << 16) | DECORATE, output.expect("an output"), BANK_NV, 0]);
+    std::fs::write(spirv, words.into_iter().flat_map(u32::to_le_bytes).collect::<Vec<u8>>()).expect("written");
+}
+
+#[test]
+fn a_word_that_the_validator_does_not_know_is_a_note() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        r#"Pipeline(version: 1,
+    images: [(name: "o", format: R8G8B8A8_UNORM, size: Output)],
+    passes: [(name: "draw", draw: FullScreen("k"), color: ["o"])],
+    outputs: [(image: "o", encoding: Unorm)],
+)"#,
+    );
+    place.file("k.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    let check = || place.run(&["check", "p.ron", "--precompiled", "spirv", "--device", "all"]).exits(0).out;
+    assert!(!check().contains("SPIR-V"));
+    let mut files = std::fs::read_dir(place.path("spirv")).expect("a folder").map(|file| file.expect("listed").path());
+    let is_fragment =
+        |file: &std::path::PathBuf| file.file_name().is_some_and(|name| name.to_string_lossy().starts_with("k.frag."));
+    decorate(&files.find(is_fragment).expect("compiled ahead"));
+    let out = check();
+    let note = "k.frag is valid SPIR-V isn't known: Invalid decoration operand: 5397 (p.ron:3:";
+    assert!(out.contains("note: `draw`: whether ") && out.matches(note).count() == 1, "{out}");
+    let devices = SHIPPED_PROFILES.len();
+    assert!(out.ends_with(&format!("fine on {devices} of {devices} devices\n")), "{out}");
 }
 
 #[test]

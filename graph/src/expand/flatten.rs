@@ -119,7 +119,7 @@ fn expand_so(
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
     let before = errors.len();
-    let stored = stored::keep(&resources, &mut states);
+    let stored = stored::keep(&resources, &mut states, &mut checked);
     order::check(&resources, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
     if errors.is_empty() {

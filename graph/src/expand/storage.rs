@@ -10,6 +10,7 @@ use crate::language::{self, Part, StorageAccess};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface};
 use crate::vulkan::{Component, Format, ImageShape, Numeric, Stages, Subresources};
+use std::sync::Arc;
 
 /// The stages that use the shader's resource `name`; in passes that the embedding program records, the stages that may.
 pub(super) fn stages(interface: Option<&ShaderInterface>, name: &str, raster: bool) -> Stages {
@@ -78,7 +79,7 @@ pub(super) fn keep(
         let Some(cells) = accesses::part(resources, of, &range) else { continue };
         if write && !*read && holds(of, &cells) {
             *read = true;
-            kept.push(Kept { of, span });
+            kept.push(Kept { of, span, binding: name.clone() });
         }
     }
     kept
@@ -283,7 +284,7 @@ impl ImageCheck<'_> {
 /// One use of a buffer.
 pub(super) fn used(
     part: &language::BufferPart,
-    binding: Option<std::sync::Arc<str>>,
+    binding: Option<Arc<str>>,
     role: BufferRole,
     stages: Stages,
 ) -> BufferUse {
@@ -301,4 +302,6 @@ pub(super) fn used(
 pub(super) struct Kept {
     pub(super) of: Resource,
     pub(super) span: Span,
+    /// The name in the shader.
+    pub(super) binding: Arc<str>,
 }

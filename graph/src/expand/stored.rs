@@ -3,15 +3,18 @@
 
 use super::parts::Cells;
 use super::resources::Resources;
+use super::shader::Checked;
 use super::state::State;
 use super::storage::{self, Kept};
 use super::written::Written;
-use super::{accesses, writers};
+use super::{accesses, coverage, variant, writers};
 use crate::frame::{Remark, Resource};
+use crate::language;
+use crate::shader::declared_name;
 
 /// Lets storage writes that nobody promises to be whole keep what earlier passes, or earlier frames, left. `states` are those of
 /// the pipeline's passes. Returns remarks that say so.
-pub(super) fn keep(resources: &Resources<'_>, states: &mut [State]) -> Vec<Remark> {
+pub(super) fn keep(resources: &Resources<'_>, states: &mut [State], shaders: &mut Checked<'_>) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let described = &resources.pipeline.passes;
     if described.iter().flat_map(|pass| &pass.storage).all(|storage| storage.access.is_some()) {
@@ -26,11 +29,13 @@ pub(super) fn keep(resources: &Resources<'_>, states: &mut [State]) -> Vec<Remar
                 let holds = resources.lifetime(of).is_some_and(|lifetime| lifetime.has_contents(of));
                 holds || written[writers::number(images, of)].has_any(cells)
             };
-            for Kept { of, span } in storage::keep(resources, described, pass, holds) {
+            for Kept { of, span, binding } in storage::keep(resources, described, pass, holds) {
+                let declared = declaration(resources, described, &binding, shaders);
                 let text = format!(
-                    "keeps what it doesn't write of `{}`: its shader doesn't read it, which doesn't say that it writes all of it; \
+                    "keeps what it doesn't write of `{}`: its shader doesn't read it{}, which doesn't say that it writes all of it; \
                      `access: Write` promises that",
-                    resources.name(of).text
+                    resources.name(of).text,
+                    coverage::at(declared.as_deref())
                 );
                 remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
             }
@@ -44,4 +49,17 @@ pub(super) fn keep(resources: &Resources<'_>, states: &mut [State]) -> Vec<Remar
         }
     }
     remarks
+}
+
+/// File and line where the shader of a pass declares what it only writes.
+fn declaration(
+    resources: &Resources<'_>,
+    pass: &language::Pass,
+    binding: &str,
+    shaders: &mut Checked<'_>,
+) -> Option<String> {
+    // What is wrong with the shader was reported when the pass was lowered.
+    let interface = shaders.interface(pass, &variant::of(resources, pass), &mut Vec::new())?;
+    let mut places = interface.only_written_at.into_iter();
+    places.find(|(name, _)| name == declared_name(binding)).map(|(_, place)| place)
 }

@@ -42,6 +42,9 @@ pub struct ShaderInterface {
     pub masks_samples: bool,
     /// File and line, `FILE:LINE`, where it may leave out fragments or samples, if they are known.
     pub leaves_out_at: Option<String>,
+    /// File and line, `FILE:LINE`, of the declarations of storage images and blocks that it writes and doesn't read, by their names, as
+    /// far as they are known.
+    pub only_written_at: Vec<(String, String)>,
     /// Outputs of the fragment stage that it doesn't set on every path, its depth included.
     pub unset: Vec<Unset>,
     /// The file of the vertex stage, of a full-screen draw whose vertex stage isn't the usual one: nothing is known of where its
@@ -155,6 +158,16 @@ pub enum BindingKind {
 }
 
 impl BindingKind {
+    /// Whether the shader may write it, and can't read it.
+    #[must_use]
+    pub fn is_only_written(&self) -> bool {
+        matches!(
+            self,
+            BindingKind::StorageImage { readable: false, writable: true, .. }
+                | BindingKind::StorageBlock { readable: false, writable: true, .. }
+        )
+    }
+
     /// The kind in words.
     #[must_use]
     pub fn words(&self) -> &str {

@@ -150,6 +150,31 @@ fn every_set_of_channels_that_is_a_picture_is_read() {
     );
 }
 
+/// Other programs write depth as a layer of its own, which may come first.
+#[test]
+fn of_several_layers_the_first_with_colours_is_read() {
+    use exr::prelude::*;
+    let layer = |names: &[&str], value: f32| {
+        let channel = |name: &&str| AnyChannel::new(*name, FlatSamples::F32(vec![value; 2]));
+        let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = names.iter().map(channel).collect();
+        let attributes = LayerAttributes::named(names.join(" ").as_str());
+        Layer::new((2, 1), attributes, Encoding::UNCOMPRESSED, AnyChannels::sort(channels))
+    };
+    let red_of = |layers: Vec<Layer<AnyChannels<FlatSamples>>>| {
+        let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((2, 1)));
+        let mut bytes = Cursor::new(Vec::new());
+        Image::from_layers(attributes, layers).write().non_parallel().to_buffered(&mut bytes).expect("it is written");
+        let (_folder, mut textures) = folder(&[("a.exr", bytes.into_inner())]);
+        let file = file("a.exr", Linear);
+        let texels = textures.texels(&file, Format::R32G32B32A32_SFLOAT, [2, 1, 1]).expect("texels");
+        f32::from_ne_bytes(texels[..4].try_into().expect("a number"))
+    };
+    let depth = || layer(&["Z"], 3.0);
+    assert_eq!(red_of(vec![depth(), layer(&["R", "G", "B"], 0.5), layer(&["Y"], 2.0)]), 0.5);
+    assert_eq!(red_of(vec![depth(), layer(&["u", "v"], 4.0), layer(&["Y"], 2.0)]), 2.0);
+    assert_eq!(red_of(vec![layer(&["u", "v"], 4.0), depth(), layer(&["mask"], 5.0)]), 3.0);
+}
+
 #[test]
 fn luminance_with_fewer_values_of_chroma_is_refused_by_what_it_is() {
     // The list of channels in the header: name, kind, three bytes, and the distance of values across and down.

@@ -15,6 +15,7 @@ mod random_pipelines;
 mod random_plans;
 mod raycast;
 mod recompilation;
+mod repository;
 mod rooms;
 mod shipped_plans;
 mod shipped_shaders;

@@ -1,8 +1,10 @@
-//! What a fragment stage may leave as it was, read off its control flow.
+//! What a stage may leave as it was, read off its control flow and its declarations.
 
-use super::{drawn, full_screen};
+use super::{drawn, full_screen, library};
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::ShaderInterface;
+use framewright_graph::shader::{ShaderInterface, ShaderInterfaces, Variant};
+use rspirv::dr::{Instruction, Operand};
+use rspirv::spirv::{Op, StorageClass};
 
 const COLOR: &str = "layout(location = 0) in vec2 uv; layout(location = 0) out vec4 color;\n";
 
@@ -129,6 +131,77 @@ fn a_written_sample_mask_leaves_out_samples_and_a_read_one_tells_them_apart() {
     let demoting = "#extension GL_EXT_demote_to_helper_invocation : require\nlayout(location = 0) out vec4 color;
         void main() { if (gl_FragCoord.x < 9.0) demote; color = vec4(1.0); }";
     assert!(full_screen(demoting).expect("it compiles").discards, "a demotion leaves out what a discard does");
+}
+
+#[test]
+fn what_leaves_texels_out_has_its_line_outside_of_comments_and_in_included_files() {
+    let place = |files: &[(&str, &str)]| {
+        let found = drawn(Draw::FullScreen, files).expect("it compiles").leaves_out_at.expect("a place");
+        found.rsplit_once('/').map_or(found.clone(), |(_, file)| file.to_owned())
+    };
+    let head = "#version 460\nlayout(location = 0) out vec4 color;\n// discard, gl_SampleMask\n";
+    let [discards, masks] = ["if (gl_FragCoord.x < 4.0) discard;", "gl_SampleMask[0] = 1;"];
+    let of = |lines: &str| format!("{head}void main() {{\n    color = vec4(1.0);\n{lines}}}\n");
+    assert_eq!(place(&[("test.frag", &of(&format!("{discards}\n")))]), "test.frag:6");
+    assert_eq!(place(&[("test.frag", &of(&format!("{masks}\n")))]), "test.frag:6");
+    // A stage that does both is said to discard.
+    assert_eq!(place(&[("test.frag", &of(&format!("{masks}\n{discards}\n")))]), "test.frag:7");
+    let included = format!("{head}#include \"holes.glsl\"\nvoid main() {{ leave(); color = vec4(1.0); }}\n");
+    let holes = format!("/* discard\n*/ void leave() {{\n{discards} }}\n");
+    assert_eq!(place(&[("test.frag", &included), ("holes.glsl", &holes)]), "holes.glsl:3");
+}
+
+#[test]
+fn what_is_only_written_has_the_line_that_declares_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "#version 460
+        layout(local_size_x = 8) in; // to
+        layout(set = 0, binding = 0, rgba8) uniform writeonly image2D to;
+        layout(set = 0, binding = 1) writeonly buffer Counts { uint words[]; } counts;
+        layout(set = 0, binding = 2) writeonly buffer Bare { uint bare_words[]; };
+        layout(set = 0, binding = 3) buffer Both { uint words[]; } both;
+        layout(set = 0, binding = 4) readonly buffer From { uint words[]; } from;
+        void main() {
+            imageStore(to, ivec2(0), vec4(from.words[0]));
+            counts.words[0] = both.words[0]++;
+            bare_words[1] = 1;
+        }";
+    std::fs::write(folder.path().join("test.comp"), text).expect("written");
+    let interface = library(folder.path()).compute_shader("test", &Variant::default()).expect("it compiles");
+    let places = interface.only_written_at.iter();
+    let places = places.map(|(name, place)| (&**name, place.rsplit_once('/').map_or(&**place, |(_, file)| file)));
+    let expected = [("to", "test.comp:3"), ("counts", "test.comp:4"), ("Bare", "test.comp:5")];
+    assert_eq!(places.collect::<Vec<_>>(), expected);
+}
+
+/// Depth is drawn again by a stage whose colours go nowhere, which the validation layer would say of each draw.
+#[test]
+fn a_stage_that_draws_depth_alone_has_no_colour_however_the_text_sets_it() {
+    for body in [
+        "color = vec4(1.0);",
+        "color.rgb = vec3(0.5); color[3] = 1.0; color.xy *= 0.5;",
+        "put(color);",
+        "if (gl_FragCoord.y < 2.0) { color = vec4(0.0); return; } color = vec4(1.0); more[1] = color;",
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let text = format!(
+            "#version 460\nlayout(location = 0) out vec4 color; layout(location = 1) out vec4 more[2];
+            void put(out vec4 to) {{ to = vec4(1.0); }}
+            void main() {{ if (gl_FragCoord.x < 4.0) discard; gl_FragDepth = 0.5; more[0] = vec4(0.0); {body} }}"
+        );
+        std::fs::write(folder.path().join("test.frag"), text).expect("written");
+        let outputs = |depth_only: bool| {
+            let variant = Variant { depth_only, ..Variant::default() };
+            let compiled = library(folder.path()).compiled("test", Draw::FullScreen, &variant).expect("it compiles");
+            let module = rspirv::dr::load_words(compiled.fragment.expect("it discards")).expect("SPIR-V");
+            let is_output = |it: &&Instruction| {
+                it.class.opcode == Op::Variable && it.operands[0] == Operand::StorageClass(StorageClass::Output)
+            };
+            module.types_global_values.iter().filter(is_output).count()
+        };
+        // Depth stays.
+        assert_eq!((outputs(false), outputs(true)), (3, 1), "{body}");
+    }
 }
 
 #[test]

@@ -56,6 +56,24 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
     assert_eq!(what(&far_binding), "2: `far` at binding 60000: bindings go up to 255");
     let far_input = format!("layout(location = 20) in vec4 far; {WHITE} color = far; }}");
     assert_eq!(what(&far_input), "2: `far` at location 20: locations go up to 13");
+    // Vertex attributes, by the last location of a matrix or an array.
+    let attributes = |declared: &str| {
+        let vertex = format!("#version 460\n{declared}\nvoid main() {{ gl_Position = vec4(1.0); }}\n");
+        drawn(Draw::Vertices { count: 3, instances: 1 }, &[("test.frag", SHIPPED[1].1), ("test.vert", &vertex)])
+    };
+    for far in ["in float far", "in vec4 far[2]", "in mat3 far"] {
+        let locations = if far.ends_with(']') {
+            2
+        } else if far.contains("mat3") {
+            3
+        } else {
+            1
+        };
+        let at = |first: u32| attributes(&format!("layout(location = {first}) {far};"));
+        assert!(at(16 - locations).is_ok(), "{far}");
+        let Err(ShaderProblem::Unsupported { what }) = at(17 - locations) else { panic!("{far}") };
+        assert!(what.ends_with("test.vert:2: `far` at location 16: locations go up to 15"), "{what}");
+    }
     let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
     assert_eq!(
         what(&double),

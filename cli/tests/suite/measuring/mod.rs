@@ -2,6 +2,10 @@
 
 mod references;
 
+#[cfg(target_os = "linux")]
+use crate::compare::grey;
+#[cfg(target_os = "linux")]
+use crate::testing::shell::shell;
 use crate::testing::{Outcome, Place, Vulkan};
 use serde_json::Value;
 
@@ -359,6 +363,42 @@ fn bars_flicker_less_with_temporal_anti_aliasing() {
     assert!(table.lines().next().expect("a head").contains(",flicker,flicker_95,flicker_worst,"), "{table}");
     let wrong = [&arguments[..arguments.len() - 1], &["other", "--reference", "none"]].concat();
     place.run_with(&variables, &wrong).exits(2).mentions("flicker is measured against references of each frame");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reference_of_another_size_is_refused_before_it_is_decoded() {
+    let place = Place::new();
+    grey(&place, "large.png", 16384);
+    // Decoded it takes more than this.
+    let line = |size: &str| {
+        format!(
+            "ulimit -v 400000; exec \"$0\" measure image_quality --scene spheres_and_cubes --size {size} --reference large.png -o swept"
+        )
+    };
+    let said = |size: &str| shell(&place, "sh", &["-c", &line(size), env!("CARGO_BIN_EXE_framewright")], &[]).exits(1);
+    said("16x16").mentions("`large.png` is 16384×16384, and `screen` is 16×16: only pictures of one size are compared");
+    said("16384x16384").mentions("it has 16384 × 16384 pixels, and at most 67108864 are compared");
+    assert!(!place.path("swept").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_in_place_of_a_reference_or_of_results_are_refused_at_once() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("swept")).expect("a folder");
+    for pipe in ["pipe.png", "swept/results.json"] {
+        let made = std::process::Command::new("mkfifo").arg(place.path(pipe)).status().expect("mkfifo");
+        assert!(made.success());
+    }
+    let no_file = "can't be read: it is a pipe or a device, not a regular file";
+    for file in ["/dev/zero", "pipe.png"] {
+        let Some(outcome) = measure(&place, &["--reference", file, "-o", "other"]) else { return };
+        outcome.exits(1).mentions(&format!("the picture `{file}` {no_file}"));
+        assert!(!place.path("other").exists());
+    }
+    let into = measure(&place, &["--sweep", "msaa=1", "--reference", "none", "-o", "swept"]).expect("lavapipe");
+    into.exits(1).mentions(&format!("the file of results `swept/results.json` {no_file}"));
 }
 
 /// A device that lacks what was chosen draws something else, which is no figure of the choice.

@@ -203,7 +203,10 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
                 block("counts", 2, false, true, here),
             ],
         ),
-        "count_up" => compute([64, 1, 1], vec![block("counts", 0, false, true, here)]),
+        "count_up" => ShaderInterface {
+            only_written_at: vec![("counts".to_owned(), "count_up.comp:3".to_owned())],
+            ..compute([64, 1, 1], vec![block("counts", 0, false, true, here)])
+        },
         "halve" => compute(
             [8, 8, 1],
             vec![source(), storage_image("target", Dimension::D2, Some(Format::R16G16B16A16_SFLOAT), false)],

@@ -69,7 +69,7 @@ fn a_bad_part_is_left_out_with_a_note_and_all_else_is_drawn() {
     let camera = json!([{"perspective": {"yfov": 1.0, "znear": 0.0}, "type": "perspective"}]);
     // What is changed, how many objects and textures are left, and the end of the first note.
     type Case<'c> = (&'c str, &'c dyn Fn(&mut Value), usize, usize, &'c str);
-    let cases: [Case<'_>; 22] = [
+    let cases: [Case<'_>; 23] = [
         (
             "stride 0",
             &|json| json["bufferViews"][1]["byteStride"] = json!(0),
@@ -145,6 +145,16 @@ fn a_bad_part_is_left_out_with_a_note_and_all_else_is_drawn() {
         (
             "rotation 0",
             &|json| json["nodes"][0]["rotation"] = json!([0, 0, 0, 0]),
+            1,
+            1,
+            "so it and what is below it are left out",
+        ),
+        (
+            "a matrix and a translation",
+            &|json| {
+                json["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+                json["nodes"][0]["translation"] = json!([0, 0, 0]);
+            },
             1,
             1,
             "so it and what is below it are left out",
