@@ -93,20 +93,29 @@ fn sanitized(text: &str) -> String {
     String::from_utf8_lossy(&out.stderr).into_owned()
 }
 
+/// Bytes that the driver and its libraries may leak: 112 on Debian 12. They are unloaded by the time that the sanitizer tells, which
+/// then may take what leaks for another library's.
+const OF_DRIVERS: u64 = 200;
+
+/// The bytes that a program never freed, as the sanitizer counts them.
+fn leaked(said: &str) -> u64 {
+    let summary = said.lines().find_map(|line| line.strip_prefix("SUMMARY: AddressSanitizer: "));
+    let bytes = summary.and_then(|summary| summary.split_once(" byte(s) leaked")).map(|(bytes, _)| bytes);
+    bytes.map_or(0, |bytes| bytes.parse().expect("a number"))
+}
+
 #[test]
 fn programs_in_c_free_all_that_they_are_given() {
     let Some(_) = program("examples/embed_minimal.c") else { return };
-    // Drivers leak a little. What this library made has functions of Rust among the callers, as far as the sanitizer finds them.
-    let own = |said: &str| ["framewright_c", "/rustc/"].iter().any(|caller| said.contains(caller));
     for path in ["examples/embed_minimal.c", "framewright/c/tests/programs/bad_calls.c"] {
         let said = sanitized(&text(path));
-        assert!(!own(&said) && !said.contains("heap-use-after-free"), "{path}: {said}");
+        assert!(leaked(&said) <= OF_DRIVERS && !said.contains("heap-use-after-free"), "{path}: {said}");
     }
     for free in ["scene", "renderer", "device"] {
         let text = text("examples/embed_minimal.c");
         let leaky = text.replace(&format!("    framewright_{free}_free({free});\n"), "");
         assert_ne!(leaky, text);
-        assert!(own(&sanitized(&leaky)), "the sanitizer sees no {free} that isn't freed");
+        assert!(leaked(&sanitized(&leaky)) > OF_DRIVERS, "the sanitizer sees no {free} that isn't freed");
     }
 }
 
