@@ -337,6 +337,13 @@ fn input_attachments_without_a_local_read_are_refused_with_the_reason() {
     }
 }
 
+/// A pipeline of one full-screen pass.
+const DRAWN: &str = r#"Pipeline(version: 1,
+    images: [(name: "o", format: R8G8B8A8_UNORM, size: Output)],
+    passes: [(name: "draw", draw: FullScreen("k"), color: ["o"])],
+    outputs: [(image: "o", encoding: Unorm)],
+)"#;
+
 /// Puts a decoration that no validator knows upon the output of a stage that was compiled ahead.
 fn decorate(spirv: &std::path::Path) {
     const DECORATE: u32 = 71;
@@ -363,14 +370,7 @@ fn decorate(spirv: &std::path::Path) {
 #[test]
 fn a_word_that_the_validator_does_not_know_is_a_note() {
     let place = Place::new();
-    place.file(
-        "p.ron",
-        r#"Pipeline(version: 1,
-    images: [(name: "o", format: R8G8B8A8_UNORM, size: Output)],
-    passes: [(name: "draw", draw: FullScreen("k"), color: ["o"])],
-    outputs: [(image: "o", encoding: Unorm)],
-)"#,
-    );
+    place.file("p.ron", DRAWN);
     place.file("k.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
     let check = || place.run(&["check", "p.ron", "--precompiled", "spirv", "--device", "all"]).exits(0).out;
     assert!(!check().contains("SPIR-V"));
@@ -388,14 +388,7 @@ fn a_word_that_the_validator_does_not_know_is_a_note() {
 #[test]
 fn invalid_spirv_is_refused_by_check_and_a_cached_shader_is_judged_too() {
     let place = Place::new();
-    place.file(
-        "p.ron",
-        r#"Pipeline(version: 1,
-    images: [(name: "o", format: R8G8B8A8_UNORM, size: Output)],
-    passes: [(name: "draw", draw: FullScreen("k"), color: ["o"])],
-    outputs: [(image: "o", encoding: Unorm)],
-)"#,
-    );
+    place.file("p.ron", DRAWN);
     place.file(
         "k.frag",
         "#version 460\nlayout(pixel_center_integer) in vec4 gl_FragCoord;\nlayout(location = 0) out vec4 color;\n\

@@ -9,7 +9,7 @@ use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Sharing;
 use framewright_tests::happens_before::judge;
 use framewright_tests::mutation::Tally;
-use framewright_tests::{random_pipelines, sweep};
+use framewright_tests::random_pipelines;
 
 /// A desktop GPU with these queues.
 fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
@@ -93,9 +93,9 @@ fn plans_for_several_queues_are_right() {
 
 #[test]
 fn plans_for_several_queues_do_no_harm_and_make_what_plans_for_one_make() {
-    let seen = check(sweep::row("Plans for several queues", 5000..5400, 150), 14, true);
+    let seen = check(5000..5400, 14, true);
     println!("{seen:?}");
-    assert!(seen.waits > 100 && seen.releases > 10 && seen.concurrent > 50, "hardly ever: {seen:?}");
+    assert!(seen.waits > 300 && seen.releases > 50 && seen.concurrent > 50, "hardly ever: {seen:?}");
 }
 
 /// Every mistake that can be planted in Plans for several queues: no semaphore, no half of a transfer goes without notice.

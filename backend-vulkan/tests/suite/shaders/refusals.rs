@@ -61,14 +61,7 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
         let vertex = format!("#version 460\n{declared}\nvoid main() {{ gl_Position = vec4(1.0); }}\n");
         drawn(Draw::Vertices { count: 3, instances: 1 }, &[("test.frag", SHIPPED[1].1), ("test.vert", &vertex)])
     };
-    for far in ["in float far", "in vec4 far[2]", "in mat3 far"] {
-        let locations = if far.ends_with(']') {
-            2
-        } else if far.contains("mat3") {
-            3
-        } else {
-            1
-        };
+    for (far, locations) in [("in float far", 1), ("in vec4 far[2]", 2), ("in mat3 far", 3)] {
         let at = |first: u32| attributes(&format!("layout(location = {first}) {far};"));
         assert!(at(16 - locations).is_ok(), "{far}");
         let Err(ShaderProblem::Unsupported { what }) = at(17 - locations) else { panic!("{far}") };

@@ -109,7 +109,9 @@ fn programs_in_c_free_all_that_they_are_given() {
     let Some(_) = program("examples/embed_minimal.c") else { return };
     for path in ["examples/embed_minimal.c", "framewright/c/tests/programs/bad_calls.c"] {
         let said = sanitized(&text(path));
-        assert!(leaked(&said) <= OF_DRIVERS && !said.contains("heap-use-after-free"), "{path}: {said}");
+        // Where the sanitizer finds a function of Rust among the callers, it is this library that leaks.
+        let is_ours = said.contains("/rustc/") || said.contains("heap-use-after-free");
+        assert!(leaked(&said) <= OF_DRIVERS && !is_ours, "{path}: {said}");
     }
     for free in ["scene", "renderer", "device"] {
         let text = text("examples/embed_minimal.c");

@@ -83,8 +83,8 @@ fn of_random_frames() -> Vec<Named> {
 fn every_mistake_that_harms_is_reported() {
     let mut tally = Tally::default();
     let hand_written = hand_written_plans::all().into_iter().map(|(name, plan)| (name.to_owned(), plan));
-    let plans = [of_shipped_pipelines(), of_incidents(), hand_written.collect(), of_random_frames()].concat();
-    for (name, plan) in sweep::of("Plans with a mistake", plans, 240) {
+    let plans = [of_shipped_pipelines(), of_incidents(), hand_written.collect(), of_random_frames()];
+    for (name, plan) in sweep::of("Plans with a mistake", plans.into_iter().flatten().collect(), 240) {
         tally.add(&name, &plan);
     }
     println!("{tally}");
