@@ -151,7 +151,12 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
 pub(super) fn without_comments(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some(start) = rest.find("//").into_iter().chain(rest.find("/*")).min() {
+    // One search for both kinds: a search for each would look through all that follows for the kind that comes late.
+    let start_of_comment = |text: &str| {
+        let mut slashes = text.match_indices('/').map(|(at, _)| at);
+        slashes.find(|at| matches!(text.as_bytes().get(at + 1), Some(b'/' | b'*')))
+    };
+    while let Some(start) = start_of_comment(rest) {
         let (before, comment) = rest.split_at(start);
         kept.extend([before, " "]);
         let (_, inside) = comment.split_at(2);

@@ -40,9 +40,15 @@ impl Pattern {
     pub(crate) fn texture(self, name: String) -> Texture {
         let side = cell_texels(self.kind);
         let [width, height] = self.cells.map(|cells| cells * side);
-        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let rgba8 = texels.flat_map(|(x, y)| self.texel(x, y, side)).collect();
-        Texture { name, width, height, rgba8, sampler: Sampler::default() }
+        // Two cells each way repeat.
+        let period = 2 * side;
+        let row = |y| {
+            let texels: Vec<u8> = (0..period).flat_map(|x| self.texel(x, y, side)).collect();
+            repeated(&texels, 4 * width as usize)
+        };
+        let rows: Vec<Vec<u8>> = (0..period).map(row).collect();
+        let rgba8 = repeated(&rows.concat(), 4 * width as usize * height as usize);
+        Texture { name, width, height, rgba8: rgba8.into(), sampler: Sampler::default() }
     }
 
     fn texel(self, x: u32, y: u32, side: u32) -> [u8; 4] {
@@ -59,4 +65,11 @@ impl Pattern {
             }
         }
     }
+}
+
+/// `bytes` again and again, `count` in all.
+fn repeated(bytes: &[u8], count: usize) -> Vec<u8> {
+    let mut all = bytes.repeat(count.div_ceil(bytes.len()));
+    all.truncate(count);
+    all
 }
