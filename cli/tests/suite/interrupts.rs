@@ -177,13 +177,13 @@ fn ctrl_c_ends_a_sweep_and_keeps_what_is_measured() {
         let results: serde_json::Value = serde_json::from_str(&text).expect("whole");
         results["rows"].as_array().map_or(0, Vec::len)
     };
-    let sweep = ["--sweep", "white_point=1..100:24", "--frames", "30", "--reference", "none", "-o", "swept"];
+    let sweep = ["--sweep", "white_point=1..100:24", "--frames", "12", "--reference", "none", "-o", "swept"];
     let child = start(&place, &variables, &[&words[..], &sweep].concat());
     until(|| place.path("swept/results.json").exists(), "some are measured");
     interrupted(child).exits(130).mentions("those are kept, and the same command goes on with the others");
     assert!((8..24).contains(&rows("swept")), "{} rows", rows("swept"));
     // Within the first batch, whose choices were all drawn: those that were held against their references already are kept.
-    let sweep = ["--sweep", "white_point=1..100:8", "--frames", "1", "--flicker", "50", "-o", "held"];
+    let sweep = ["--sweep", "white_point=1..100:8", "--frames", "1", "--flicker", "30", "-o", "held"];
     let child = start(&place, &variables, &[&words[..], &sweep].concat());
     let maps = || std::fs::read_dir(place.path("held/heat_maps")).is_ok_and(|files| files.count() > 2);
     // Those of the first, and one of the second, whose flicker takes long.
