@@ -3,7 +3,7 @@
 # one more layer. Debian 13 (trixie) has Mesa 25 and layer 1.4.309; later suites have later ones. It is a folder, entered by chroot;
 # what was built outside runs in it.
 #
-# usage: .ci/debian.sh make [SUITE]       makes it, unless it is there: two minutes, 1.2 GB, from this machine's Debian mirror
+# usage: .ci/debian.sh make [SUITE]       makes it, unless it is there: half a minute, 0.5 GB, from this machine's Debian mirror
 #        .ci/debian.sh run COMMAND…       runs COMMAND in it, in the same folder, with its lavapipe as the only driver
 #
 # SUITE is Debian's name: trixie, forky, sid. Without one it is that of FRAMEWRIGHT_DEBIAN_SUITE, which `run` takes too, or trixie.
@@ -48,8 +48,8 @@ make_anew() {
         fail "$root holds something else than a Debian of Framewright: name another folder by FRAMEWRIGHT_DEBIAN"
     fi
     . "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
-    need "to make another Debian, whose lavapipe is later" debootstrap
-    command -v debootstrap >/dev/null || fail "a Debian can't be made without debootstrap"
+    need "to make another Debian, whose lavapipe is later" mmdebstrap
+    command -v mmdebstrap >/dev/null || fail "a Debian can't be made without mmdebstrap"
     local mirror
     mirror >/dev/null || refresh_lists
     mirror=$(mirror) || fail "apt knows no mirror of Debian on this machine (apt-get indextargets): a Debian can't be made from here"
@@ -68,16 +68,10 @@ make_anew() {
 
 # Called where `set -e` doesn't count.
 install_into() {
-    # A debootstrap that is older than the suite has no script of that name, and makes all of Debian's by one.
-    local script=/usr/share/debootstrap/scripts/$suite
-    [ -e "$script" ] || script=${script%/*}/sid
-    debootstrap --variant=minbase --include=ca-certificates "$suite" "$1" "$2" "$script" &&
-        cp -r /etc/apt/apt.conf.d/. "$1/etc/apt/apt.conf.d/" &&
-        chroot "$1" apt-get update --quiet &&
-        # shellcheck disable=SC2086 # several packages
-        DEBIAN_FRONTEND=noninteractive chroot "$1" \
-            apt-get install --yes --quiet --no-install-recommends $packages &&
-        chroot "$1" apt-get clean
+    # How apt reaches the mirror from this machine.
+    apt-config dump | grep -E '^Acquire::(https?|Check)[^ ]* ".+"' >"$1.apt"
+    mmdebstrap --variant=minbase --include="ca-certificates $packages" --aptopt="$1.apt" --skip=check/empty "$suite" "$1" "$2" &&
+        rm "$1.apt"
 }
 
 run() {

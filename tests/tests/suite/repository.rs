@@ -31,7 +31,7 @@ fn every_text_of_the_repository_has_line_feeds_alone_in_every_checkout() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// `.ci/debian.sh make`, where apt knows these mirrors, and `debootstrap` only tells how it was called.
+/// `.ci/debian.sh make`, where apt knows these mirrors, and `mmdebstrap` only tells how it was called.
 #[cfg(unix)]
 fn make_debian(suite: &[&str], mirrors: &str) -> (Option<i32>, String, Option<String>) {
     use std::os::unix::fs::PermissionsExt;
@@ -41,7 +41,7 @@ fn make_debian(suite: &[&str], mirrors: &str) -> (Option<i32>, String, Option<St
     for (name, script) in [
         ("id", "echo 0"),
         ("apt-get", "[ \"$1\" != indextargets ] || cat \"$PLACE/mirrors\""),
-        ("debootstrap", "echo \"$@\" >\"$PLACE/called\"; exit 1"),
+        ("mmdebstrap", "echo \"$@\" >\"$PLACE/called\"; exit 1"),
     ] {
         let file = path("bin").join(name);
         std::fs::write(&file, format!("#!/bin/sh\n{script}\n")).expect("written");
@@ -74,7 +74,7 @@ fn another_debian_is_made_of_the_suite_that_is_asked_for_from_the_mirror_that_ap
             make_debian(suite, "file:/a\nhttp://near.example/debian\nhttp://far.example/debian\n");
         assert_eq!(code, Some(3), "{said}");
         let called = called.unwrap_or_else(|| panic!("{said}"));
-        let expected = format!(" {name} CACHE/framewright/debian-{name} http://near.example/debian ");
+        let expected = format!(" {name} CACHE/framewright/debian-{name} http://near.example/debian");
         assert!(called.contains(&expected), "{called}");
     }
 }
