@@ -69,9 +69,12 @@ make_anew() {
 # Called where `set -e` doesn't count.
 install_into() {
     # How apt reaches the mirror from this machine.
-    apt-config dump | grep -E '^Acquire::(https?|Check)[^ ]* ".+"' >"$1.apt"
-    mmdebstrap --variant=minbase --include="ca-certificates $packages" --aptopt="$1.apt" --skip=check/empty "$suite" "$1" "$2" &&
-        rm "$1.apt"
+    local option options=()
+    while read -r option; do
+        options+=(--aptopt="$option")
+    done < <(apt-config dump | grep -E '^Acquire::(https?|Check)[^ ]* ".+"')
+    mmdebstrap --variant=minbase --include="ca-certificates $packages" ${options[@]+"${options[@]}"} --skip=check/empty \
+        "$suite" "$1" "$2"
 }
 
 run() {

@@ -73,3 +73,25 @@ fn repeated(bytes: &[u8], count: usize) -> Vec<u8> {
     all.truncate(count);
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_texel_is_that_of_its_place() {
+        for kind in [PatternKind::Checker([[1, 2, 3], [40, 50, 60]]), PatternKind::Dots(0.3)] {
+            for cells in [[1, 1], [1, 4], [3, 2], [5, 3]] {
+                let pattern = Pattern { kind, cells };
+                let texture = pattern.texture(String::new());
+                let side = cell_texels(kind);
+                assert_eq!([texture.width, texture.height], cells.map(|cells| cells * side));
+                for (at, texel) in (0..).zip(texture.rgba8.as_chunks::<4>().0) {
+                    let (x, y) = (at % texture.width, at / texture.width);
+                    assert_eq!(*texel, pattern.texel(x, y, side), "{pattern:?} at {x}, {y}");
+                }
+                assert_eq!(texture.rgba8.len() as u64, pattern.bytes());
+            }
+        }
+    }
+}

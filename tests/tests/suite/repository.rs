@@ -74,7 +74,7 @@ fn another_debian_is_made_of_the_suite_that_is_asked_for_from_the_mirror_that_ap
             make_debian(suite, "file:/a\nhttp://near.example/debian\nhttp://far.example/debian\n");
         assert_eq!(code, Some(3), "{said}");
         let called = called.unwrap_or_else(|| panic!("{said}"));
-        let expected = format!(" {name} CACHE/framewright/debian-{name} http://near.example/debian");
-        assert!(called.contains(&expected), "{called}");
+        let expected = format!(" {name} CACHE/framewright/debian-{name} http://near.example/debian\n");
+        assert!(called.ends_with(&expected), "{called}");
     }
 }
