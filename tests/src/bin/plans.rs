@@ -32,8 +32,7 @@ use std::sync::Arc;
 /// Where pipelines lie in the repository.
 const FOLDERS: [&str; 2] = ["examples/pipelines", "tests/pipelines"];
 /// Ways of drawing for two eyes, or for one.
-const STEREO: [Stereo; 5] =
-    [Stereo::Off, Stereo::MultiPass, Stereo::DoubleWide, Stereo::Instanced, Stereo::Multiview];
+const STEREO: [Stereo; 5] = [Stereo::Off, Stereo::MultiPass, Stereo::DoubleWide, Stereo::Instanced, Stereo::Multiview];
 /// How many random pipelines.
 const RANDOM: u64 = 2000;
 
@@ -56,7 +55,7 @@ fn main() -> ExitCode {
 
 /// Every pipeline file with its settings as they are, in each way of drawing and turned by a quarter, on each shipped device.
 fn of_files(into: &Path) -> Result<usize> {
-    let mut shaders = ShaderLibrary::new(vec![in_repository("tests/shaders")], SHADERS, interfaces());
+    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interfaces());
     let mut written = 0;
     for folder in FOLDERS {
         let mut files: Vec<_> = read_dir(in_repository(folder))?.map(|file| Ok(file?.path())).collect::<Result<_>>()?;
@@ -67,7 +66,9 @@ fn of_files(into: &Path) -> Result<usize> {
             let mut sources = Sources::default();
             let mut named = PipelineFiles::beside(Root::new(in_repository(folder)), &name, &[]);
             // A settings file isn't a pipeline.
-            let Ok(pipeline) = read_with(&mut sources, &mut named, &name, &name, read_to_string(&file)?) else { continue };
+            let Ok(pipeline) = read_with(&mut sources, &mut named, &name, &name, read_to_string(&file)?) else {
+                continue;
+            };
             let sources = Arc::new(sources);
             let turned = STEREO.map(|stereo| (stereo, Rotation::Identity)).into_iter();
             for (stereo, rotation) in turned.chain([(Stereo::Off, Rotation::Rotate90)]) {
