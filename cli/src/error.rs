@@ -16,7 +16,12 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// A file is missing, and nothing shipped has its name.
-    #[error("there is no {what} `{}`, and none of that name is shipped (shipped: {})", text::path(path), shipped.join(", "))]
+    #[error(
+        "there is no {what} `{}`, and none of that name is shipped (shipped: {}){}",
+        text::path(path),
+        shipped.join(", "),
+        with_ending(path)
+    )]
     Missing { what: &'static str, path: PathBuf, shipped: Vec<&'static str> },
     /// A file can't be read.
     #[error("the {what} `{}` can't be read: {}{}", text::path(path), text::escape(&source.to_string()), allow(source, path))]
@@ -452,6 +457,13 @@ fn remedy(problem: &framewright_vulkan::Error) -> String {
         }
         _ => String::new(),
     }
+}
+
+/// The file that was meant, if one of this name with an ending lies there.
+fn with_ending(path: &Path) -> String {
+    let endings = ["ron", "glb", "gltf"].map(|ending| path.with_added_extension(ending));
+    let meant = endings.into_iter().find(|path| path.is_file());
+    meant.map_or_else(String::new, |meant| format!("\nhelp: did you mean `{}`?", text::path(&meant)))
 }
 
 /// Help for a file that can't be read.

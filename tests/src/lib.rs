@@ -12,6 +12,7 @@
 //! - [`optima`]: the least cost of small frames.
 //! - [`sweep`]: all cases of a sweep, or a sample.
 //! - [`shipped`]: the shipped pipelines, as frames.
+//! - [`sources`]: the program's own sources, as tokens.
 //! - [`agreement`]: compares it with the GPU's picture.
 //! - [`drivers`]: the software drivers and validation layers of this machine.
 //! - [`wayland_server`], [`x_server`]: servers for windows that nobody sees.
@@ -31,6 +32,7 @@ pub mod raycast;
 pub mod render;
 pub mod shapes;
 pub mod shipped;
+pub mod sources;
 pub mod sweep;
 pub mod wayland_server;
 pub mod x_server;

@@ -11,11 +11,11 @@ pub(crate) fn format(format: Format) -> vk::Format {
 }
 
 pub(crate) fn stages(stages: Stages) -> vk::PipelineStageFlags2 {
-    vk::PipelineStageFlags2::from_raw(stages.vulkan())
+    vk::PipelineStageFlags2::from_raw(stages.bits())
 }
 
 pub(crate) fn accesses(accesses: Accesses) -> vk::AccessFlags2 {
-    vk::AccessFlags2::from_raw(accesses.vulkan())
+    vk::AccessFlags2::from_raw(accesses.bits())
 }
 
 pub(crate) fn usage(usage: Usage) -> vk::ImageUsageFlags {
@@ -70,6 +70,9 @@ pub(crate) fn layout(layout: Layout) -> vk::ImageLayout {
         Layout::TransferDstOptimal => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
         Layout::PresentSrcKhr => vk::ImageLayout::PRESENT_SRC_KHR,
         Layout::RenderingLocalReadKhr => vk::ImageLayout::RENDERING_LOCAL_READ_KHR,
+        Layout::FragmentShadingRateAttachmentOptimalKhr => {
+            vk::ImageLayout::FRAGMENT_SHADING_RATE_ATTACHMENT_OPTIMAL_KHR
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedStep, Refuse, check, passes};
+use crate::prepare::{PreparedStep, Refuse, check};
 use ash::vk;
 use framewright_graph::plan::{Plan, Work};
 use std::sync::Arc;
@@ -81,7 +81,7 @@ impl Executor {
             if let (Work::Dispatch(new), PreparedStep::Dispatch(made)) = (&new.work, &*made) {
                 made.groups(&self.gpu, new)?;
             }
-            let passes = passes(&old.work).iter().zip(passes(&new.work)).zip(made.sets()).enumerate();
+            let passes = old.work.passes().iter().zip(new.work.passes()).zip(made.sets()).enumerate();
             for (pass, ((_, new), sets)) in passes.filter(|(_, ((old, new), _))| old.params != new.params) {
                 let filled = sets.params_of(&self.gpu, new)?;
                 changed.extend(filled.map(|filled| ChangedParams { step, pass, filled }));

@@ -3,16 +3,15 @@
 use super::check_steps::{bad, executable};
 use super::descriptions::{buffer_descriptor, cycle, descriptor};
 use super::textures::file_of;
-use super::uses::passes;
 use crate::base::{Error, by};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
 use framewright_graph::frame::BufferRole;
-use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role};
+use framewright_graph::plan::{Buffer, Image, ImageBarrier, MemoryBarrier, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{BufferUsage, Layout, Usage, name_of};
+use framewright_graph::vulkan::{BufferUsage, Layout, State, Usage, name_of};
 
 /// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +42,7 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
     }
     all_memory(gpu, plan)?;
     layouts(gpu, plan)?;
+    features(gpu, plan)?;
     plan.steps.iter().try_for_each(|step| executable(gpu, plan, step))
 }
 
@@ -94,7 +94,7 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
     let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
     let limits = gpu.shader_limits();
     // Usage says less: what a custom pass reads may be used in any way.
-    let accesses = plan.steps.iter().flat_map(|step| passes(&step.work)).flat_map(|pass| &pass.buffers);
+    let accesses = plan.steps.iter().flat_map(|step| step.work.passes()).flat_map(|pass| &pass.buffers);
     let bound = accesses.filter(|access| access.buffer == buffer.id).filter_map(|access| match access.role? {
         BufferRole::Uniform => Some(Limit::UniformBytes),
         BufferRole::Storage { .. } => Some(Limit::StorageBytes),
@@ -170,6 +170,29 @@ fn layouts(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
                 return bad(format!("`{name}` is read locally, and {device} has no local reads"));
             }
             _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Whether the device has the features that bring the stages, accesses and layouts of barriers.
+fn features(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
+    let ends = |barrier: &MemoryBarrier| {
+        let before = State { stages: barrier.src_stages, accesses: barrier.src_accesses, layout: Layout::Undefined };
+        let after = State { stages: barrier.dst_stages, accesses: barrier.dst_accesses, layout: Layout::Undefined };
+        [before, after]
+    };
+    let image_ends = |it: &ImageBarrier| {
+        let before = State { stages: it.src_stages, accesses: it.src_accesses, layout: it.old_layout };
+        [before, State { stages: it.dst_stages, accesses: it.dst_accesses, layout: it.new_layout }]
+    };
+    for (number, step) in plan.steps.iter().enumerate() {
+        let memory = step.memory_barriers.iter().flat_map(ends);
+        let mut all = step.image_barriers.iter().chain(&step.releases).flat_map(image_ends).chain(memory);
+        let missing = |state: State| state.features().find(|feature| !gpu.features.has(feature));
+        if let Some(feature) = all.find_map(missing) {
+            let device = &gpu.summary.name;
+            return bad(format!("a barrier of step {number} needs the feature {feature}, which {device} doesn't have"));
         }
     }
     Ok(())

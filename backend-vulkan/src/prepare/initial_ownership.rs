@@ -4,7 +4,7 @@
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
 
 use super::descriptions::part;
-use super::uses::{ResourceUses, used};
+use super::uses::ResourceUses;
 use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role};
 use framewright_graph::vulkan::{Layout, Sharing, Subresources};
 use std::collections::HashSet;
@@ -58,11 +58,11 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
                 _ => touch(barrier.image, barrier.range, step.queue, None),
             }
         }
-        used(&step.work, &mut |resource, range| {
+        for (resource, range) in step.work.used() {
             if let (Resource::Image(image), Some(range)) = (resource, range) {
                 touch(image, range, step.queue, None);
             }
-        });
+        }
     }
     owners
 }

@@ -39,5 +39,5 @@ pub(crate) use prepared::{Debugging, PreparedPlan};
 pub(crate) use step::{PreparedStep, title};
 pub(crate) use supplied::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, stage_textures};
-pub(crate) use uses::{ResourceUses, passes};
+pub(crate) use uses::ResourceUses;
 pub(crate) use variant::{scope_formats, view_mask};

@@ -13,7 +13,6 @@
 
 use super::command_list::{Command, CommandList};
 use super::frame::Frame;
-use super::uses::passes;
 use crate::base::{Clear, convert};
 use crate::commands::{ImageSide, TransferCommand, TransferSide, memory_barrier};
 use ash::vk;
@@ -90,7 +89,7 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
 /// Whether the step replaces all of a buffer, as its passes promise, and the buffer can be poisoned.
 fn replaces(step: &Step, buffer: &Buffer) -> bool {
     let mut uses =
-        passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
+        step.work.passes().iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
     let whole = |it: &BufferAccess| it.role == Some(BufferRole::Storage { read: false, write: true });
     buffer.usage.contains(BufferUsage::TRANSFER_DST) && uses.peek().is_some() && uses.all(whole)
 }
@@ -108,7 +107,7 @@ fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
             return (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE);
         }
     }
-    let uses = passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
+    let uses = step.work.passes().iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
     uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, accesses), it| {
         (stages | convert::stages(it.stages), accesses | convert::accesses(it.accesses))
     })

@@ -9,7 +9,6 @@ use super::poison::push_poisoned_barriers;
 use super::prepared::Debugging;
 use super::rings::Period;
 use super::scope::{prepare_scope, push_scope};
-use super::uses::touched;
 use crate::base::{Error, convert};
 use crate::commands::{TransferCommand, TransferSide, memory_barrier};
 use crate::gpu::{Gpu, c_string};
@@ -118,9 +117,7 @@ impl PreparedStep {
 
 /// When a step records the same again.
 pub(super) fn period(frame: &Frame<'_>, step: &Step) -> Period {
-    let mut resources = Vec::new();
-    touched(step, &mut |resource| resources.push(resource));
-    frame.physical.period(resources)
+    frame.physical.period(step.touched())
 }
 
 /// The transfer that a step is, if it is one.

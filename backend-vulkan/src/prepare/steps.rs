@@ -2,7 +2,6 @@
 
 use super::check::{Refuse, check};
 use super::step::PreparedStep;
-use super::uses::passes;
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
 use crate::shaders::ShaderLibrary;
@@ -18,7 +17,7 @@ pub(super) fn prepare_steps(
     let steps = plan.steps.iter().map(|step| PreparedStep::new(gpu, plan, step, shaders));
     let mut steps = steps.collect::<Result<Vec<_>, _>>()?;
     let with_names =
-        plan.steps.iter().zip(&mut steps).flat_map(|(step, made)| passes(&step.work).iter().zip(made.pipelines()));
+        plan.steps.iter().zip(&mut steps).flat_map(|(step, made)| step.work.passes().iter().zip(made.pipelines()));
     let (names, mut made): (Vec<_>, Vec<_>) =
         with_names.filter_map(|(pass, pipeline)| Some((&*pass.name, pipeline?))).unzip();
     let wanted: Vec<_> = names.into_iter().zip(made.iter().map(|pipeline| &pipeline.descriptor)).collect();

@@ -7,7 +7,7 @@ use super::recorder::Recorder;
 use super::step::Recording;
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead};
-use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand, passes};
+use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand};
 use ash::vk;
 
 /// Begins a rendering scope.
@@ -49,7 +49,7 @@ impl Recording<'_> {
         }
         let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize]);
         let begun = canvas.begin();
-        let planned = || &passes(&self.frame.plan.steps[step].work)[draw.pass as usize];
+        let planned = || &self.frame.plan.steps[step].work.passes()[draw.pass as usize];
         let drawn = match &draw.vertices {
             DrawnVertices::FullScreen => begun.and_then(|()| {
                 canvas.for_eyes(0..1, |device, commands, first, count| {

@@ -9,7 +9,7 @@ use super::recorded::{Counts, Recorded};
 use super::state::CommandState;
 use crate::base::Error;
 use crate::commands::barrier_call;
-use crate::prepare::{Command, DispatchCommand, Frame, PreparedPlan, WorkgroupCount, passes};
+use crate::prepare::{Command, DispatchCommand, Frame, PreparedPlan, WorkgroupCount};
 use ash::vk;
 use framewright_graph::plan::{Pass, Queue};
 
@@ -63,7 +63,7 @@ impl Recording<'_> {
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
                 Command::Custom => {
-                    for pass in passes(&self.frame.plan.steps[step].work) {
+                    for pass in self.frame.plan.steps[step].work.passes() {
                         let draws = self.custom(commands, pass)?;
                         self.end_pass(commands, Counts { draws, culled: 0 });
                     }
@@ -112,7 +112,7 @@ impl Recording<'_> {
 
     /// Has the draw source bind its sets for the dispatch of a step.
     fn bind_supplied(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
-        let planned = passes(&self.frame.plan.steps[step].work).first();
+        let planned = self.frame.plan.steps[step].work.passes().first();
         let (Some(made), Some(pass)) = (self.prepared.steps[step].dispatch(), planned) else { return Ok(()) };
         let (gpu, held) = (self.frame.gpu, &mut self.recorded.kept);
         let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.told));

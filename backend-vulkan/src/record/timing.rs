@@ -4,7 +4,7 @@ use super::fragments::FragmentCounts;
 use super::recorded::{Counts, Recorded};
 use crate::base::Error;
 use crate::gpu::Gpu;
-use crate::prepare::{Batch, passes, view_mask};
+use crate::prepare::{Batch, view_mask};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue, Work};
 use std::sync::Arc;
@@ -79,7 +79,7 @@ impl Queries {
     /// Queries for the frames of `plan`, which are submitted in `batches` command buffers, on a device that draws
     /// `max_views` views at once.
     fn of(plan: &Plan, batches: usize, max_views: u32) -> Option<Queries> {
-        let passes: usize = plan.steps.iter().map(|step| passes(&step.work).len()).sum();
+        let passes: usize = plan.steps.iter().map(|step| step.work.passes().len()).sum();
         let stamps = u32::try_from(batches + plan.steps.len() + passes).ok()?;
         let views = plan.steps.iter().map(|step| views(plan, &step.work)).max().unwrap_or(1);
         let queries = Queries { stamps, views, spare: max_views.max(1) };
@@ -178,7 +178,7 @@ pub(crate) fn report(
         for step in &plan.steps[batch.steps.clone()] {
             let mut began = step_began;
             let mut reports = Vec::new();
-            for pass in passes(&step.work) {
+            for pass in step.work.passes() {
                 let ended = next();
                 let milliseconds = clock.between(began, ended);
                 let Counts { draws, culled } = counts.next().unwrap_or_default();

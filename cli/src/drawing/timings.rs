@@ -106,8 +106,8 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
 /// The resolves that a rendering scope carries, in words; `None` if there are none.
 fn resolves(plan: &Plan, scope: &RenderScope) -> Option<String> {
     let image = |image: ImageId| name(plan, Resource::Image(image));
-    let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
-    let resolves: Vec<String> = attachments
+    let resolves: Vec<String> = scope
+        .attachments()
         .filter_map(|it| Some(format!("{} → {}", image(it.image), image(it.resolve.as_ref()?.image))))
         .collect();
     (!resolves.is_empty()).then(|| resolves.join(", "))

@@ -5,8 +5,8 @@ use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
 use crate::plan::{Inserted, Note};
 use crate::vulkan::{
-    Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing, Stages, State,
-    Subresources, Usage,
+    AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
+    Stages, State, Subresources, Usage,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -418,13 +418,13 @@ impl Role {
     /// The usage that it takes of an image.
     pub(super) fn usage(self) -> Usage {
         match self {
-            Role::Sampled => Usage::SAMPLED,
-            Role::Input => Usage::INPUT_ATTACHMENT,
-            Role::Storage => Usage::STORAGE,
-            Role::Color => Usage::COLOR_ATTACHMENT,
-            Role::Depth | Role::Stencil => Usage::DEPTH_STENCIL_ATTACHMENT,
-            Role::Source => Usage::TRANSFER_SRC,
-            Role::Target => Usage::TRANSFER_DST,
+            Role::Sampled => AccessKind::Sampled.usage(),
+            Role::Input => AccessKind::InputAttachment.usage(),
+            Role::Storage => AccessKind::Storage.usage(),
+            Role::Color => AccessKind::ColorAttachment.usage(),
+            Role::Depth | Role::Stencil => AccessKind::DepthAttachment.usage(),
+            Role::Source => AccessKind::TransferSource.usage(),
+            Role::Target => AccessKind::TransferTarget.usage(),
             Role::Buffer => Usage::empty(),
         }
     }

@@ -3,7 +3,7 @@
 use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
-use crate::vulkan::{Accesses, LoadOp, Stages, StoreOp};
+use crate::vulkan::{AccessKind, Accesses, LoadOp, Stages, StoreOp};
 
 /// Load and store operations of one attachment of a scope.
 #[derive(Debug, Clone, Copy)]
@@ -56,21 +56,21 @@ impl AttachmentOps {
     /// Stages and accesses of its load operation.
     pub(super) fn load_access(&self) -> (Stages, Accesses) {
         let loads = self.load == LoadOp::Load;
+        let accesses = |kind: AccessKind| kind.accesses(loads, !loads);
         if self.role == Role::Color {
-            let access = if loads { Accesses::COLOR_ATTACHMENT_READ } else { Accesses::COLOR_ATTACHMENT_WRITE };
-            return (Stages::COLOR_ATTACHMENT_OUTPUT, access);
+            return (Stages::COLOR_ATTACHMENT_OUTPUT, accesses(AccessKind::ColorAttachment));
         }
-        let access =
-            if loads { Accesses::DEPTH_STENCIL_ATTACHMENT_READ } else { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE };
-        (Stages::EARLY_FRAGMENT_TESTS, access)
+        (Stages::EARLY_FRAGMENT_TESTS, accesses(AccessKind::DepthAttachment))
     }
 
     /// Stages and accesses of its store operation; a store operation `NONE` is no access.
     pub(super) fn store_access(&self) -> Option<(Stages, Accesses)> {
         match (self.store, self.role) {
             (StoreOp::None, _) => None,
-            (_, Role::Color) => Some((Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)),
-            (_, _) => Some((Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)),
+            (_, Role::Color) => {
+                Some((Stages::COLOR_ATTACHMENT_OUTPUT, AccessKind::ColorAttachment.accesses(false, true)))
+            }
+            (_, _) => Some((Stages::LATE_FRAGMENT_TESTS, AccessKind::DepthAttachment.accesses(false, true))),
         }
     }
 }

@@ -7,7 +7,6 @@ use super::options::Options;
 use super::retain::{AttachmentOps, LoadStoreOps};
 use super::scope::{Scoped, Step};
 use super::sync::AccessTimeline;
-use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
 
 /// Gives each physical resource its sharing and its usage flags, and each use the layout that it has in its step.
@@ -52,7 +51,7 @@ fn usage(
         Kind::Image(image) => {
             let mut usage = Usage::from_bits_truncate(bits);
             if let Some(states) = &timeline.states[at as usize] {
-                usage |= usage_for(states.before.layout) | usage_for(states.after.layout);
+                usage |= states.before.layout.usage() | states.after.layout.usage();
             }
             (usage | of_image(usage, resource.memory, image.mips, options.poison, stays_in_scope)).bits()
         }

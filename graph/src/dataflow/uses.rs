@@ -5,7 +5,7 @@ use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, Cause, ImageId, Pass, Plan, RenderScope, Resource, Side, StepId,
     Transfer, Work,
 };
-use crate::vulkan::{Accesses, LoadOp, Subresources};
+use crate::vulkan::{AccessKind, Accesses, LoadOp, Subresources};
 
 /// All nodes, in the order of execution.
 pub(super) fn nodes(plan: &Plan) -> Vec<Node> {
@@ -53,9 +53,9 @@ fn of_transfer(plan: &Plan, step: StepId, kind: NodeKind, transfer: &Transfer) -
 }
 
 fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node>) {
-    let attachments = || scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
     // An attachment whose load op drops what was there has contents from its first use on.
-    let mut fresh: Vec<(ImageId, Subresources)> = attachments()
+    let mut fresh: Vec<(ImageId, Subresources)> = scope
+        .attachments()
         .filter(|attachment| attachment.load != LoadOp::Load)
         .map(|attachment| (attachment.image, attachment.range))
         .collect();
@@ -71,7 +71,7 @@ fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node
         }
         nodes.push(of_pass(step, NodeKind::Draw, pass, uses));
     }
-    for Attachment { image, range, resolve, .. } in attachments() {
+    for Attachment { image, range, resolve, .. } in scope.attachments() {
         let Some(resolve) = resolve else { continue };
         let part = |image, range, role| Use {
             resource: Resource::Image(image),
@@ -87,12 +87,8 @@ fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node
 }
 
 fn of_side(side: &Side, role: UseRole) -> Use {
-    let range = match side {
-        Side::Image { range, .. } => Some(*range),
-        Side::Buffer { .. } => None,
-    };
     let reads = role == UseRole::Source;
-    Use { resource: side.resource(), range, role, reads, writes: !reads }
+    Use { resource: side.resource(), range: side.range(), role, reads, writes: !reads }
 }
 
 fn of_accesses(pass: &Pass) -> Vec<Use> {
@@ -101,8 +97,8 @@ fn of_accesses(pass: &Pass) -> Vec<Use> {
 }
 
 fn of_access(access: &Access) -> Use {
-    const COLOR: Accesses = Accesses::COLOR_ATTACHMENT_READ.union(Accesses::COLOR_ATTACHMENT_WRITE);
-    const DEPTH: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ.union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
+    const COLOR: Accesses = AccessKind::ColorAttachment.accesses(true, true);
+    const DEPTH: Accesses = AccessKind::DepthAttachment.accesses(true, true);
     let role = match access.binding.as_ref().map(|binding| binding.kind) {
         Some(BindingKind::Sampled(_)) => UseRole::Sampled,
         Some(BindingKind::Storage) => UseRole::StorageImage,

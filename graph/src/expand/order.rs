@@ -163,7 +163,11 @@ impl Check<'_> {
         let of = read.resource;
         let wrong = Diagnostic::new(read.span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
-            let help = "a pass reads what stood there before the pass";
+            let help = "a pass reads what stood there before the pass".to_owned();
+            let help = match self.previous(of) {
+                Some(previous) => format!("{help}; {previous}"),
+                None => help,
+            };
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
         let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
@@ -184,14 +188,18 @@ impl Check<'_> {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
         let wrong = self.removed(wrong, &self.resources.name(of).text);
-        if let Some(Lifetime::History { .. }) = self.resources.lifetime(of) {
-            let name = &self.resources.name(of).text;
-            let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
-            return wrong.help(format!(
-                "what the frame before left is `({kind}: \"{name}\", previous: 1)`; else move pass `{below}` up"
-            ));
+        if let Some(previous) = self.previous(of) {
+            return wrong.help(format!("{previous}; else move pass `{below}` up"));
         }
         wrong.help(format!("move pass `{below}` up: the order of passes gives them their meaning"))
+    }
+
+    /// How a pass reads what the frame before left in something that has a history.
+    fn previous(&self, of: Resource) -> Option<String> {
+        let Some(Lifetime::History { .. }) = self.resources.lifetime(of) else { return None };
+        let name = &self.resources.name(of).text;
+        let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
+        Some(format!("what the frame before left is `({kind}: \"{name}\", previous: 1)`"))
     }
 
     /// Shows where passes were removed that may have written the missing part.

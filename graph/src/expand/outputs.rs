@@ -4,9 +4,9 @@ use super::inputs::Inputs;
 use super::resources::Resources;
 use crate::base::{Diagnostic, Span, suggestion};
 use crate::frame::{Eye, ImageIndex, Output, Resource};
-use crate::language::{self, Pipeline, State, StateWord};
+use crate::language::{self, Pipeline, State};
 use crate::ron::Spanned;
-use crate::vulkan::{Encoding, Rotation};
+use crate::vulkan::{AccessKind, Encoding, Rotation};
 
 /// The pipeline's outputs, then dumped images that aren't among them.
 pub(super) fn outputs(resources: &Resources<'_>, inputs: &Inputs<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Output> {
@@ -19,7 +19,7 @@ pub(super) fn outputs(resources: &Resources<'_>, inputs: &Inputs<'_>, errors: &m
         let encoding = encoding.map(|encoding| encoding.value);
         let shown = shown(resources, resource, encoding);
         let rotation = if shown { inputs.rotation } else { Rotation::Identity };
-        let presented = Spanned { value: State::Word(StateWord::Present), span };
+        let presented = Spanned { value: State::Word(AccessKind::Present), span };
         let after = output.after.or((shown && inputs.window.is_some()).then_some(presented));
         let after = after.and_then(|after| resources.left(resource, after, errors));
         outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });

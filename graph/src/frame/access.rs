@@ -5,7 +5,7 @@ use super::{
     TransferUse, Work,
 };
 use crate::base::Span;
-use crate::vulkan::{Format, Subresources};
+use crate::vulkan::{AccessKind, Format, Subresources};
 
 /// An image or a buffer that a pass names, by the role in which it does.
 #[derive(Debug, Clone, Copy)]
@@ -209,6 +209,25 @@ impl Access<'_> {
 }
 
 impl BufferRole {
+    /// The kind of access.
+    pub(crate) const fn kind(self) -> AccessKind {
+        match self {
+            BufferRole::Uniform => AccessKind::Uniform,
+            BufferRole::Storage { .. } => AccessKind::Storage,
+            BufferRole::Vertex => AccessKind::Vertex,
+            BufferRole::Index => AccessKind::Index,
+            BufferRole::Indirect => AccessKind::Indirect,
+        }
+    }
+
+    /// Whether shaders access it, in stages that the pass says.
+    pub(crate) const fn is_of_shaders(self) -> bool {
+        match self {
+            BufferRole::Uniform | BufferRole::Storage { .. } => true,
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => false,
+        }
+    }
+
     /// Whether earlier contents are read or kept.
     pub(crate) const fn reads(self) -> bool {
         !matches!(self, BufferRole::Storage { read: false, .. })

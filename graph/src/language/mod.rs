@@ -44,8 +44,8 @@ pub use model::{
     Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Decided, Decisions, Depth, Draw, Face, Fill, Format,
     Forward, Groups, Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off,
     Output, Param, Part, Pass, PassDecisions, Pipeline, Precision, Precisions, Preset, RemovedPass, Resolves,
-    ResourceRef, Sample, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State, StateWord,
-    Storage, StorageAccess, Uniform, View, Work, last_step, nth_step,
+    ResourceRef, Sample, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State, Storage,
+    StorageAccess, Uniform, View, Work, last_step, nth_step,
 };
 pub use read::{read, read_bytes, read_bytes_with, read_extended, read_with};
 pub use schema::{FILES, goes_with, schema};

@@ -1,9 +1,6 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
-use super::{
-    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Pass, Plan, Resource, Role, Side, Step, StepId, ViewId,
-    Work,
-};
+use super::{BufferId, FORMAT_VERSION, ImageId, Initial, Plan, Resource, Role, Step, StepId, ViewId, Work};
 use crate::plan::names::Shown;
 use crate::vulkan::FillValue;
 use serde::Deserialize;
@@ -160,7 +157,7 @@ impl Plan {
                 step_of(part, barrier.needed_by)?;
             }
         }
-        let (attachments, passes) = attachments_and_passes(&step.work);
+        let (attachments, passes) = (step.work.attachments(), step.work.passes().iter());
         for attachment in attachments {
             image("work", attachment.image)?;
             attachment.resolve.as_ref().map_or(Ok(()), |resolve| image("work", resolve.image))?;
@@ -171,7 +168,7 @@ impl Plan {
             pass.accesses.iter().try_for_each(|access| image("work", access.image))?;
             pass.buffers.iter().try_for_each(|access| buffer("work", access.buffer))?;
         }
-        sides(&step.work).iter().try_for_each(|side| self.check_named(side.resource(), || place("work")))
+        step.work.sides().try_for_each(|side| self.check_named(side.resource(), || place("work")))
     }
 
     fn check_numbers(&self) -> Result<(), PlanError> {
@@ -189,7 +186,7 @@ impl Plan {
             {
                 return Err(PlanError::NotFinite { place: format!("the value of steps[{index}]") });
             }
-            let (attachments, passes) = attachments_and_passes(&step.work);
+            let (attachments, passes) = (step.work.attachments(), step.work.passes().iter());
             for attachment in attachments {
                 #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
                 let is_finite = |value: &f64| (*value as f32).is_finite();
@@ -205,27 +202,6 @@ impl Plan {
             }
         }
         Ok(())
-    }
-}
-
-fn attachments_and_passes(work: &Work) -> (impl Iterator<Item = &Attachment>, std::slice::Iter<'_, Pass>) {
-    let (attachments, passes): (_, &[Pass]) = match work {
-        Work::Render(scope) => ((&scope.color[..], scope.depth.as_ref(), scope.stencil.as_ref()), &scope.passes),
-        Work::Dispatch(pass) | Work::Custom(pass) => ((&[][..], None, None), std::slice::from_ref(pass)),
-        Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => ((&[][..], None, None), &[]),
-    };
-    let (color, depth, stencil) = attachments;
-    (color.iter().chain(depth).chain(stencil), passes.iter())
-}
-
-/// The sides that a transfer reads and writes.
-fn sides(work: &Work) -> Vec<Side> {
-    match work {
-        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
-            vec![transfer.source, transfer.target]
-        }
-        Work::Fill(fill) => vec![fill.target],
-        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => Vec::new(),
     }
 }
 

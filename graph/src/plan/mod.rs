@@ -50,6 +50,7 @@ mod totals;
 mod values;
 mod variants;
 mod view;
+mod walk;
 mod work;
 
 pub use cause::{Cause, Inserted};
@@ -163,7 +164,6 @@ impl Plan {
     }
 
     fn first_attachment(&self, scope: &RenderScope) -> Option<&Image> {
-        let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
-        first.and_then(|first| self.images.get(first.image.0 as usize))
+        scope.attachments().next().and_then(|first| self.images.get(first.image.0 as usize))
     }
 }

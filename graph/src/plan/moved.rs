@@ -65,10 +65,7 @@ impl Plan {
             [transfer.source, transfer.target].map(|side| (side.resource(), moved(self.of_side(side)))).into()
         };
         match &step.work {
-            Work::Render(scope) => {
-                let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
-                attachments.flat_map(|attachment| self.of_attachment(attachment)).collect()
-            }
+            Work::Render(scope) => scope.attachments().flat_map(|attachment| self.of_attachment(attachment)).collect(),
             Work::Resolve(transfer) => sides(transfer, |resolved| Moved { resolved, ..Moved::default() }),
             Work::Copy(transfer) | Work::Blit(transfer) => {
                 sides(transfer, |copied| Moved { copied, ..Moved::default() })

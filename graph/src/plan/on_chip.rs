@@ -4,7 +4,7 @@
 //! Its bytes are counted once, however many passes of the scope draw into it. That is the least that scopes of their own would
 //! move: between two of them, an attachment is stored and loaded.
 
-use super::{Attachment, ImageId, Plan, Role, Step, Work};
+use super::{Attachment, ImageId, Plan, Role, Step};
 use crate::vulkan::{LoadOp, StoreOp};
 
 impl Plan {
@@ -23,9 +23,7 @@ impl Plan {
     /// The bytes that stay on the chip in one of its steps, attachment by attachment: those of depth and of stencil stand apart.
     #[must_use]
     pub fn on_chip_of_each(&self, step: &Step) -> Vec<(ImageId, u64)> {
-        let Work::Render(scope) = &step.work else { return Vec::new() };
-        let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
-        let stay = attachments.filter(|attachment| self.stays_on_chip(attachment));
+        let stay = step.work.attachments().filter(|attachment| self.stays_on_chip(attachment));
         stay.map(|attachment| (attachment.image, self.of_range(attachment.image, attachment.range))).collect()
     }
 

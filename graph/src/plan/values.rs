@@ -1,18 +1,62 @@
 //! Plans that differ in values alone: the memory and the shaders of one serve for the other.
 
-use super::{Attachment, Cause, Fill, Pass, Plan, Reason, RenderScope, Side, Transfer, Work};
+use super::{Attachment, Cause, ImageId, Pass, Plan, Reason, Side, Totals, Work};
 use crate::frame::{Groups, ParamValue};
 use crate::vulkan::FillValue;
 
 impl Plan {
-    /// The first difference of `other` from this Plan beside values, in words; `None`: an executor of this Plan can go on with
-    /// the other one, with the memory, images, buffers and shaders that it has.
+    /// The Plan without values, and without what explains: equal for Plans of which one can be executed with the memory, images,
+    /// buffers and shaders of the other. This is the one rule of what a mere value is.
     ///
-    /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, which part of an
-    /// image is in use where that may change, and all that explains.
+    /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, and which part of an
+    /// image is in use where that may change.
+    #[must_use]
+    pub fn without_values(&self) -> Plan {
+        let mut plan = self.clone();
+        (plan.settings, plan.changes, plan.notes) = Default::default();
+        plan.decided = [].into();
+        plan.totals = Totals::default();
+        plan.views.iter_mut().for_each(|view| view.jitter = None);
+        for image in &mut plan.images {
+            image.cause = Cause::Written(None);
+            image.extent = crate::frame::allocated_extent(image.extent, image.allocated);
+        }
+        plan.buffers.iter_mut().for_each(|buffer| buffer.cause = Cause::Written(None));
+        let Plan { images, steps, .. } = &mut plan;
+        let changes = |image: ImageId| images[image.0 as usize].allocated.is_some();
+        for step in steps {
+            step.work.passes_mut().iter_mut().for_each(forget_pass);
+            match &mut step.work {
+                Work::Render(scope) => {
+                    if scope.attachments().next().is_some_and(|first| changes(first.image)) {
+                        scope.extent = [0, 0];
+                    }
+                    scope.attachments_mut().for_each(forget_attachment);
+                }
+                Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                    transfer.cause = Cause::Written(None);
+                }
+                Work::Fill(fill) => {
+                    fill.cause = Cause::Written(None);
+                    fill.value = FillValue::Bits([0; 4]);
+                }
+                Work::Dispatch(_) | Work::Custom(_) | Work::Export => {}
+            }
+            for side in step.work.sides_mut() {
+                match side {
+                    Side::Image { image, extent, .. } if changes(*image) => *extent = [0; 3],
+                    Side::Image { .. } | Side::Buffer { .. } => {}
+                }
+            }
+        }
+        plan
+    }
+
+    /// The first difference of `other` from this Plan beside values, in words; `None`: an executor of this Plan can go on with
+    /// the other one, with the memory, images, buffers and shaders that it has, see [`Plan::without_values`].
     #[must_use]
     pub fn differs_beyond_values(&self, other: &Plan) -> Option<String> {
-        let [one, another] = [self, other].map(without_values);
+        let [one, another] = [self, other].map(Plan::without_values);
         let step = one.steps.iter().zip(&another.steps).position(|(one, another)| one != another);
         let counts = [one.steps.len(), another.steps.len()];
         match () {
@@ -32,50 +76,8 @@ impl Plan {
     }
 }
 
-/// A Plan without the values in it.
-fn without_values(plan: &Plan) -> Plan {
-    let mut plan = plan.clone();
-    plan.views.iter_mut().for_each(|view| view.jitter = None);
-    for image in &mut plan.images {
-        image.cause = Cause::Written(None);
-        image.extent = crate::frame::allocated_extent(image.extent, image.allocated);
-    }
-    plan.buffers.iter_mut().for_each(|buffer| buffer.cause = Cause::Written(None));
-    let Plan { images, steps, .. } = &mut plan;
-    let changes =
-        |side: &Side| matches!(side, Side::Image { image, .. } if images[image.0 as usize].allocated.is_some());
-    for step in steps {
-        match &mut step.work {
-            Work::Render(scope) => {
-                let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
-                let changing = first.is_some_and(|first| images[first.image.0 as usize].allocated.is_some());
-                of_scope(scope, changing);
-            }
-            Work::Dispatch(pass) | Work::Custom(pass) => of_pass(pass),
-            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => of_transfer(transfer, changes),
-            Work::Fill(fill) => of_fill(fill, changes),
-            Work::Export => {}
-        }
-    }
-    plan
-}
-
-fn of_scope(scope: &mut RenderScope, changing: bool) {
-    if changing {
-        scope.extent = [0, 0];
-    }
-    let attachments = scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil);
-    for Attachment { clear, resolve, because, .. } in attachments {
-        *clear = clear.map(|_| [0.0; 4]);
-        *because = Reason::from("");
-        if let Some(resolve) = resolve {
-            resolve.cause = Cause::Written(None);
-        }
-    }
-    scope.passes.iter_mut().for_each(of_pass);
-}
-
-fn of_pass(pass: &mut Pass) {
+/// Takes the value out of what may differ.
+fn forget_pass(pass: &mut Pass) {
     pass.cause = Cause::Written(None);
     pass.merged = pass.merged.take().map(|_| Box::new(Reason::from("")));
     pass.params.iter_mut().for_each(|param| param.value = ParamValue::Bool(false));
@@ -86,23 +88,10 @@ fn of_pass(pass: &mut Pass) {
     });
 }
 
-fn of_transfer(transfer: &mut Transfer, changes: impl Fn(&Side) -> bool) {
-    transfer.cause = Cause::Written(None);
-    for side in [&mut transfer.source, &mut transfer.target] {
-        forget_extent(side, &changes);
-    }
-}
-
-fn of_fill(fill: &mut Fill, changes: impl Fn(&Side) -> bool) {
-    fill.cause = Cause::Written(None);
-    fill.value = FillValue::Bits([0; 4]);
-    forget_extent(&mut fill.target, changes);
-}
-
-fn forget_extent(side: &mut Side, changes: impl Fn(&Side) -> bool) {
-    if changes(side)
-        && let Side::Image { extent, .. } = side
-    {
-        *extent = [0; 3];
+fn forget_attachment(attachment: &mut Attachment) {
+    attachment.clear = attachment.clear.map(|_| [0.0; 4]);
+    attachment.because = Reason::from("");
+    if let Some(resolve) = &mut attachment.resolve {
+        resolve.cause = Cause::Written(None);
     }
 }

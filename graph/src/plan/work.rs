@@ -276,6 +276,15 @@ pub enum Side {
 }
 
 impl Side {
+    /// The part of an image; `None`: it is a buffer.
+    #[must_use]
+    pub const fn range(&self) -> Option<Subresources> {
+        match self {
+            Side::Image { range, .. } => Some(*range),
+            Side::Buffer { .. } => None,
+        }
+    }
+
     /// The image or buffer.
     #[must_use]
     pub const fn resource(&self) -> Resource {

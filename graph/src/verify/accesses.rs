@@ -281,8 +281,13 @@ fn buffer_usage(accesses: Accesses) -> BufferUsage {
         (Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER),
         (Accesses::TRANSFER_READ, BufferUsage::TRANSFER_SRC),
         (Accesses::TRANSFER_WRITE, BufferUsage::TRANSFER_DST),
+        (
+            Accesses::ACCELERATION_STRUCTURE_READ_KHR | Accesses::ACCELERATION_STRUCTURE_WRITE_KHR,
+            BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR,
+        ),
+        (Accesses::SHADER_BINDING_TABLE_READ_KHR, BufferUsage::SHADER_BINDING_TABLE_KHR),
         // Whatever a program records with it.
-        (Accesses::MEMORY_READ, BufferUsage::all().difference(BufferUsage::TRANSFER_DST)),
+        (Accesses::MEMORY_READ, BufferUsage::CORE.difference(BufferUsage::TRANSFER_DST)),
         (Accesses::MEMORY_WRITE, BufferUsage::STORAGE_BUFFER.union(BufferUsage::TRANSFER_DST)),
     ]
     .into_iter()

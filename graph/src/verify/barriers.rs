@@ -158,7 +158,12 @@ pub(super) const fn possible(queue: Queue) -> Stages {
     let transfer = Stages::COPY.union(Stages::CLEAR).union(Stages::HOST).union(Stages::ALL_COMMANDS);
     match queue {
         Queue::Graphics => Stages::all(),
-        Queue::Compute => transfer.union(Stages::COMPUTE_SHADER).union(Stages::DRAW_INDIRECT),
+        Queue::Compute => transfer
+            .union(Stages::COMPUTE_SHADER)
+            .union(Stages::DRAW_INDIRECT)
+            .union(Stages::RAY_TRACING_SHADER_KHR)
+            .union(Stages::ACCELERATION_STRUCTURE_BUILD_KHR)
+            .union(Stages::ACCELERATION_STRUCTURE_COPY_KHR),
         Queue::Transfer => transfer,
     }
 }

@@ -17,8 +17,7 @@ use super::scopes::{PAIRS, PairSet, STAGES, StageSet, WRITE_PAIRS};
 pub(super) type Time = u32;
 
 /// A time for each stage, and then for each pair that writes: whole vector instructions join two rows.
-const LANES: usize = STAGES + WRITE_PAIRS;
-const _: () = assert!(LANES.is_multiple_of(4));
+const LANES: usize = (STAGES + WRITE_PAIRS).next_multiple_of(4);
 
 /// How far back something is ordered: everything in a stage at times below its lane, and of each pair that writes everything
 /// made available below its lane; for each queue.

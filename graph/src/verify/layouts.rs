@@ -20,7 +20,9 @@ pub(super) fn problem(image: &Image, of: Aspects, layout: Layout) -> Option<Stri
 pub(super) fn planes(layout: Layout, planes: Aspects) -> Aspects {
     let both = Aspects::DEPTH | Aspects::STENCIL;
     match layout {
-        Layout::ColorAttachmentOptimal | Layout::PresentSrcKhr => planes & Aspects::COLOR,
+        Layout::ColorAttachmentOptimal | Layout::PresentSrcKhr | Layout::FragmentShadingRateAttachmentOptimalKhr => {
+            planes & Aspects::COLOR
+        }
         Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal if planes == both => {
             Aspects::empty()
         }
@@ -52,6 +54,7 @@ fn usage_for(layout: Layout) -> Usage {
         Layout::TransferSrcOptimal => Usage::TRANSFER_SRC,
         Layout::TransferDstOptimal => Usage::TRANSFER_DST,
         Layout::RenderingLocalReadKhr => Usage::INPUT_ATTACHMENT,
+        Layout::FragmentShadingRateAttachmentOptimalKhr => Usage::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
         Layout::Undefined | Layout::General | Layout::PresentSrcKhr => Usage::all(),
     }
 }

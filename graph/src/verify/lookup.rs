@@ -54,8 +54,9 @@ impl Scopes {
     #[inline]
     pub(super) fn of(&mut self, stages: Stages, accesses: Accesses) -> Scope {
         // Odd factors with bits all over mix the few bits that are set; the highest ones depend on all of them.
-        let mixed = stages.bits().wrapping_mul(0x9e37_79b1) ^ accesses.bits().wrapping_mul(0x85eb_ca77);
-        let known = &mut self.known[(mixed >> (u32::BITS - Scopes::KNOWN.ilog2())) as usize];
+        let mixed =
+            stages.bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ accesses.bits().wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let known = &mut self.known[(mixed >> (u64::BITS - Scopes::KNOWN.ilog2())) as usize];
         if (known.0, known.1) != (stages, accesses) {
             *known = (stages, accesses, Scope::of(stages, accesses));
         }
@@ -71,6 +72,7 @@ fn usage(accesses: Accesses) -> Usage {
         (Accesses::INPUT_ATTACHMENT_READ, Usage::INPUT_ATTACHMENT),
         (Accesses::TRANSFER_READ, Usage::TRANSFER_SRC),
         (Accesses::TRANSFER_WRITE, Usage::TRANSFER_DST),
+        (Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR, Usage::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR),
     ]
     .into_iter()
     .filter(|(those, _)| accesses.intersects(*those))

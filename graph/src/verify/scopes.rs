@@ -6,19 +6,19 @@
 use crate::vulkan::{Accesses, Stages};
 
 /// Number of stages.
-pub(super) const STAGES: usize = 13;
+pub(super) const STAGES: usize = 19;
 /// Number of pairs that write; they come first.
-pub(super) const WRITE_PAIRS: usize = 11;
+pub(super) const WRITE_PAIRS: usize = 16;
 /// Number of pairs.
-pub(super) const PAIRS: usize = 31;
+pub(super) const PAIRS: usize = 57;
 
 /// A set of stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct StageSet(pub(super) u16);
+pub(super) struct StageSet(pub(super) u32);
 
 /// A set of pairs of stage and access.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct PairSet(pub(super) u32);
+pub(super) struct PairSet(pub(super) u64);
 
 const DRAW_INDIRECT: usize = 0;
 const VERTEX_INPUT: usize = 1;
@@ -29,18 +29,26 @@ const LATE_TESTS: usize = 5;
 const COLOR_OUTPUT: usize = 6;
 const COMPUTE_SHADER: usize = 7;
 const HOST: usize = 8;
-const COPY: usize = 9;
-const RESOLVE: usize = 10;
-const BLIT: usize = 11;
-const CLEAR: usize = 12;
+const TASK_SHADER: usize = 9;
+const MESH_SHADER: usize = 10;
+const RAY_TRACING: usize = 11;
+const SHADING_RATE: usize = 12;
+const BUILD: usize = 13;
+const STRUCTURE_COPY: usize = 14;
+const COPY: usize = 15;
+const RESOLVE: usize = 16;
+const BLIT: usize = 17;
+const CLEAR: usize = 18;
 
-/// The graphics pipeline in logical order: indirect, vertex input, vertex shader, early tests, fragment shader, late
-/// tests, colour output.
-const PIPELINE: [usize; 7] =
-    [DRAW_INDIRECT, VERTEX_INPUT, VERTEX_SHADER, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT];
+/// The pipelines in logical order: graphics with vertices, and with meshes; compute, which is two stages long.
+const PIPELINES: [&[usize]; 3] = [
+    &[DRAW_INDIRECT, VERTEX_INPUT, VERTEX_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],
+    &[DRAW_INDIRECT, TASK_SHADER, MESH_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],
+    &[DRAW_INDIRECT, COMPUTE_SHADER],
+];
 
 /// Everything but the host: `ALL_COMMANDS` leaves it out.
-const ALL_COMMANDS: u16 = ((1 << STAGES) - 1) & !(1 << HOST);
+const ALL_COMMANDS: u32 = ((1 << STAGES) - 1) & !(1 << HOST);
 
 const PAIR: [(usize, Accesses); PAIRS] = [
     (VERTEX_SHADER, Accesses::SHADER_STORAGE_WRITE),
@@ -54,6 +62,11 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (BLIT, Accesses::TRANSFER_WRITE),
     (CLEAR, Accesses::TRANSFER_WRITE),
     (HOST, Accesses::HOST_WRITE),
+    (TASK_SHADER, Accesses::SHADER_STORAGE_WRITE),
+    (MESH_SHADER, Accesses::SHADER_STORAGE_WRITE),
+    (RAY_TRACING, Accesses::SHADER_STORAGE_WRITE),
+    (BUILD, Accesses::ACCELERATION_STRUCTURE_WRITE_KHR),
+    (STRUCTURE_COPY, Accesses::ACCELERATION_STRUCTURE_WRITE_KHR),
     (VERTEX_SHADER, Accesses::SHADER_SAMPLED_READ),
     (FRAGMENT_SHADER, Accesses::SHADER_SAMPLED_READ),
     (COMPUTE_SHADER, Accesses::SHADER_SAMPLED_READ),
@@ -74,45 +87,65 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (FRAGMENT_SHADER, Accesses::UNIFORM_READ),
     (COMPUTE_SHADER, Accesses::UNIFORM_READ),
     (FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ),
+    (TASK_SHADER, Accesses::SHADER_SAMPLED_READ),
+    (MESH_SHADER, Accesses::SHADER_SAMPLED_READ),
+    (RAY_TRACING, Accesses::SHADER_SAMPLED_READ),
+    (TASK_SHADER, Accesses::SHADER_STORAGE_READ),
+    (MESH_SHADER, Accesses::SHADER_STORAGE_READ),
+    (RAY_TRACING, Accesses::SHADER_STORAGE_READ),
+    (TASK_SHADER, Accesses::UNIFORM_READ),
+    (MESH_SHADER, Accesses::UNIFORM_READ),
+    (RAY_TRACING, Accesses::UNIFORM_READ),
+    (BUILD, Accesses::SHADER_STORAGE_READ),
+    (BUILD, Accesses::INDIRECT_COMMAND_READ),
+    (VERTEX_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (FRAGMENT_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (COMPUTE_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (TASK_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (MESH_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (RAY_TRACING, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (BUILD, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (STRUCTURE_COPY, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
+    (RAY_TRACING, Accesses::SHADER_BINDING_TABLE_READ_KHR),
+    (SHADING_RATE, Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR),
 ];
 
-const EARLIER: [u16; STAGES] = closure(true);
-const LATER: [u16; STAGES] = closure(false);
-const PAIRS_OF_STAGE: [u32; STAGES] = pairs_of_stages();
-const PAIRS_OF_ACCESS: [u32; 32] = pairs_of_accesses();
+const EARLIER: [u32; STAGES] = closure(true);
+const LATER: [u32; STAGES] = closure(false);
+const PAIRS_OF_STAGE: [u64; STAGES] = pairs_of_stages();
+const PAIRS_OF_ACCESS: [u64; 64] = pairs_of_accesses();
 /// The accesses that happen in each stage.
-const ACCESSES_OF_STAGE: [u32; STAGES] = accesses_of_stages();
+const ACCESSES_OF_STAGE: [u64; STAGES] = accesses_of_stages();
 
-const fn closure(earlier: bool) -> [u16; STAGES] {
+const fn closure(earlier: bool) -> [u32; STAGES] {
     let mut reach = [0; STAGES];
     let mut stage = 0;
     while stage < STAGES {
         reach[stage] = 1 << stage;
         stage += 1;
     }
-    let mut first = 0;
-    while first < PIPELINE.len() {
-        let mut second = first;
-        while second < PIPELINE.len() {
-            if earlier {
-                reach[PIPELINE[second]] |= 1 << PIPELINE[first];
-            } else {
-                reach[PIPELINE[first]] |= 1 << PIPELINE[second];
+    let mut which = 0;
+    while which < PIPELINES.len() {
+        let pipeline = PIPELINES[which];
+        let mut first = 0;
+        while first < pipeline.len() {
+            let mut second = first;
+            while second < pipeline.len() {
+                if earlier {
+                    reach[pipeline[second]] |= 1 << pipeline[first];
+                } else {
+                    reach[pipeline[first]] |= 1 << pipeline[second];
+                }
+                second += 1;
             }
-            second += 1;
+            first += 1;
         }
-        first += 1;
-    }
-    // A compute pipeline is two stages long: indirect, compute.
-    if earlier {
-        reach[COMPUTE_SHADER] |= 1 << DRAW_INDIRECT;
-    } else {
-        reach[DRAW_INDIRECT] |= 1 << COMPUTE_SHADER;
+        which += 1;
     }
     reach
 }
 
-const fn pairs_of_stages() -> [u32; STAGES] {
+const fn pairs_of_stages() -> [u64; STAGES] {
     let mut pairs = [0; STAGES];
     let mut pair = 0;
     while pair < PAIRS {
@@ -122,7 +155,7 @@ const fn pairs_of_stages() -> [u32; STAGES] {
     pairs
 }
 
-const fn accesses_of_stages() -> [u32; STAGES] {
+const fn accesses_of_stages() -> [u64; STAGES] {
     let mut accesses = [0; STAGES];
     let mut pair = 0;
     while pair < PAIRS {
@@ -133,8 +166,8 @@ const fn accesses_of_stages() -> [u32; STAGES] {
 }
 
 /// The pairs of each access, by the number of its bit.
-const fn pairs_of_accesses() -> [u32; 32] {
-    let mut pairs = [0; 32];
+const fn pairs_of_accesses() -> [u64; 64] {
+    let mut pairs = [0; 64];
     let mut pair = 0;
     while pair < PAIRS {
         pairs[PAIR[pair].1.bits().trailing_zeros() as usize] |= 1 << pair;
@@ -145,7 +178,7 @@ const fn pairs_of_accesses() -> [u32; 32] {
     pairs
 }
 
-const WRITES: u32 = (1 << WRITE_PAIRS) - 1;
+const WRITES: u64 = (1 << WRITE_PAIRS) - 1;
 
 impl StageSet {
     /// Every stage of a device.
@@ -154,10 +187,11 @@ impl StageSet {
     /// Exactly these stages; `ALL_COMMANDS` stands for every one on a device.
     pub(super) fn of(stages: Stages) -> StageSet {
         let bits = stages.bits();
-        // Bits 1–3, 7–11, 14 and 24–27, pushed together.
-        let dense = (bits >> 1 & 0x7) | (bits >> 4 & 0xf8) | (bits >> 6 & 0x100) | (bits >> 15 & 0x1e00);
+        // Bits 1–3, 7–11, 14, 19–22, 25, 28 and 32–35, pushed together.
+        let low = (bits >> 1 & 0x7) | (bits >> 4 & 0xf8) | (bits >> 6 & 0x100) | (bits >> 10 & 0x1e00);
+        let high = (bits >> 12 & 0x2000) | (bits >> 14 & 0x4000) | (bits >> 17 & 0x7_8000);
         let all = if stages.contains(Stages::ALL_COMMANDS) { ALL_COMMANDS } else { 0 };
-        StageSet(dense as u16 | all)
+        StageSet((low | high) as u32 | all)
     }
 
     /// With every stage of the same pipeline that logically comes before: what a barrier's source waits for.
@@ -170,7 +204,7 @@ impl StageSet {
         self.spread(&LATER)
     }
 
-    fn spread(self, reach: &[u16; STAGES]) -> StageSet {
+    fn spread(self, reach: &[u32; STAGES]) -> StageSet {
         StageSet(self.iter().fold(0, |set, stage| set | reach[stage]))
     }
 
@@ -200,7 +234,7 @@ impl StageSet {
 impl PairSet {
     /// Every pair of one of these stages, as they are written, and one of these accesses.
     pub(super) fn of(stages: Stages, accesses: Accesses) -> PairSet {
-        let of_accesses = bits(accesses.bits().into()).fold(0, |set, access| set | PAIRS_OF_ACCESS[access]);
+        let of_accesses = bits(accesses.bits()).fold(0, |set, access| set | PAIRS_OF_ACCESS[access]);
         PairSet(PairSet::of_stages(StageSet::of(stages)).0 & of_accesses)
     }
 
@@ -223,7 +257,7 @@ impl PairSet {
     }
 
     pub(super) fn iter(self) -> impl Iterator<Item = usize> {
-        bits(self.0.into())
+        bits(self.0)
     }
 
     pub(super) fn contains(self, pair: usize) -> bool {
@@ -276,6 +310,12 @@ pub(super) fn stage_word(stage: usize) -> Stages {
         Stages::COLOR_ATTACHMENT_OUTPUT,
         Stages::COMPUTE_SHADER,
         Stages::HOST,
+        Stages::TASK_SHADER_EXT,
+        Stages::MESH_SHADER_EXT,
+        Stages::RAY_TRACING_SHADER_KHR,
+        Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
+        Stages::ACCELERATION_STRUCTURE_BUILD_KHR,
+        Stages::ACCELERATION_STRUCTURE_COPY_KHR,
         Stages::COPY,
         Stages::RESOLVE,
         Stages::BLIT,
@@ -326,9 +366,12 @@ mod tests {
     #[test]
     fn a_source_waits_for_earlier_stages_and_a_destination_holds_up_later_ones() {
         let fragment = StageSet::of(Stages::FRAGMENT_SHADER);
-        let earlier =
-            Stages::DRAW_INDIRECT | Stages::VERTEX_INPUT | Stages::VERTEX_SHADER | Stages::EARLY_FRAGMENT_TESTS;
-        assert_eq!(fragment.and_earlier(), StageSet::of(earlier | Stages::FRAGMENT_SHADER));
+        let vertices = Stages::DRAW_INDIRECT | Stages::VERTEX_INPUT | Stages::VERTEX_SHADER;
+        let meshes = Stages::TASK_SHADER_EXT | Stages::MESH_SHADER_EXT;
+        let both =
+            Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR | Stages::EARLY_FRAGMENT_TESTS | Stages::FRAGMENT_SHADER;
+        assert_eq!(fragment.and_earlier(), StageSet::of(vertices | meshes | both));
+        assert!(!StageSet::of(meshes).and_earlier().contains(VERTEX_SHADER));
         let later = Stages::LATE_FRAGMENT_TESTS | Stages::COLOR_ATTACHMENT_OUTPUT;
         assert_eq!(fragment.and_later(), StageSet::of(later | Stages::FRAGMENT_SHADER));
         assert_eq!(StageSet::of(Stages::COPY).and_later(), StageSet::of(Stages::COPY));

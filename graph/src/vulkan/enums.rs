@@ -1,8 +1,8 @@
 //! Vulkan's own words as plain data: pipeline stages, accesses, layouts, usages, load and store operations.
 //!
 //! Bit values and names are those of the Vulkan 1.3 specification (`VK_PIPELINE_STAGE_2_*_BIT` and so on, without prefix
-//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary. Of the flags
-//! that have 64 bits there, those from bit 32 on stand from bit 24 on here: a graph holds very many of them.
+//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary. Words of
+//! extensions keep the suffix of their extension.
 
 use super::Format;
 use bitflags::bitflags;
@@ -12,7 +12,7 @@ bitflags! {
     /// Pipeline stages (`VkPipelineStageFlagBits2`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
-    pub struct Stages: u32 {
+    pub struct Stages: u64 {
         /// Reading of indirect draw and dispatch parameters.
         const DRAW_INDIRECT = 0x2;
         /// Fetch of indices and vertex attributes.
@@ -34,14 +34,26 @@ bitflags! {
         const HOST = 0x4000;
         /// Everything a queue does.
         const ALL_COMMANDS = 0x1_0000;
+        /// Task shading.
+        const TASK_SHADER_EXT = 0x8_0000;
+        /// Mesh shading.
+        const MESH_SHADER_EXT = 0x10_0000;
+        /// Shading of rays: every stage of a ray-tracing pipeline.
+        const RAY_TRACING_SHADER_KHR = 0x20_0000;
+        /// Reading of the shading rate of a region.
+        const FRAGMENT_SHADING_RATE_ATTACHMENT_KHR = 0x40_0000;
+        /// Building of acceleration structures.
+        const ACCELERATION_STRUCTURE_BUILD_KHR = 0x200_0000;
+        /// Copying of acceleration structures.
+        const ACCELERATION_STRUCTURE_COPY_KHR = 0x1000_0000;
         /// `vkCmdCopy*`.
-        const COPY = 0x100_0000;
+        const COPY = 0x1_0000_0000;
         /// `vkCmdResolveImage2`.
-        const RESOLVE = 0x200_0000;
+        const RESOLVE = 0x2_0000_0000;
         /// `vkCmdBlitImage2`.
-        const BLIT = 0x400_0000;
+        const BLIT = 0x4_0000_0000;
         /// `vkCmdClear*Image`.
-        const CLEAR = 0x800_0000;
+        const CLEAR = 0x8_0000_0000;
     }
 }
 
@@ -49,7 +61,7 @@ bitflags! {
     /// Kinds of memory access (`VkAccessFlagBits2`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
-    pub struct Accesses: u32 {
+    pub struct Accesses: u64 {
         /// Indirect parameters.
         const INDIRECT_COMMAND_READ = 0x1;
         /// Indices.
@@ -80,29 +92,36 @@ bitflags! {
         const MEMORY_READ = 0x8000;
         /// Any write.
         const MEMORY_WRITE = 0x1_0000;
+        /// Acceleration structures: traced, built from, copied.
+        const ACCELERATION_STRUCTURE_READ_KHR = 0x20_0000;
+        /// Acceleration structures: built, copied into.
+        const ACCELERATION_STRUCTURE_WRITE_KHR = 0x40_0000;
+        /// Shading rates.
+        const FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR = 0x80_0000;
         /// Sampled images.
-        const SHADER_SAMPLED_READ = 0x100_0000;
+        const SHADER_SAMPLED_READ = 0x1_0000_0000;
         /// Reads of storage images and buffers.
-        const SHADER_STORAGE_READ = 0x200_0000;
+        const SHADER_STORAGE_READ = 0x2_0000_0000;
         /// Writes of storage images and buffers.
-        const SHADER_STORAGE_WRITE = 0x400_0000;
+        const SHADER_STORAGE_WRITE = 0x4_0000_0000;
+        /// Shader binding tables.
+        const SHADER_BINDING_TABLE_READ_KHR = 0x100_0000_0000;
     }
 }
 
 impl Stages {
-    /// The bits of `VkPipelineStageFlags2`.
-    #[must_use]
-    pub const fn vulkan(self) -> u64 {
-        with_64_bits(self.bits())
-    }
+    /// Every stage of shaders.
+    pub const SHADERS: Stages = Stages::VERTEX_SHADER
+        .union(Stages::FRAGMENT_SHADER)
+        .union(Stages::COMPUTE_SHADER)
+        .union(Stages::TASK_SHADER_EXT)
+        .union(Stages::MESH_SHADER_EXT)
+        .union(Stages::RAY_TRACING_SHADER_KHR);
 }
 
 impl Accesses {
-    /// The bits of `VkAccessFlags2`.
-    #[must_use]
-    pub const fn vulkan(self) -> u64 {
-        with_64_bits(self.bits())
-    }
+    /// Any read, and any write.
+    pub const MEMORY: Accesses = Accesses::MEMORY_READ.union(Accesses::MEMORY_WRITE);
 
     /// Every access that changes memory.
     pub const WRITES: Accesses = Accesses::COLOR_ATTACHMENT_WRITE
@@ -110,6 +129,7 @@ impl Accesses {
         .union(Accesses::TRANSFER_WRITE)
         .union(Accesses::HOST_WRITE)
         .union(Accesses::MEMORY_WRITE)
+        .union(Accesses::ACCELERATION_STRUCTURE_WRITE_KHR)
         .union(Accesses::SHADER_STORAGE_WRITE);
 
     /// The writes among these accesses.
@@ -117,12 +137,6 @@ impl Accesses {
     pub const fn writes(self) -> Accesses {
         self.intersection(Accesses::WRITES)
     }
-}
-
-/// Moves the bits from 24 on to where Vulkan has them: from bit 32 on.
-const fn with_64_bits(bits: u32) -> u64 {
-    const LOW: u32 = 24;
-    (bits & ((1 << LOW) - 1)) as u64 | ((bits >> LOW) as u64) << 32
 }
 
 bitflags! {
@@ -146,6 +160,8 @@ bitflags! {
         const TRANSIENT_ATTACHMENT = 0x40;
         /// Read by fragment shaders at their own position.
         const INPUT_ATTACHMENT = 0x80;
+        /// Says how many texels a fragment covers.
+        const FRAGMENT_SHADING_RATE_ATTACHMENT_KHR = 0x100;
     }
 }
 
@@ -168,14 +184,17 @@ bitflags! {
         const VERTEX_BUFFER = 0x80;
         /// Counts of indirect draws and dispatches.
         const INDIRECT_BUFFER = 0x100;
+        /// Shader binding tables.
+        const SHADER_BINDING_TABLE_KHR = 0x400;
+        /// Holds acceleration structures.
+        const ACCELERATION_STRUCTURE_STORAGE_KHR = 0x10_0000;
     }
 }
 
 impl BufferUsage {
-    /// Every usage by which commands read a buffer.
-    pub(crate) const READ: BufferUsage = BufferUsage::all().difference(BufferUsage::TRANSFER_DST);
-    /// Every usage by which commands write a buffer.
-    pub(crate) const WRITTEN: BufferUsage = BufferUsage::TRANSFER_DST.union(BufferUsage::STORAGE_BUFFER);
+    /// Those that no extension brings.
+    pub const CORE: BufferUsage = BufferUsage::all()
+        .difference(BufferUsage::SHADER_BINDING_TABLE_KHR.union(BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR));
 }
 
 bitflags! {
@@ -224,6 +243,8 @@ pub enum Layout {
     PresentSrcKhr,
     /// Attachment that fragment shaders read at their own position.
     RenderingLocalReadKhr,
+    /// Says how many texels a fragment covers.
+    FragmentShadingRateAttachmentOptimalKhr,
 }
 
 /// The last accesses of an image or buffer, and an image's layout.

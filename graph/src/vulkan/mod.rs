@@ -1,5 +1,6 @@
 //! Vulkan's own words as plain data: formats, layouts, stages, accesses, usages, and properties that follow from them alone.
 
+pub(crate) mod access;
 mod encoding;
 mod enums;
 mod fill_value;
@@ -8,8 +9,10 @@ mod format;
 mod image_shape;
 mod name;
 mod rotation;
+mod stage;
 pub(crate) mod states;
 
+pub use access::AccessKind;
 pub use encoding::Encoding;
 pub use enums::{
     Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler, Shape,

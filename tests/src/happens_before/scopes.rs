@@ -2,19 +2,30 @@
 
 use framewright_graph::vulkan::{Accesses, Stages};
 
-/// Stages of graphics work, each logically earlier than the next.
-const GRAPHICS: [Stages; 7] = [
-    Stages::DRAW_INDIRECT,
-    Stages::VERTEX_INPUT,
-    Stages::VERTEX_SHADER,
-    Stages::EARLY_FRAGMENT_TESTS,
-    Stages::FRAGMENT_SHADER,
-    Stages::LATE_FRAGMENT_TESTS,
-    Stages::COLOR_ATTACHMENT_OUTPUT,
+/// Stages of work that draws vertices, that draws meshes, and of compute work: in each, a stage is logically earlier than the next.
+const ORDERS: [&[Stages]; 3] = [
+    &[
+        Stages::DRAW_INDIRECT,
+        Stages::VERTEX_INPUT,
+        Stages::VERTEX_SHADER,
+        Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
+        Stages::EARLY_FRAGMENT_TESTS,
+        Stages::FRAGMENT_SHADER,
+        Stages::LATE_FRAGMENT_TESTS,
+        Stages::COLOR_ATTACHMENT_OUTPUT,
+    ],
+    &[
+        Stages::DRAW_INDIRECT,
+        Stages::TASK_SHADER_EXT,
+        Stages::MESH_SHADER_EXT,
+        Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
+        Stages::EARLY_FRAGMENT_TESTS,
+        Stages::FRAGMENT_SHADER,
+        Stages::LATE_FRAGMENT_TESTS,
+        Stages::COLOR_ATTACHMENT_OUTPUT,
+    ],
+    &[Stages::DRAW_INDIRECT, Stages::COMPUTE_SHADER],
 ];
-
-/// Stages of compute work, each logically earlier than the next.
-const COMPUTE: [Stages; 2] = [Stages::DRAW_INDIRECT, Stages::COMPUTE_SHADER];
 
 /// A mask without its collective bit.
 pub(super) fn spelled_out(stages: Stages) -> Stages {
@@ -24,7 +35,7 @@ pub(super) fn spelled_out(stages: Stages) -> Stages {
 /// A first synchronisation scope takes in logically earlier stages.
 pub(super) fn and_earlier(stages: Stages) -> Stages {
     let stages = spelled_out(stages);
-    [&GRAPHICS[..], &COMPUTE].into_iter().fold(stages, |all, order| {
+    ORDERS.into_iter().fold(stages, |all, order| {
         let end = order.iter().rposition(|stage| stages.contains(*stage)).map_or(0, |last| last + 1);
         order[..end].iter().fold(all, |all, stage| all | *stage)
     })
@@ -33,7 +44,7 @@ pub(super) fn and_earlier(stages: Stages) -> Stages {
 /// A second synchronisation scope takes in logically later stages.
 pub(super) fn and_later(stages: Stages) -> Stages {
     let stages = spelled_out(stages);
-    [&GRAPHICS[..], &COMPUTE].into_iter().fold(stages, |all, order| {
+    ORDERS.into_iter().fold(stages, |all, order| {
         let start = order.iter().position(|stage| stages.contains(*stage)).unwrap_or(order.len());
         order[start..].iter().fold(all, |all, stage| all | *stage)
     })
@@ -47,11 +58,13 @@ pub(super) fn take_in(stages: Stages, accesses: Accesses, stage: Stages, access:
 
 /// Whether a stage makes accesses of this kind at all (the table of supported access types).
 pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
-    const SHADERS: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
+    const SHADERS: Stages = Stages::SHADERS;
+    const BUILD: Stages = Stages::ACCELERATION_STRUCTURE_BUILD_KHR;
+    const BUILDS: Stages = BUILD.union(Stages::ACCELERATION_STRUCTURE_COPY_KHR);
     const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
     const TRANSFERS: Stages = Stages::COPY.union(Stages::BLIT).union(Stages::RESOLVE);
     let stages = match access {
-        Accesses::INDIRECT_COMMAND_READ => Stages::DRAW_INDIRECT,
+        Accesses::INDIRECT_COMMAND_READ => Stages::DRAW_INDIRECT.union(BUILD),
         Accesses::INDEX_READ | Accesses::VERTEX_ATTRIBUTE_READ => Stages::VERTEX_INPUT,
         Accesses::INPUT_ATTACHMENT_READ => Stages::FRAGMENT_SHADER,
         Accesses::COLOR_ATTACHMENT_READ | Accesses::COLOR_ATTACHMENT_WRITE => Stages::COLOR_ATTACHMENT_OUTPUT,
@@ -59,10 +72,12 @@ pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
         Accesses::TRANSFER_READ => TRANSFERS,
         Accesses::TRANSFER_WRITE => TRANSFERS.union(Stages::CLEAR),
         Accesses::HOST_READ | Accesses::HOST_WRITE => Stages::HOST,
-        Accesses::UNIFORM_READ
-        | Accesses::SHADER_SAMPLED_READ
-        | Accesses::SHADER_STORAGE_READ
-        | Accesses::SHADER_STORAGE_WRITE => SHADERS,
+        Accesses::UNIFORM_READ | Accesses::SHADER_SAMPLED_READ | Accesses::SHADER_STORAGE_WRITE => SHADERS,
+        Accesses::SHADER_STORAGE_READ => SHADERS.union(BUILD),
+        Accesses::ACCELERATION_STRUCTURE_READ_KHR => SHADERS.union(BUILDS),
+        Accesses::ACCELERATION_STRUCTURE_WRITE_KHR => BUILDS,
+        Accesses::SHADER_BINDING_TABLE_READ_KHR => Stages::RAY_TRACING_SHADER_KHR,
+        Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR => Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
         _ => Stages::all(),
     };
     stages.contains(stage)

@@ -6,6 +6,7 @@ mod drawn;
 mod hand_written_plans;
 mod happens_before;
 mod hostile_plans;
+mod kinds;
 mod mutation;
 mod partial_passes;
 mod platforms;

@@ -1,13 +1,11 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
 use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
-use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
+use crate::frame::{Blend, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
+use crate::vulkan::{AccessKind, Accesses, Aspects, Format, Layout, Stages};
 
-const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
-
-/// A reading use, from which the others are made.
-fn used(resource: PhysicalIndex, range: u32, role: Role) -> Use {
+/// A reading use of this kind, from which the others are made.
+fn used(resource: PhysicalIndex, range: u32, role: Role, kind: AccessKind) -> Use {
     Use {
         resource,
         range,
@@ -17,15 +15,14 @@ fn used(resource: PhysicalIndex, range: u32, role: Role) -> Use {
         contents: InitialContents::Keep,
         reads: true,
         writes: false,
-        layout: Layout::Undefined,
-        stages: Stages::empty(),
-        accesses: Accesses::empty(),
+        layout: kind.layout(),
+        stages: kind.stages(),
+        accesses: kind.accesses(true, false),
     }
 }
 
 pub(super) fn sampled(sampled: &Sampled, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
-    let (layout, accesses) = (Layout::ShaderReadOnlyOptimal, Accesses::SHADER_SAMPLED_READ);
-    Use { entry, layout, stages: sampled.stages, accesses, ..used(resource, range, Role::Sampled) }
+    Use { entry, stages: sampled.stages, ..used(resource, range, Role::Sampled, AccessKind::Sampled) }
 }
 
 /// Gives depth that is an attachment somewhere the layouts in which it can be sampled and tested at once.
@@ -70,11 +67,9 @@ pub(crate) fn attached(format: Format, plane: Aspects) -> Layout {
 }
 
 pub(super) fn storage(storage: &Storage, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
-    let mut accesses = Accesses::empty();
-    accesses.set(Accesses::SHADER_STORAGE_READ, storage.read);
-    accesses.set(Accesses::SHADER_STORAGE_WRITE, storage.write);
     let (reads, writes, stages) = (storage.read, storage.write, storage.stages);
-    Use { entry, reads, writes, layout: Layout::General, stages, accesses, ..used(resource, range, Role::Storage) }
+    let accesses = AccessKind::Storage.accesses(reads, writes);
+    Use { entry, reads, writes, stages, accesses, ..used(resource, range, Role::Storage, AccessKind::Storage) }
 }
 
 pub(super) fn color(
@@ -84,11 +79,10 @@ pub(super) fn color(
     range: u32,
     contents: InitialContents,
 ) -> Use {
-    let mut accesses = Accesses::COLOR_ATTACHMENT_WRITE;
-    accesses.set(Accesses::COLOR_ATTACHMENT_READ, target.blend != Blend::Replace);
-    let (stages, layout) = (Stages::COLOR_ATTACHMENT_OUTPUT, Layout::ColorAttachmentOptimal);
+    let kind = AccessKind::ColorAttachment;
+    let accesses = kind.accesses(target.blend != Blend::Replace, true);
     let reads = contents == InitialContents::Keep;
-    Use { entry, contents, reads, writes: true, layout, stages, accesses, ..used(resource, range, Role::Color) }
+    Use { entry, contents, reads, writes: true, accesses, ..used(resource, range, Role::Color, kind) }
 }
 
 pub(super) fn depth(
@@ -100,30 +94,20 @@ pub(super) fn depth(
     format: Format,
 ) -> Use {
     let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
-    let mut accesses = Accesses::empty();
+    let kind = AccessKind::DepthAttachment;
     // A draw that covers passes every depth test, so that nothing is read.
-    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, contents != InitialContents::Discard);
-    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
+    let accesses = kind.accesses(contents != InitialContents::Discard, writes);
     let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
     let reads = contents == InitialContents::Keep;
-    Use { contents, reads, writes, layout, stages: DEPTH_TESTS, accesses, ..used(resource, range, role) }
+    Use { contents, reads, writes, layout, accesses, ..used(resource, range, role, kind) }
 }
 
 pub(super) fn buffer(buffer: &BufferUse, entry: u32, resource: PhysicalIndex) -> Use {
     let (reads, writes) = (buffer.role.reads(), buffer.role.writes());
-    let (stages, accesses) = match buffer.role {
-        BufferRole::Uniform => (buffer.stages, Accesses::UNIFORM_READ),
-        BufferRole::Storage { read, write } => {
-            let mut accesses = Accesses::empty();
-            accesses.set(Accesses::SHADER_STORAGE_READ, read);
-            accesses.set(Accesses::SHADER_STORAGE_WRITE, write);
-            (buffer.stages, accesses)
-        }
-        BufferRole::Vertex => (Stages::VERTEX_INPUT, Accesses::VERTEX_ATTRIBUTE_READ),
-        BufferRole::Index => (Stages::VERTEX_INPUT, Accesses::INDEX_READ),
-        BufferRole::Indirect => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
-    };
-    Use { entry, reads, writes, stages, accesses, ..used(resource, Use::ALL, Role::Buffer) }
+    let kind = buffer.role.kind();
+    let stages = if buffer.role.is_of_shaders() { buffer.stages } else { kind.stages() };
+    let (layout, accesses) = (Layout::Undefined, kind.accesses(reads, writes));
+    Use { entry, reads, writes, layout, stages, accesses, ..used(resource, Use::ALL, Role::Buffer, kind) }
 }
 
 /// The use of an image or buffer by a transfer.
@@ -151,24 +135,13 @@ pub(super) fn widen_for_program(used: &mut Use) {
 }
 
 pub(super) fn source(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {
-    Use {
-        layout: Layout::TransferSrcOptimal,
-        stages,
-        accesses: Accesses::TRANSFER_READ,
-        ..used(resource, range, Role::Source)
-    }
+    Use { stages, ..used(resource, range, Role::Source, AccessKind::TransferSource) }
 }
 
 pub(super) fn target(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {
-    let accesses = Accesses::TRANSFER_WRITE;
-    Use {
-        reads: false,
-        writes: true,
-        layout: Layout::TransferDstOptimal,
-        stages,
-        accesses,
-        ..used(resource, range, Role::Target)
-    }
+    let kind = AccessKind::TransferTarget;
+    let accesses = kind.accesses(false, true);
+    Use { reads: false, writes: true, stages, accesses, ..used(resource, range, Role::Target, kind) }
 }
 
 /// The stage in which an inserted transfer happens, if it is not folded into a scope.
@@ -185,20 +158,13 @@ pub(super) fn resolve_draw(source: PhysicalIndex, target: PhysicalIndex, range: 
 
 /// The uses of a full-screen draw of one image into another.
 pub(super) fn forward_draw(source: PhysicalIndex, target: PhysicalIndex) -> [Use; 2] {
-    let read = Use {
-        layout: Layout::ShaderReadOnlyOptimal,
-        stages: Stages::FRAGMENT_SHADER,
-        accesses: Accesses::SHADER_SAMPLED_READ,
-        ..used(source, Use::ALL, Role::Sampled)
-    };
+    let read = Use { stages: Stages::FRAGMENT_SHADER, ..used(source, Use::ALL, Role::Sampled, AccessKind::Sampled) };
     let write = Use {
         contents: InitialContents::Discard,
         reads: false,
         writes: true,
-        layout: Layout::ColorAttachmentOptimal,
-        stages: Stages::COLOR_ATTACHMENT_OUTPUT,
-        accesses: Accesses::COLOR_ATTACHMENT_WRITE,
-        ..used(target, Use::ALL, Role::Color)
+        accesses: AccessKind::ColorAttachment.accesses(false, true),
+        ..used(target, Use::ALL, Role::Color, AccessKind::ColorAttachment)
     };
     [read, write]
 }

@@ -1,12 +1,12 @@
 //! `fit`: sample counts, formats and usages meet the device's support.
 
+mod check_needs;
 mod formats;
 mod needs;
-mod needs_of_shaders;
 mod samples;
 mod support;
 
+pub(super) use check_needs::check_needs;
 pub(super) use formats::{Formats, formats};
-pub(super) use needs_of_shaders::check_needs;
 pub(super) use samples::{drawn_together, negotiate, still_holds};
 pub(super) use support::check_support;

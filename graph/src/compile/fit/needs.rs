@@ -2,7 +2,6 @@
 
 use crate::device::{FormatSupport, Profile};
 use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work};
-use crate::vulkan::states::usage_for;
 use crate::vulkan::{Format, State, Usage};
 
 /// Support of a device for each format, indexed by format.
@@ -113,7 +112,7 @@ fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
 fn note_states(frame: &Frame, needs: &mut [Needs]) {
     let mut add = |image: usize, state: &State| {
         if !needs[image].usage.is_empty() {
-            needs[image].usage |= usage_for(state.layout);
+            needs[image].usage |= state.layout.usage();
         }
     };
     for (number, image) in frame.images.iter().enumerate() {

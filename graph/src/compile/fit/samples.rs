@@ -1,8 +1,8 @@
 //! Sample counts, and a frame's other demands on its images, against the device's limits.
 
+use super::check_needs::still_fit;
 use super::formats::Formats;
 use super::needs::{Needs, Supports};
-use super::needs_of_shaders::still_fit;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;

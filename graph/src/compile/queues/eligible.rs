@@ -48,11 +48,10 @@ impl GraphicsOnly {
 
 /// The stages that a queue has.
 fn stages(queue: Queue) -> Stages {
-    let transfer = Stages::COPY.union(Stages::CLEAR).union(Stages::HOST);
     match queue {
         Queue::Graphics => Stages::all(),
-        Queue::Compute => transfer | Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT,
-        Queue::Transfer => transfer,
+        Queue::Compute => Stages::ON_COMPUTE,
+        Queue::Transfer => Stages::ON_TRANSFER,
     }
 }
 

@@ -5,7 +5,7 @@
 use super::step::{Scope, Target};
 use crate::compile::model::{Adapted, OpKind, Role, Use};
 use crate::frame::{Frame, Sampled};
-use crate::vulkan::{Accesses, Layout, Stages};
+use crate::vulkan::{AccessKind, Stages};
 
 /// The entry of a use that samples only the texel at the fragment's own position.
 pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
@@ -54,9 +54,9 @@ pub(super) fn read_locally(uses: &mut [Use], local: &[u32]) {
     for index in local {
         let used = &mut uses[*index as usize];
         used.role = Role::Input;
-        used.layout = Layout::RenderingLocalReadKhr;
-        used.stages = Stages::FRAGMENT_SHADER;
-        used.accesses = Accesses::INPUT_ATTACHMENT_READ;
+        used.layout = AccessKind::InputAttachment.layout();
+        used.stages = AccessKind::InputAttachment.stages();
+        used.accesses = AccessKind::InputAttachment.accesses(true, false);
     }
 }
 

@@ -5,7 +5,6 @@
 //! *all* memory: it serves every later image barrier that comes after it, directly or through others in between.
 
 use super::batches::Batched;
-use super::stage_order::{and_earlier, and_later};
 use super::subresource::SubresourceBarrier;
 use crate::compile::model::PhysicalIndex;
 use crate::compile::queues::{QUEUES, Queues};
@@ -88,7 +87,7 @@ pub(super) fn memory_barriers(
     let mut due = Vec::with_capacity(aliased.len());
     for write in aliased {
         let number = write.barrier as usize;
-        due.push(Due { at: at[number], write, waits: and_earlier(barriers[number].src_stages) });
+        due.push(Due { at: at[number], write, waits: barriers[number].src_stages.and_earlier() });
     }
     due.sort_by_key(|due| (due.at, due.write.resources));
     let mut memory: Vec<Option<AliasingBarrier>> = vec![None; steps];
@@ -137,7 +136,7 @@ fn pass<'p>(
         lead_on(passed, &[(memory.src_stages, memory.dst_stages)]);
         let source = Source { stages: memory.src_stages, accesses: memory.src_accesses };
         // A later barrier of at least the same source and reach serves all that an earlier one could, so few are kept.
-        let reach = and_later(memory.dst_stages);
+        let reach = memory.dst_stages.and_later();
         passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
         passed.push(Passed { source, time, reach });
     }
@@ -148,8 +147,8 @@ fn pass<'p>(
 /// Extends execution dependency chains by the barriers of one call.
 fn lead_on(passed: &mut [Passed], scopes: &[(Stages, Stages)]) {
     for barrier in passed {
-        let follows = |(src, _): &&(Stages, Stages)| and_earlier(*src).intersects(barrier.reach);
-        let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | and_later(*dst));
+        let follows = |(src, _): &&(Stages, Stages)| src.and_earlier().intersects(barrier.reach);
+        let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | dst.and_later());
         barrier.reach = next;
     }
 }

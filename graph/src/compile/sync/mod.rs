@@ -15,7 +15,6 @@ mod final_states;
 mod initial_barriers;
 mod last_accesses;
 mod redundant;
-mod stage_order;
 mod subresource;
 mod timeline;
 mod walk;

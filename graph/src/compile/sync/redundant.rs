@@ -7,7 +7,6 @@
 
 use super::batches::Batched;
 use super::initial_barriers::Initial;
-use super::stage_order::{and_earlier, and_later};
 use super::subresource::SubresourceBarrier;
 use super::timeline::AccessTimeline;
 use crate::compile::history_ring;
@@ -199,12 +198,12 @@ impl Calls<'_> {
             };
             for call in self.batched.chunk_by(|one, other| one.at == other.at) {
                 let waits = |other: &&Batched| {
-                    let from = and_earlier(self.barrier(other).src_stages);
+                    let from = self.barrier(other).src_stages.and_earlier();
                     from.contains(stage) || from.intersects(reach)
                 };
                 let of_call: Vec<&Batched> = call.iter().filter(comes_between).filter(waits).collect();
                 links.extend(of_call.iter().map(|other| other.barrier));
-                reach = of_call.iter().fold(reach, |reach, other| reach | and_later(self.barrier(other).dst_stages));
+                reach = of_call.iter().fold(reach, |reach, other| reach | self.barrier(other).dst_stages.and_later());
             }
         }
         links.sort_unstable();

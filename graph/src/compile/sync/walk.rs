@@ -8,7 +8,7 @@ use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
 use crate::compile::scope::{Scoped, Step, Target};
 use crate::compile::steps::in_order;
-use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
+use crate::vulkan::{AccessKind, Accesses, Layout, LoadOp, Stages};
 use std::hint::black_box;
 
 /// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
@@ -86,11 +86,8 @@ impl Walk<'_> {
             }
             for op in scope.folded_resolves() {
                 let [source, target] = adapted.uses(op) else { continue };
-                for (used, accesses) in
-                    [(source, Accesses::COLOR_ATTACHMENT_READ), (target, Accesses::COLOR_ATTACHMENT_WRITE)]
-                {
-                    self.resolved(used, accesses);
-                }
+                self.resolved(source, AccessKind::ColorAttachment.accesses(true, false));
+                self.resolved(target, AccessKind::ColorAttachment.accesses(false, true));
             }
         }
         if !self.timeline.queues.is_one() {
@@ -229,15 +226,5 @@ fn usage_bits(used: &Use) -> u32 {
     if used.layout != Layout::Undefined {
         return used.role.usage().bits();
     }
-    let usage = |access, usage| if used.accesses.intersects(access) { usage } else { BufferUsage::empty() };
-    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
-    let all = BufferUsage::from_bits_truncate(used.role.usage().bits())
-        | usage(Accesses::MEMORY_READ, BufferUsage::READ)
-        | usage(Accesses::MEMORY_WRITE, BufferUsage::WRITTEN)
-        | usage(Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER)
-        | usage(storage, BufferUsage::STORAGE_BUFFER)
-        | usage(Accesses::VERTEX_ATTRIBUTE_READ, BufferUsage::VERTEX_BUFFER)
-        | usage(Accesses::INDEX_READ, BufferUsage::INDEX_BUFFER)
-        | usage(Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER);
-    all.bits()
+    used.accesses.buffer_usage().bits()
 }

@@ -7,6 +7,7 @@ use crate::fields;
 use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
 use crate::language::scope::{Context, FieldValue, Parameter, ParameterKind, combined};
 use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
+use crate::vulkan::access::Of;
 
 /// Most bytes that a buffer may have: 1 TiB.
 pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
@@ -63,9 +64,8 @@ impl Context<'_> {
         let name = self.reader.name(fields.name, "a buffer");
         let bytes = self.bytes(fields.bytes);
         let transient = Spanned { value: Lifetime::Transient, span: fields.name.span() };
-        let lifetime = fields
-            .lifetime
-            .map_or(Some(FieldValue::Constant(transient)), |leaf| self.lifetime(leaf, lifetimes::Of::Buffer));
+        let lifetime =
+            fields.lifetime.map_or(Some(FieldValue::Constant(transient)), |leaf| self.lifetime(leaf, Of::Buffer));
         let (name, bytes) = (name?, bytes?.at(fields.bytes));
         Some(combined((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
             name: name.clone(),

@@ -63,7 +63,7 @@ impl Context<'_> {
             self.reader.wrong(
                 leaf,
                 format!("{what} doesn't say how many workgroups run"),
-                "add `groups: Count(8, 8, 1)`, or another number",
+                "add `groups: Texels(\"image\")` to run it for each texel of an image, or a number: `groups: Count(8, 8, 1)`",
             );
             return None;
         };

@@ -11,6 +11,7 @@ use crate::language::model::{
 };
 use crate::language::scope::{Context, FieldValue, Kept, Parameter, combined, within_view};
 use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
+use crate::vulkan::access::Of;
 use crate::{fields, vulkan};
 use std::sync::Arc;
 
@@ -155,7 +156,7 @@ impl Context<'_> {
         let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
         let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
         let transient = FieldValue::Constant(Spanned { value: Lifetime::Transient, span });
-        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, lifetimes::Of::Image));
+        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, Of::Image));
         let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (format, size) = (in_field(fields.format, format?), in_field(fields.size, size?));
         let (name, how_many) = (name?, (samples?, mips?, layers?));

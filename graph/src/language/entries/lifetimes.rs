@@ -4,10 +4,11 @@ use super::list;
 use super::parts::{self, MOST_FRAMES};
 use super::values::{self, at, optional};
 use crate::fields;
-use crate::language::model::{Lifetime, State, StateWord};
+use crate::language::model::{Lifetime, State};
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
-use crate::vulkan::{self, Accesses, Layout, Stages};
+use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words};
+use crate::vulkan::access::{LAYOUTS, Of, StateWord};
+use crate::vulkan::{self, AccessKind, Accesses, Layout, Stages};
 use bitflags::Flags;
 
 fields! {
@@ -51,7 +52,7 @@ fields! {
         /// Accesses: `VK_ACCESS_2_…`.
         accesses: Leaf<'src> => Form::List(&Form::Choice("a Vulkan access", flag_names::<Accesses>)),
         /// The layout of an image, `VK_IMAGE_LAYOUT_…`; a buffer has none.
-        layout: Option<Leaf<'src>> => Form::Choice("an image layout", || names(&LAYOUTS)),
+        layout: Option<Leaf<'src>> => Form::Choice("an image layout", || layouts().map(|(name, _)| name).collect()),
     }
 }
 
@@ -94,39 +95,35 @@ static LIFETIMES: Words = Words {
 /// A state, by purpose or in Vulkan's words.
 pub(crate) const STATE: Form = Form::Words(&STATES);
 
-static STATES: Words = Words {
-    name: "State",
-    what: "a state",
-    or: &[Form::Fields(StateFields::<'static>::table)],
-    all: &[
-        Word::alone("Undefined", "An image without contents."),
-        Word::alone("ColorAttachment", "An image that is drawn into as colour."),
-        Word::alone("DepthAttachment", "An image that is drawn into as depth or stencil."),
-        Word::alone("Sampled", "An image that shaders sample."),
-        Word::alone("Storage", "Read and written by shaders."),
-        Word::alone("Uniform", "A buffer that is read as a uniform block."),
-        Word::alone("Vertex", "A buffer of vertices."),
-        Word::alone("Index", "A buffer of indices."),
-        Word::alone("Indirect", "A buffer that holds counts of draws or dispatches."),
-        Word::alone("TransferSource", "Copied or scaled from."),
-        Word::alone("TransferTarget", "Copied, scaled or filled into."),
-        Word::alone("Present", "An image that is shown in a window."),
-        Word::alone("Host", "A buffer that the program writes before the frame, or reads afterwards."),
-    ],
+static STATES: Words =
+    Words { name: "State", what: "a state", or: &[Form::Fields(StateFields::<'static>::table)], all: &STATE_WORDS };
+
+/// How many kinds of access have a word.
+const WORDS: usize = {
+    let (mut words, mut at) = (0, 0);
+    while at < AccessKind::TABLE.len() {
+        words += AccessKind::TABLE[at].word.is_some() as usize;
+        at += 1;
+    }
+    words
+};
+
+const STATE_WORDS: [Word; WORDS] = {
+    let mut words = [const { Word::alone("", "") }; WORDS];
+    let (mut to, mut at) = (0, 0);
+    while at < AccessKind::TABLE.len() {
+        if let Some(state) = AccessKind::TABLE[at].word {
+            words[to] = Word::alone(state.word, state.about);
+            to += 1;
+        }
+        at += 1;
+    }
+    words
 };
 
 /// Vulkan's words for flags.
 fn flag_names<F: Flags>() -> Vec<&'static str> {
     F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| flag.name()).collect()
-}
-
-/// The kind of thing that a state belongs to.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Of {
-    /// An image.
-    Image,
-    /// A buffer.
-    Buffer,
 }
 
 impl Context<'_> {
@@ -164,54 +161,9 @@ impl Context<'_> {
     }
 }
 
-const WORDS: [(&str, StateWord); 13] = [
-    ("Undefined", StateWord::Undefined),
-    ("ColorAttachment", StateWord::ColorAttachment),
-    ("DepthAttachment", StateWord::DepthAttachment),
-    ("Sampled", StateWord::Sampled),
-    ("Storage", StateWord::Storage),
-    ("Uniform", StateWord::Uniform),
-    ("Vertex", StateWord::Vertex),
-    ("Index", StateWord::Index),
-    ("Indirect", StateWord::Indirect),
-    ("TransferSource", StateWord::TransferSource),
-    ("TransferTarget", StateWord::TransferTarget),
-    ("Present", StateWord::Present),
-    ("Host", StateWord::Host),
-];
-
-const LAYOUTS: [(&str, Layout); 14] = [
-    ("UNDEFINED", Layout::Undefined),
-    ("GENERAL", Layout::General),
-    ("COLOR_ATTACHMENT_OPTIMAL", Layout::ColorAttachmentOptimal),
-    ("DEPTH_STENCIL_ATTACHMENT_OPTIMAL", Layout::DepthStencilAttachmentOptimal),
-    ("DEPTH_STENCIL_READ_ONLY_OPTIMAL", Layout::DepthStencilReadOnlyOptimal),
-    ("DEPTH_ATTACHMENT_OPTIMAL", Layout::DepthAttachmentOptimal),
-    ("DEPTH_READ_ONLY_OPTIMAL", Layout::DepthReadOnlyOptimal),
-    ("STENCIL_ATTACHMENT_OPTIMAL", Layout::StencilAttachmentOptimal),
-    ("STENCIL_READ_ONLY_OPTIMAL", Layout::StencilReadOnlyOptimal),
-    ("SHADER_READ_ONLY_OPTIMAL", Layout::ShaderReadOnlyOptimal),
-    ("TRANSFER_SRC_OPTIMAL", Layout::TransferSrcOptimal),
-    ("TRANSFER_DST_OPTIMAL", Layout::TransferDstOptimal),
-    ("PRESENT_SRC_KHR", Layout::PresentSrcKhr),
-    ("RENDERING_LOCAL_READ_KHR", Layout::RenderingLocalReadKhr),
-];
-
-impl StateWord {
-    /// Whether an image or a buffer, as `of` says, can be in this state.
-    const fn fits(self, of: Of) -> bool {
-        match self {
-            StateWord::Storage | StateWord::TransferSource | StateWord::TransferTarget => true,
-            StateWord::Uniform | StateWord::Vertex | StateWord::Index | StateWord::Indirect | StateWord::Host => {
-                matches!(of, Of::Buffer)
-            }
-            StateWord::Undefined
-            | StateWord::ColorAttachment
-            | StateWord::DepthAttachment
-            | StateWord::Sampled
-            | StateWord::Present => matches!(of, Of::Image),
-        }
-    }
+/// The layouts, by Vulkan's names.
+fn layouts() -> impl Iterator<Item = (&'static str, Layout)> {
+    LAYOUTS.iter().map(|row| (row.name, row.layout))
 }
 
 /// A state, by purpose or in Vulkan's words.
@@ -225,7 +177,7 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Opti
                 reader.wrong(layout, "a buffer has no layout", "");
                 None
             }
-            (Some(layout), Of::Image) => reader.choice(layout, "an image layout", &LAYOUTS),
+            (Some(layout), Of::Image) => reader.choice(layout, "an image layout", &layouts().collect::<Vec<_>>()),
             (None, Of::Buffer) => Some(Layout::Undefined),
             (None, Of::Image) => {
                 reader.wrong(leaf, "the state of an image has a layout", "add `layout: …`");
@@ -235,19 +187,20 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Opti
         let state = vulkan::State { stages: stages?, accesses: accesses?, layout: layout? };
         return Some(leaf.spanned(State::Named(state)));
     }
-    let fitting: Vec<(&'static str, StateWord)> = WORDS.into_iter().filter(|(_, word)| word.fits(of)).collect();
-    let known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
-    let words: Vec<String> = fitting.iter().map(|(word, _)| format!("`{word}`")).collect();
+    let words = || AccessKind::TABLE.iter().filter_map(|row| row.word.map(|word| (word, row.kind)));
+    let fits = |(word, _): &(StateWord, AccessKind)| word.of.contains(&of);
+    let known: Vec<&'static str> = words().map(|(word, _)| word.word).collect();
+    let fitting: Vec<String> = words().filter(fits).map(|(word, _)| format!("`{}`", word.word)).collect();
     let layout = if of == Of::Image { ", layout: …" } else { "" };
-    let forms = format!("write {} or `(stages: […], accesses: […]{layout})`", words.join(", "));
+    let forms = format!("write {} or `(stages: […], accesses: […]{layout})`", fitting.join(", "));
     let (word, rest) = reader.word(leaf, "a state", &known, &forms)?;
     reader.bare(word, rest)?;
-    let Some((_, word)) = fitting.into_iter().find(|(fitting, _)| *fitting == word) else {
+    let Some((_, kind)) = words().filter(fits).find(|(fitting, _)| fitting.word == word) else {
         let whose = if of == Of::Image { "an image" } else { "a buffer" };
         reader.wrong(leaf, format!("{whose} can't be in the state `{word}`"), &forms);
         return None;
     };
-    Some(leaf.spanned(State::Word(word)))
+    Some(leaf.spanned(State::Word(kind)))
 }
 
 /// A list of Vulkan's words.

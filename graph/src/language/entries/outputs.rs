@@ -9,6 +9,7 @@ use crate::language::model::{Output, ResourceRef};
 use crate::language::scope::{Context, Evaluator, FieldValue};
 use crate::ron::{Described, Form, Leaf, Shape, names};
 use crate::vulkan::Encoding;
+use crate::vulkan::access::Of;
 use std::collections::HashMap;
 
 fields! {
@@ -61,10 +62,8 @@ impl Context<'_> {
         };
         let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
         let (resource, of) = match (fields.image, fields.buffer) {
-            (Some(image), None) => (self.image(image).map(|image| image.map(ResourceRef::from)), lifetimes::Of::Image),
-            (None, Some(buffer)) => {
-                (self.buffer(buffer).map(|buffer| buffer.map(ResourceRef::from)), lifetimes::Of::Buffer)
-            }
+            (Some(image), None) => (self.image(image).map(|image| image.map(ResourceRef::from)), Of::Image),
+            (None, Some(buffer)) => (self.buffer(buffer).map(|buffer| buffer.map(ResourceRef::from)), Of::Buffer),
             _ => {
                 let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
                 self.reader.wrong(leaf, "an output is one image or one buffer", help);
@@ -73,7 +72,7 @@ impl Context<'_> {
         };
         let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
         let encoding = match (fields.encoding, of) {
-            (Some(leaf), lifetimes::Of::Buffer) => {
+            (Some(leaf), Of::Buffer) => {
                 self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
                 None
             }

@@ -24,7 +24,7 @@ pub use pipeline::{Instance, Output, Pipeline, RemovedPass};
 pub use references::{BufferRef, ImageRef, ResourceRef};
 pub use resources::{
     Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Precision, Precisions, Resolves, Samples,
-    Shape as ImageShape, Size, State, StateWord,
+    Shape as ImageShape, Size, State,
 };
 pub use setting::{Setting, SettingKind, last_step, nth as nth_step};
 pub use view::View;

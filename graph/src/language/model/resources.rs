@@ -6,7 +6,7 @@ use crate::base::Span;
 use crate::expression::Property;
 use crate::frame::{EyeForm, ResolveWay, TextureFile, ViewIndex};
 use crate::ron::{Name, Spanned};
-use crate::vulkan;
+use crate::vulkan::{self, AccessKind};
 use std::sync::Arc;
 
 /// An image.
@@ -285,38 +285,7 @@ pub enum Fill {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum State {
     /// By purpose.
-    Word(StateWord),
+    Word(AccessKind),
     /// In Vulkan's words.
     Named(vulkan::State),
-}
-
-/// The purposes that a state may be named by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StateWord {
-    /// An image without contents.
-    Undefined,
-    /// Drawn into as colour.
-    ColorAttachment,
-    /// Drawn into as depth or stencil.
-    DepthAttachment,
-    /// Sampled by shaders.
-    Sampled,
-    /// Read and written by shaders.
-    Storage,
-    /// Read as a uniform block.
-    Uniform,
-    /// Read as vertex attributes.
-    Vertex,
-    /// Read as indices.
-    Index,
-    /// Read as counts of draws and dispatches.
-    Indirect,
-    /// Source of copies and blits.
-    TransferSource,
-    /// Target of copies, blits and clears.
-    TransferTarget,
-    /// Shown in a window.
-    Present,
-    /// Written by the host before the frame, or read by it afterwards.
-    Host,
 }

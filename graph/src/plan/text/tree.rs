@@ -381,13 +381,8 @@ impl Tree<'_> {
     fn who(self, needed_by: Option<StepId>, accesses: impl Fn(&Pass) -> bool) -> String {
         let step_of = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
         let Some((needed_by, step)) = needed_by.and_then(step_of) else { return "this step".to_owned() };
-        let passes = match &step.work {
-            Work::Render(scope) => scope.passes.as_slice(),
-            Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
-            Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
-        };
         let here = needed_by == self.id;
-        match (passes.iter().find(|pass| accesses(pass)), &step.work) {
+        match (step.work.passes().iter().find(|pass| accesses(pass)), &step.work) {
             (Some(pass), _) if here => format!("`{}`", Shown(&pass.name)),
             (Some(pass), _) => format!("`{}` in step {}", Shown(&pass.name), needed_by.0),
             (None, Work::Render(_)) if here => "the end of the scope".to_owned(),

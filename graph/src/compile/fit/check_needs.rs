@@ -1,9 +1,10 @@
-//! What shaders ask of the device, and how large buffers are that they see, against the device's features and limits.
+//! What shaders and states ask of the device, and how large buffers are that shaders see, against the device's features and limits.
 
 use crate::base::Diagnostic;
 use crate::device::{Abilities, Limit, NeedKind, Profile};
-use crate::frame::{BufferRole, Draw, Frame, Pass, Work};
+use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
+use crate::vulkan::State;
 
 /// Vulkan's name of the feature that draws with counts in a buffer need, if their first instance isn't 0.
 const FIRST_INSTANCE: &str = "drawIndirectFirstInstance";
@@ -23,6 +24,7 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
         }
     }
     buffers(frame, live, device, &mut errors);
+    states(frame, device, &mut errors);
     if errors.is_empty() { Ok(notes) } else { Err(errors) }
 }
 
@@ -50,6 +52,31 @@ fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: 
 
 fn note(frame: &Frame, pass: &Pass, text: String) -> Note {
     Note { stage: Stage::Fit, subject: pass.name.clone(), text, at: frame.sources.place(pass.span) }
+}
+
+/// Reports states in which images and buffers come and go, if they name what the device doesn't have.
+fn states(frame: &Frame, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let images = frame.images.iter().map(|image| (&image.name, &image.lifetime, image.span));
+    let buffers = frame.buffers.iter().map(|buffer| (&buffer.name, &buffer.lifetime, buffer.span));
+    let imported = images.chain(buffers).filter_map(|(name, lifetime, span)| match lifetime {
+        Lifetime::Imported { before, after } => Some((name, span, [Some(before), after.as_ref()])),
+        Lifetime::File(_) | Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => None,
+    });
+    let left = frame.outputs.iter().map(|output| {
+        let name = match output.resource {
+            Resource::Image(image) => &frame.images[image.0 as usize].name,
+            Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
+        };
+        (name, output.span, [None, output.after.as_ref()])
+    });
+    for (name, span, states) in imported.chain(left) {
+        let mut features = states.into_iter().flatten().flat_map(State::features);
+        if let Some(missing) = features.find(|feature| !device.has_feature(feature)) {
+            let message =
+                format!("the state of `{name}` needs the feature {missing}, which `{}` doesn't have", device.name);
+            errors.push(Diagnostic::new(span, message));
+        }
+    }
 }
 
 /// Reports buffers that are larger than the device allows.

@@ -1,0 +1,108 @@
+//! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
+
+use super::{Attachment, Pass, RenderScope, Resource, Side, Step, Work};
+use crate::vulkan::Subresources;
+use std::slice;
+
+impl RenderScope {
+    /// Its attachments: colour by location, then depth, then stencil.
+    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
+        self.color.iter().chain(&self.depth).chain(&self.stencil)
+    }
+
+    /// Its attachments, to be changed.
+    pub fn attachments_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
+        self.color.iter_mut().chain(&mut self.depth).chain(&mut self.stencil)
+    }
+}
+
+impl Work {
+    /// The rendering scope, if it is one.
+    #[must_use]
+    pub fn scope(&self) -> Option<&RenderScope> {
+        match self {
+            Work::Render(scope) => Some(scope),
+            Work::Dispatch(_)
+            | Work::Custom(_)
+            | Work::Resolve(_)
+            | Work::Copy(_)
+            | Work::Blit(_)
+            | Work::Fill(_)
+            | Work::Export => None,
+        }
+    }
+
+    /// The attachments of its rendering scope.
+    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
+        self.scope().into_iter().flat_map(RenderScope::attachments)
+    }
+
+    /// Its passes in order.
+    #[must_use]
+    pub fn passes(&self) -> &[Pass] {
+        match self {
+            Work::Render(scope) => &scope.passes,
+            Work::Dispatch(pass) | Work::Custom(pass) => slice::from_ref(pass),
+            Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
+        }
+    }
+
+    /// Its passes, to be changed.
+    #[must_use]
+    pub fn passes_mut(&mut self) -> &mut [Pass] {
+        match self {
+            Work::Render(scope) => &mut scope.passes,
+            Work::Dispatch(pass) | Work::Custom(pass) => slice::from_mut(pass),
+            Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &mut [],
+        }
+    }
+
+    /// The sides of a transfer: the one that is read, then the one that is written; a fill has but the latter.
+    pub fn sides(&self) -> impl Iterator<Item = &Side> {
+        let (source, target) = match self {
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                (Some(&transfer.source), Some(&transfer.target))
+            }
+            Work::Fill(fill) => (None, Some(&fill.target)),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => (None, None),
+        };
+        source.into_iter().chain(target)
+    }
+
+    /// The sides of a transfer, to be changed.
+    pub fn sides_mut(&mut self) -> impl Iterator<Item = &mut Side> {
+        let (source, target) = match self {
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                (Some(&mut transfer.source), Some(&mut transfer.target))
+            }
+            Work::Fill(fill) => (None, Some(&mut fill.target)),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => (None, None),
+        };
+        source.into_iter().chain(target)
+    }
+
+    /// All that it uses, of images with the part: accesses of its passes, attachments with what they are resolved into, and the sides
+    /// of transfers. One may come more than once.
+    pub fn used(&self) -> impl Iterator<Item = (Resource, Option<Subresources>)> {
+        let image = |image, range| (Resource::Image(image), Some(range));
+        let of_passes = self.passes().iter().flat_map(move |pass| {
+            let images = pass.accesses.iter().map(move |access| image(access.image, access.range));
+            images.chain(pass.buffers.iter().map(|access| (Resource::Buffer(access.buffer), None)))
+        });
+        let attached = self.attachments().flat_map(move |attachment| {
+            let resolve = attachment.resolve.as_ref().map(|resolve| image(resolve.image, resolve.range));
+            std::iter::once(image(attachment.image, attachment.range)).chain(resolve)
+        });
+        of_passes.chain(attached).chain(self.sides().map(|side| (side.resource(), side.range())))
+    }
+}
+
+impl Step {
+    /// All that it touches: what its barriers are about, and what its work uses.
+    pub fn touched(&self) -> impl Iterator<Item = Resource> {
+        let images = self.image_barriers.iter().chain(&self.releases).map(|barrier| Resource::Image(barrier.image));
+        let hazards = self.memory_barriers.iter().flat_map(|barrier| &barrier.buffers);
+        let buffers = hazards.map(|hazard| Resource::Buffer(hazard.buffer));
+        images.chain(buffers).chain(self.work.used().map(|(resource, _)| resource))
+    }
+}

@@ -1,0 +1,65 @@
+//! How many files name the variants of an enumeration that grows: what a new kind of work, draw or access makes somebody look at.
+
+use framewright_tests::sources::{self, Source, flat};
+use std::collections::BTreeSet;
+
+/// An enumeration or set of flags, the files that own it, and how many others name its variants at most.
+struct Kind {
+    name: &'static str,
+    owners: &'static [&'static str],
+    most: usize,
+}
+
+const KINDS: &[Kind] = &[
+    Kind { name: "Work", owners: &["graph/src/frame/", "graph/src/plan/"], most: 999 },
+    Kind { name: "Draw", owners: &["graph/src/frame/"], most: 999 },
+    Kind { name: "Role", owners: &["graph/src/compile/model.rs", "graph/src/plan/"], most: 999 },
+    Kind { name: "BindingKind", owners: &["graph/src/shader/", "graph/src/plan/"], most: 999 },
+    Kind { name: "BufferRole", owners: &["graph/src/frame/"], most: 999 },
+    Kind { name: "Stages", owners: &["graph/src/vulkan/", "graph/src/verify/"], most: 999 },
+    Kind { name: "Accesses", owners: &["graph/src/vulkan/", "graph/src/verify/"], most: 999 },
+];
+
+/// Whether a file names a variant of `kind`, or imports one; under an alias too.
+fn names(source: &Source, kind: &str) -> bool {
+    let mut tokens = Vec::new();
+    flat(&source.tokens, &mut tokens);
+    let mut called = BTreeSet::from([kind]);
+    called.extend(tokens.windows(3).filter(|it| it[0] == kind && it[1] == "as").map(|it| it[2].as_str()));
+    let is_variant = |token: &str| token == "(" || token == "*" || token.starts_with(char::is_uppercase);
+    tokens.windows(4).any(|it| called.contains(it[0].as_str()) && it[1] == ":" && it[2] == ":" && is_variant(&it[3]))
+}
+
+#[test]
+fn no_more_files_name_kinds_than_did() {
+    let sources = sources::all();
+    let mut grown = Vec::new();
+    for Kind { name, owners, most } in KINDS {
+        let others = sources.iter().filter(|source| !owners.iter().any(|owner| source.path.starts_with(owner)));
+        let naming: Vec<&str> = others.filter(|source| names(source, name)).map(|source| &*source.path).collect();
+        println!("{name}: {} files, at most {most}", naming.len());
+        if naming.len() > *most {
+            grown.push(format!("{} files name variants of `{name}`, at most {most} may: {naming:#?}", naming.len()));
+        }
+    }
+    assert!(grown.is_empty(), "{}\nask a predicate beside the enumeration", grown.join("\n"));
+}
+
+#[test]
+fn variants_are_found_by_any_name() {
+    let source = |text: &str| {
+        let tokens = text.parse::<proc_macro2::TokenStream>().expect("Rust").into_iter().collect();
+        Source { path: String::new(), text: text.to_owned(), tokens }
+    };
+    for text in [
+        "fn f(it: Work) -> bool { matches!(it, Work::Copy) }",
+        "use crate::frame::Work as FrameWork; fn f() { let it = FrameWork::Copy; }",
+        "use crate::frame::Work::{Copy, Fill};",
+        "use crate::frame::Work::*;",
+    ] {
+        assert!(names(&source(text), "Work"), "{text}");
+    }
+    for text in ["use crate::frame::Work;", "fn f(it: &Work) { Work::name(it) }", "enum Works { Copy }"] {
+        assert!(!names(&source(text), "Work"), "{text}");
+    }
+}
