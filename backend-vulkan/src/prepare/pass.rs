@@ -91,11 +91,11 @@ impl PreparedDraw {
             let offsets = vec![0; self.vertices.len()];
             DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices: self.indices.map(buffer), counts }))
         };
-        let vertices = match (self.draw, self.indirect) {
-            (Draw::FullScreen, _) if !self.state.supplied.are_read() => DrawnVertices::FullScreen,
-            (Draw::Vertices { count, instances }, _) => own(DrawCounts::Direct(count, instances)),
-            (Draw::Indirect, Some(counts)) => own(DrawCounts::Indirect(buffer(counts))),
-            _ => DrawnVertices::Source,
+        let vertices = match (self.draw.counts(), self.indirect) {
+            (Some([count, instances]), _) => own(DrawCounts::Direct(count, instances)),
+            (None, Some(counts)) => own(DrawCounts::Indirect(buffer(counts))),
+            (None, None) if self.draw.is_full_screen() && !self.state.supplied.are_read() => DrawnVertices::FullScreen,
+            (None, None) => DrawnVertices::Source,
         };
         let bindings = bindings(list, frame, plan, &mut self.sets, self.state.supplied.layout)?;
         let pipeline = self.pipeline.as_ref().map(|pipeline| pipeline.raw);
@@ -212,10 +212,7 @@ pub(super) fn prepare_draw(
         [one] => Some(one),
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
-    let indirect = match draw {
-        Draw::Indirect => Some(indirect(pass).map_err(mismatch)?),
-        _ => None,
-    };
+    let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
     let formats = scope_formats(plan, scope);
     let nothing = |sets| PreparedDraw {
         draw,
@@ -234,7 +231,7 @@ pub(super) fn prepare_draw(
     };
     let form = plan.eyes(scope);
     let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, Some(scope))?) {
-        Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
+        Err(ShaderProblem::Missing { .. }) if draw.is_custom() => {
             return Ok(nothing(PassSets::empty(gpu)?));
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
@@ -246,7 +243,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();
+    let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
     } else {
@@ -357,7 +354,7 @@ fn fill_gaps(numbers: &mut [u32]) {
 /// A draw's vertices must lie within its buffers. Of indices the checker says so; what they point to is known to the device
 /// alone, which keeps within the buffers.
 fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
-    let Draw::Vertices { count, .. } = draw else { return Ok(()) };
+    let Some([count, _]) = draw.counts() else { return Ok(()) };
     vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {
         let buffer = &plan.buffers[buffer.0 as usize];
         if u64::from(count) * u64::from(*stride) <= buffer.bytes {

@@ -148,7 +148,7 @@ impl ShaderLibrary {
                 return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
             }
         };
-        let fills = draw != Draw::FullScreen || usual_vertices;
+        let fills = !draw.is_full_screen() || usual_vertices;
         interface.own_vertices = (!fills).then(|| vertex.file.clone());
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
@@ -189,7 +189,7 @@ impl ShaderLibrary {
         draw: Draw,
         variant: &Variant,
     ) -> Result<Arc<CompiledStage>, ShaderProblem> {
-        let file = vertex_shader_of(draw);
+        let file = draw.usual_vertex_shader();
         let what = || format!("no vertex shader: neither `{name}.vert` nor `{file}` was found");
         let usual = match FilePath::of_text(name) {
             FilePath::Own(_) => FilePath::Own(file.into()),
@@ -404,15 +404,5 @@ fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
     own.map(|(name, ..)| name.to_string()).collect()
 }
 
-/// All that [`vertex_shader_of`] gives.
+/// All that [`Draw::usual_vertex_shader`] gives.
 const USUAL_VERTEX_SHADERS: [&str; 4] = ["objects.vert", "sky.vert", "full_screen.vert", "vertices.vert"];
-
-/// The vertex shader of a kind of draw, for shaders without one of their own.
-fn vertex_shader_of(draw: Draw) -> &'static str {
-    match draw {
-        Draw::Objects(_) | Draw::Casters(_) => "objects.vert",
-        Draw::Sky => "sky.vert",
-        Draw::FullScreen | Draw::Custom => "full_screen.vert",
-        Draw::Vertices { .. } | Draw::Indirect => "vertices.vert",
-    }
-}

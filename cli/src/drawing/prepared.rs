@@ -51,9 +51,10 @@ impl<'p> Prepared<'p> {
 
 /// The first pass that only the program of another draw source can record.
 fn custom(plan: &Plan) -> Option<&Pass> {
-    plan.steps.iter().find_map(|step| match &step.work {
-        Work::Custom(pass) => Some(pass),
-        Work::Render(scope) => scope.passes.iter().find(|pass| pass.draw == Some(Draw::Custom)),
-        _ => None,
+    plan.steps.iter().find_map(|step| {
+        step.work.passes().iter().find(|pass| match (&step.work, pass.draw) {
+            (Work::Custom(_), _) => true,
+            (_, draw) => draw.is_some_and(Draw::is_custom),
+        })
     })
 }

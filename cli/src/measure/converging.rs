@@ -101,7 +101,7 @@ fn tone_maps(shader: &str, pipeline: &Loaded) -> bool {
 /// or texels of which several make a pixel.
 fn averaged(frame: &mut Frame, at: usize, pipeline: &Loaded) -> Option<(Pass, ImageIndex)> {
     let pass = &frame.passes[at];
-    let Work::Draw { draw: Draw::FullScreen, shader, .. } = &pass.work else { return None };
+    let (_, shader) = pass.work.draw().filter(|(draw, _)| draw.is_full_screen())?;
     let light = pass.sampled.iter().find(|sampled| *sampled.binding == *LIGHT && sampled.face == Face::Resolved)?;
     if !tone_maps(shader, pipeline) {
         return None;

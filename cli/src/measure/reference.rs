@@ -9,7 +9,7 @@ use crate::picture::Light;
 use crate::planning::{Loaded, Planned};
 use crate::system::interrupt;
 use framewright_graph::frame::{Draw, Jitter, LONGEST_JITTER};
-use framewright_graph::plan::{Plan, Work};
+use framewright_graph::plan::Plan;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions};
 
@@ -93,12 +93,9 @@ fn mean(
 
 /// Size and samples of the largest target that objects are drawn into.
 fn drawn(plan: &Plan, size: Size) -> ([u32; 2], u32) {
-    let scopes = plan.steps.iter().filter_map(|step| match &step.work {
-        Work::Render(scope) => Some(scope),
-        _ => None,
-    });
+    let scopes = plan.steps.iter().filter_map(|step| step.work.scope());
     let of_objects = scopes.filter(|scope| {
-        !scope.color.is_empty() && scope.passes.iter().any(|pass| matches!(pass.draw, Some(Draw::Objects(_))))
+        !scope.color.is_empty() && scope.passes.iter().any(|pass| pass.draw.is_some_and(Draw::shows_objects))
     });
     let largest = of_objects.max_by_key(|scope| u64::from(scope.extent[0]) * u64::from(scope.extent[1]));
     largest.map_or(([size.width, size.height], 1), |scope| (scope.extent, scope.samples))

@@ -12,7 +12,7 @@ use crate::system::counted::Progress;
 use crate::system::{Exit, interrupt};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{Draw, Pass, Stereo, Work};
+use framewright_graph::frame::{Draw, Pass, Stereo};
 use framewright_graph::plan::{Note, Plan, Stage};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
@@ -146,7 +146,7 @@ impl Bench<'_> {
 /// choice, so this one isn't measured.
 fn fewer_samples(planned: &Planned) -> Option<String> {
     let Planned { frame, plan } = planned;
-    let draws = |pass: &&Pass| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. });
+    let draws = |pass: &&Pass| pass.work.draws(Draw::shows_objects);
     let mut targets = frame.passes.iter().filter(draws).flat_map(|pass| &pass.color);
     targets.find_map(|target| {
         let wanted = frame.images.get(target.image.0 as usize)?;

@@ -77,10 +77,10 @@ struct Source<'s> {
 
 impl DrawSource for Source<'_> {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        match (draw, &mut self.scene, &self.callback) {
-            (Draw::Custom, _, Some(callback)) => callback.inside(recorder),
-            (_, Some(scene), _) => scene.record(draw, recorder),
-            (_, None, _) => Err(no_scene(recorder.pass())),
+        match (&mut self.scene, &self.callback) {
+            (_, Some(callback)) if draw.is_custom() => callback.inside(recorder),
+            (Some(scene), _) => scene.record(draw, recorder),
+            (None, _) => Err(no_scene(recorder.pass())),
         }
     }
 

@@ -28,7 +28,7 @@ pub fn wrong(plan: &Plan, frame: &Frame, shaders: &mut dyn ShaderInterfaces) -> 
             Err(problem) => problem,
         };
         // The program draws with a pipeline of its own then.
-        let its_own = pass.draw == Some(Draw::Custom) && matches!(problem, ShaderProblem::Missing { .. });
+        let its_own = pass.draw.is_some_and(Draw::is_custom) && matches!(problem, ShaderProblem::Missing { .. });
         if its_own || known.iter().any(|(shader, other)| *shader == pass.shader && *other == problem) {
             continue;
         }

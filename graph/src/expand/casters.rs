@@ -3,7 +3,7 @@
 use super::instances::used_here;
 use super::state::State;
 use crate::base::Diagnostic;
-use crate::frame::{Cascade, DepthTarget, Draw, Metres, Share, ViewIndex, Work};
+use crate::frame::{Cascade, DepthTarget, Metres, Share, ViewIndex};
 use crate::language::{self, Pipeline};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -20,7 +20,7 @@ pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diag
     let mut views: BTreeMap<ViewIndex, Vec<Casters<'_>>> = BTreeMap::new();
     for (pass, state) in pipeline.passes.iter().zip(states) {
         if let State::On(lowered) = state
-            && let Work::Draw { draw: Draw::Casters(cascade), .. } = lowered.work
+            && let Some(cascade) = lowered.work.draw().and_then(|(draw, _)| draw.cascade())
             && let Some(target) = &lowered.depth
         {
             views.entry(pass.view).or_default().push(Casters { pass, cascade, target });

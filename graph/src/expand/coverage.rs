@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// output that some path leaves is told of elsewhere: it is written all the same, with an undefined value.
 pub(super) fn untouched(pass: &language::Pass, interface: Option<&ShaderInterface>) -> Option<Arc<str>> {
     let name = pass.shader().map_or("", |shader| &*shader.text);
-    let full_screen = matches!(pass.work, language::Work::Draw { draw: language::Draw::FullScreen, .. });
+    let full_screen = pass.work.draws(Draw::is_full_screen);
     let interface = interface.filter(|_| full_screen)?;
     let why = if leaves_out(interface) {
         let what = if interface.discards { "discards fragments" } else { "writes `gl_SampleMask`" };
@@ -47,5 +47,5 @@ pub(super) fn at(place: Option<&str>) -> String {
 
 /// Whether a draw tells the samples of a texel apart, or has edges although it fills the screen.
 pub(super) fn per_sample(draw: Draw, interface: Option<&ShaderInterface>) -> bool {
-    interface.is_some_and(|it| it.per_sample || it.own_vertices.is_some() && draw == Draw::FullScreen)
+    interface.is_some_and(|it| it.per_sample || it.own_vertices.is_some() && draw.is_full_screen())
 }

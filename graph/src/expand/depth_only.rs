@@ -5,7 +5,7 @@ use super::resources::Resources;
 use super::shader::{Checked, PARAMS};
 use super::state::State;
 use super::{coverage, variant};
-use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
+use crate::frame::{Face, ImageIndex, Pass, ResolveWay, Work};
 use crate::language;
 use crate::shader::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
 use crate::vulkan::Stages;
@@ -49,7 +49,7 @@ fn hindrance(
     shaders: &mut Checked<'_>,
 ) -> Option<String> {
     let Work::Draw { draw, shader, .. } = &pass.work else { return None };
-    if *draw == Draw::Custom {
+    if draw.is_custom() {
         return None;
     }
     let variant = variant::of(resources, described);

@@ -7,10 +7,9 @@
 mod at_once;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Allowances, Eye, EyeForm, ImageIndex, Remark, Resource, Stereo, ViewEye, ViewIndex};
+use crate::frame::{Allowances, Draw, Eye, EyeForm, ImageIndex, Remark, Resource, Stereo, ViewEye, ViewIndex};
 use crate::language::{
-    self, Draw, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View,
-    Work,
+    self, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
 };
 use crate::ron::{Name, Spanned};
 use at_once::Apart;
@@ -124,7 +123,7 @@ fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
         .filter(|(_, whose)| **whose != For::Both)
         .flat_map(|(pass, _)| pass.sample.iter().map(|sample| sample.part.image.index))
         .collect();
-    let sees = |pass: &Pass| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Sky, .. });
+    let sees = |pass: &Pass| pass.work.draws(Draw::shows_scene);
     let remark = |pass: &Pass| {
         let shared = pass.color.iter().map(|color| color.part.image).find(|image| read.contains(&image.index))?;
         let name = &pipeline.images[shared.index.0 as usize].name.text;

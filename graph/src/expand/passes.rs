@@ -127,7 +127,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
         lowered.buffers.push(storage::used(&uniform.part, binding, BufferRole::Uniform, stages));
     }
     let indirect = match &pass.work {
-        Described::Draw { draw: language::Draw::Indirect(buffer), .. } => Some(buffer),
+        Described::Draw { counts, .. } => counts.as_ref(),
         Described::Dispatch { groups, .. } => match &groups.value {
             language::Groups::Indirect { buffer, .. } => Some(buffer),
             _ => None,

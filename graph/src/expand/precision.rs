@@ -7,7 +7,7 @@
 use super::resources::Resources;
 use super::state::State;
 use crate::base::Span;
-use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource};
 use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
@@ -165,7 +165,7 @@ fn is_seen_depth(passes: &[&Pass], image: ImageIndex) -> bool {
 }
 
 fn draws_objects(pass: &Pass) -> bool {
-    matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })
+    pass.work.draws(Draw::shows_objects)
 }
 
 /// Images that have one format together, each group in the order of the file.

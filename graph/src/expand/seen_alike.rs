@@ -1,8 +1,8 @@
 //! Draws of the file's own vertices for two eyes: what places them may be the same for both.
 
 use super::resources::Resources;
-use crate::frame::Remark;
-use crate::language::{self, Draw, Work};
+use crate::frame::{Draw, Remark};
+use crate::language;
 use crate::shader::ShaderInterface;
 
 /// Notes a pass that draws vertices of the file's own into an image of each eye, by a matrix that both eyes share. A buffer is there
@@ -13,7 +13,7 @@ pub(super) fn note(
     interface: &ShaderInterface,
     remarks: &mut Vec<Remark>,
 ) {
-    let own = matches!(&pass.work, Work::Draw { draw: Draw::Vertices { .. } | Draw::Indirect(_), .. });
+    let own = pass.work.draws(Draw::has_own_vertices);
     let Some(block) = interface.sees_alike.first().filter(|_| own && is_for_each_eye(resources, pass)) else { return };
     let given = pass.uniform.iter().map(|it| &it.binding).chain(pass.storage.iter().map(|it| &it.binding));
     let span = given.into_iter().find(|name| *name.text == **block).map_or(pass.name.span, |name| name.span);

@@ -51,7 +51,7 @@ impl<'s> Checked<'s> {
     pub(super) fn find(&mut self, pass: &language::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
         let (shader, draw) = named(pass)?;
         // The program knows its draws by the name as it is written.
-        if draw == Some(Draw::Custom) {
+        if draw.is_some_and(Draw::is_custom) {
             return Some(shader.text.clone());
         }
         let from = shader.span.file().and_then(|file| self.sources.file(file)).map(|file| &file.path);
@@ -85,7 +85,7 @@ impl<'s> Checked<'s> {
             None => self.shaders.compute_shader(path, variant),
         };
         // The program draws with a pipeline of its own then.
-        if draw == Some(Draw::Custom) && matches!(found, Err(ShaderProblem::Missing { .. })) {
+        if draw.is_some_and(Draw::is_custom) && matches!(found, Err(ShaderProblem::Missing { .. })) {
             return None;
         }
         self.known(shader, path, found, errors)
@@ -150,7 +150,7 @@ impl<'s> Checked<'s> {
 /// The shader that a pass names, and the draw; a draw of `None`: it is a compute shader.
 fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
     match &pass.work {
-        Work::Draw { shader, draw } => Some((shader, Some(work::draw(draw)))),
+        Work::Draw { shader, draw, .. } => Some((shader, Some(*draw))),
         Work::Dispatch { shader, .. } => Some((shader, None)),
         Work::Custom { callback, .. } if work::is_drawn(pass) => Some((callback, Some(Draw::Custom))),
         Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,

@@ -5,7 +5,8 @@ use super::shader::Checked;
 use super::work;
 use crate::base::{Diagnostic, OutsideChoice, suggestion};
 use crate::device::Need;
-use crate::language::{self, Draw, Work};
+use crate::frame::Draw;
+use crate::language::{self, Work};
 use crate::ron::Name;
 use crate::shader::{
     Binding, DrawInterface, LayoutFault, PASS_SET, ShaderInterface, Supplied, VertexLayout, resource_needs,
@@ -21,7 +22,7 @@ pub(super) fn check(
     errors: &mut Vec<Diagnostic>,
 ) {
     let Some(shader) = pass.shader() else { return };
-    let own = matches!(&pass.work, Work::Draw { draw: Draw::Vertices { .. } | Draw::Indirect(_), .. });
+    let own = pass.work.draws(Draw::has_own_vertices);
     if own {
         own_attributes(resources, pass, shader, interface, errors);
     }
@@ -75,11 +76,10 @@ fn own_attributes(
         (Some(_), Some(part)) => match VertexLayout::of(&interface.vertex_inputs, 1) {
             Ok(layout) => {
                 let stride = layout.strides[0];
-                let (count, what) = match &pass.work {
-                    Work::Draw { draw: Draw::Vertices { count, .. }, .. } if pass.index.is_none() => {
-                        (*count, format!("{count} vertices of {stride} bytes"))
-                    }
-                    _ => (1, format!("the attributes of one vertex of shader `{}`", shader.text)),
+                let counts = pass.work.draw().filter(|_| pass.index.is_none()).and_then(Draw::counts);
+                let (count, what) = match counts {
+                    Some([count, _]) => (count, format!("{count} vertices of {stride} bytes")),
+                    None => (1, format!("the attributes of one vertex of shader `{}`", shader.text)),
                 };
                 let bytes = u64::from(count) * u64::from(stride);
                 work::holds(resources, &part.buffer, bytes, &what, part.buffer.span, errors);

@@ -1,7 +1,7 @@
 //! Passes that draw a view into images that are for another.
 
-use crate::frame::{Remark, ViewIndex};
-use crate::language::{Draw, Pass, Pipeline, Work};
+use crate::frame::{Draw, Remark, ViewIndex};
+use crate::language::{Pass, Pipeline};
 use std::sync::Arc;
 
 /// Remarks on passes that draw the scene for one view into an image for another view, of another size: the camera's picture
@@ -11,7 +11,9 @@ pub(super) fn remarks(pipeline: &Pipeline) -> Vec<Remark> {
 }
 
 fn remark(pipeline: &Pipeline, pass: &Pass) -> Option<Remark> {
-    let Work::Draw { draw: Draw::Objects(_) | Draw::Sky, .. } = &pass.work else { return None };
+    if !pass.work.draws(Draw::shows_scene) {
+        return None;
+    }
     let (own, own_extent) = view(pipeline, pass.view)?;
     let targets = pass.color.iter().map(|color| color.part).chain(pass.depth.as_ref().map(|depth| depth.part));
     targets.into_iter().find_map(|part| {

@@ -9,18 +9,6 @@ use crate::ron::{Name, Spanned};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Filter};
 
-/// The draw of the frame that `draw` becomes.
-pub(super) fn draw(draw: &language::Draw) -> Draw {
-    match draw {
-        language::Draw::Objects(list) => Draw::Objects(*list),
-        language::Draw::Casters(cascade) => Draw::Casters(*cascade),
-        language::Draw::Sky => Draw::Sky,
-        language::Draw::FullScreen => Draw::FullScreen,
-        language::Draw::Vertices { count, instances } => Draw::Vertices { count: *count, instances: *instances },
-        language::Draw::Indirect(_) => Draw::Indirect,
-    }
-}
-
 /// Whether the pass draws into images: a custom pass is recorded within a rendering scope then.
 pub(super) fn is_drawn(pass: &language::Pass) -> bool {
     !pass.color.is_empty() || pass.depth.is_some()
@@ -36,7 +24,7 @@ pub(super) fn lower(resources: &Resources<'_>, pass: &language::Pass, interface:
         per_sample: coverage::per_sample(draw, interface),
     };
     match &pass.work {
-        language::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
+        language::Work::Draw { draw, shader, .. } => drawn(*draw, shader),
         language::Work::Dispatch { shader, groups } => {
             Work::Dispatch { shader: shader.text.clone(), groups: self::groups(resources, &groups.value) }
         }
@@ -85,7 +73,7 @@ pub(super) fn check(
     errors: &mut Vec<Diagnostic>,
 ) {
     match &pass.work {
-        language::Work::Draw { draw, .. } => counts_fit(resources, pass, draw, lowered, errors),
+        language::Work::Draw { draw, counts, .. } => counts_fit(resources, pass, (*draw, counts.as_ref()), errors),
         language::Work::Dispatch { groups, .. } => {
             dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
@@ -102,19 +90,18 @@ pub(super) fn check(
 fn counts_fit(
     resources: &Resources<'_>,
     pass: &language::Pass,
-    draw: &language::Draw,
-    lowered: &Pass,
+    (draw, counts): (Draw, Option<&language::BufferPart>),
     errors: &mut Vec<Diagnostic>,
 ) {
     let indexed = pass.index.is_some();
-    if let language::Draw::Indirect(part) = draw {
+    if let Some(part) = counts {
         // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
         let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
         holds(resources, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
     }
-    if let (Some(part), Work::Draw { draw: Draw::Vertices { count, .. }, .. }) = (&pass.index, &lowered.work) {
+    if let (Some(part), Some([count, _])) = (&pass.index, draw.counts()) {
         let what = format!("{count} indices of 4 bytes");
-        holds(resources, &part.buffer, u64::from(*count) * 4, &what, part.buffer.span, errors);
+        holds(resources, &part.buffer, u64::from(count) * 4, &what, part.buffer.span, errors);
     }
 }
 

@@ -41,7 +41,7 @@ pub use inputs::{Fact, FactType, FactValue, Facts, Read, Reads, Surroundings, na
 pub(crate) use mistakes::in_order;
 pub(crate) use model::{Area, LARGEST_SIZE, area};
 pub use model::{
-    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Decided, Decisions, Depth, Draw, Face, Fill, Format,
+    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Decided, Decisions, Depth, Face, Fill, Format,
     Forward, Groups, Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off,
     Output, Param, Part, Pass, PassDecisions, Pipeline, Precision, Precisions, Preset, RemovedPass, Resolves,
     ResourceRef, Sample, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State, Storage,

@@ -263,7 +263,7 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
     let mut targets = scope.color.iter().zip(&pass.blend);
     let passes = untested && unmasked;
-    let proven = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.untouched.is_none() && passes;
+    let proven = pass.draw.is_some_and(Draw::is_full_screen) && !pass.discards && pass.untouched.is_none() && passes;
     scope.layers == 1
         && (proven || pass.covers)
         && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)

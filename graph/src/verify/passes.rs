@@ -61,7 +61,7 @@ impl<'p> Check<'_, 'p> {
         if pass.draw.is_none() || pass.groups.is_some() {
             self.wrong_pass(pass, "is in a rendering scope and draws nothing");
         }
-        if let Some(Draw::Casters(cascade)) = pass.draw
+        if let Some(cascade) = pass.draw.and_then(Draw::cascade)
             && !(cascade.index < cascade.of && cascade.of <= Cascade::MOST)
         {
             self.wrong_pass(pass, "draws a part of the shadows' reach that there isn't");
@@ -92,7 +92,7 @@ impl<'p> Check<'_, 'p> {
         self.stencil(scope, pass);
         let tests = if scope.depth.is_some() || scope.stencil.is_some() { TESTS } else { Stages::empty() };
         let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
-        let by = if pass.draw == Some(Draw::Custom) { By::Program } else { By::Plan };
+        let by = if pass.draw.is_some_and(Draw::is_custom) { By::Program } else { By::Plan };
         for access in &pass.accesses {
             self.access(access, by, graphics, ATTACHMENT | SHADER);
             let attached = attachments(scope).any(|(attachment, _)| {
@@ -102,10 +102,10 @@ impl<'p> Check<'_, 'p> {
             self.demand(!stray, access.image, "is accessed as an attachment that its scope doesn't have");
         }
         let indexed = pass.buffers.iter().any(|access| access.role == Some(BufferRole::Index));
-        if let (Some(Draw::Vertices { count, .. }), true) = (pass.draw, indexed) {
+        if let (Some([count, _]), true) = (pass.draw.and_then(Draw::counts), indexed) {
             self.holds(pass, BufferRole::Index, u64::from(count) * 4);
         }
-        if pass.draw == Some(Draw::Indirect) {
+        if pass.draw.is_some_and(Draw::is_indirect) {
             self.holds(pass, BufferRole::Indirect, if indexed { 20 } else { 16 });
         }
         self.buffers(pass, by, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);

@@ -249,7 +249,7 @@ impl<'p> Check<'_, 'p> {
                     .iter()
                     .any(|access| local(&access) && access.image == write.image && overlap(access.range, write.range));
                 self.demand(
-                    !feedback || pass.draw == Some(Draw::FullScreen),
+                    !feedback || pass.draw.is_some_and(Draw::is_full_screen),
                     write.image,
                     "is read at its own position by a pass that may draw to it more than once",
                 );

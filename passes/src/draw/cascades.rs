@@ -39,7 +39,7 @@ pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<CascadeMap> {
     for step in &plan.steps {
         let Work::Render(scope) = &step.work else { continue };
         for pass in scope.passes.iter().filter(|pass| pass.view.map(between) == view) {
-            if let Some(Draw::Casters(cascade)) = pass.draw {
+            if let Some(cascade) = pass.draw.and_then(Draw::cascade) {
                 let texels = scope.extent[0].min(scope.extent[1]);
                 maps.entry(cascade.index).or_insert(CascadeMap { cascade, texels });
             }

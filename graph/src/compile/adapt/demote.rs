@@ -44,13 +44,9 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
     let Input { frame, live, negotiated, options, .. } = input;
     let mut demotions = Demotions::default();
     let passes = || live.passes.iter().map(|number| (*number, &frame.passes[*number as usize]));
-    if negotiated.attached
-        && passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. }))
-    {
+    if negotiated.attached && passes().any(|(_, pass)| pass.work.draws(Draw::draws_objects)) {
         demotions.of_geometry = vec![false; frame.images.len()];
-        for (_, pass) in passes()
-            .filter(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. }))
-        {
+        for (_, pass) in passes().filter(|(_, pass)| pass.work.draws(Draw::draws_objects)) {
             pass.color.iter().for_each(|target| demotions.of_geometry[target.image.0 as usize] = true);
         }
     }
@@ -154,5 +150,5 @@ pub(super) fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
 
 /// Whether a draw is made of objects or other geometry that has edges inside the image, or makes edges by its alpha.
 fn has_edges(pass: &Pass) -> bool {
-    pass.alpha_to_coverage || matches!(&pass.work, Work::Draw { draw, .. } if *draw != Draw::FullScreen)
+    pass.alpha_to_coverage || pass.work.draws(|draw| !draw.is_full_screen())
 }

@@ -5,7 +5,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{Draw, ImageIndex, Pass, ViewIndex, Work};
+use crate::frame::{ImageIndex, Pass, ViewIndex, Work};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, Stages, Subresources};
 use std::sync::Arc;
@@ -128,10 +128,10 @@ impl Adapter<'_> {
                 return Err(unavailable("writes it and is no draw"));
             };
             let Work::Draw { draw, .. } = pass.work else { return Err(unavailable("is no draw")) };
-            if draw == Draw::Custom {
+            if draw.is_custom() {
                 return Err(unavailable("is recorded by the program"));
             }
-            if draw == Draw::Indirect || !pass.buffers.is_empty() {
+            if draw.is_indirect() || !pass.buffers.is_empty() {
                 return Err(unavailable("draws from buffers, which may have changed since"));
             }
             if uses.iter().any(|used| used.role == Role::Stencil) {

@@ -2,7 +2,7 @@
 
 use crate::base::Diagnostic;
 use crate::device::{Abilities, Limit, NeedKind, Profile};
-use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass, Resource, Work};
+use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass, Resource};
 use crate::plan::{Note, Stage};
 use crate::vulkan::State;
 
@@ -16,9 +16,7 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
         if !pass.needs.is_empty() {
             needs(pass, device, &mut errors, |text| notes.push(note(frame, pass, text)));
         }
-        if let Work::Draw { draw: Draw::Indirect, .. } = pass.work
-            && !device.has_feature(FIRST_INSTANCE)
-        {
+        if pass.work.draws(Draw::is_indirect) && !device.has_feature(FIRST_INSTANCE) {
             let text = format!("the first instance in its counts must be 0: `{}` lacks {FIRST_INSTANCE}", device.name);
             notes.push(note(frame, pass, text));
         }

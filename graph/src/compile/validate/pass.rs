@@ -2,9 +2,7 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{
-    Access, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work,
-};
+use crate::frame::{Access, BufferRole, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -150,7 +148,7 @@ impl Check<'_> {
         }
         let counts = pass.buffers.iter().filter(|used| used.role == BufferRole::Indirect).count();
         let indirect = match &pass.work {
-            Work::Draw { draw, .. } => *draw == Draw::Indirect,
+            Work::Draw { draw, .. } => draw.is_indirect(),
             Work::Dispatch { groups, .. } => matches!(groups, Groups::Indirect { .. }),
             _ => false,
         };

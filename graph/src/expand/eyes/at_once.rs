@@ -6,7 +6,7 @@
 use super::For;
 use crate::frame::{EyeForm, ImageIndex, Stereo};
 use crate::language::{
-    Draw, Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
+    Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
     StorageAccess, Work,
 };
 use crate::shader::element_of;
@@ -148,7 +148,7 @@ fn by_itself(image: &Image) -> Option<String> {
 /// Why a pass can't work for both eyes at once.
 fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
     match &pass.work {
-        Work::Draw { draw: Draw::Indirect(_), .. } if stereo != Stereo::Multiview => {
+        Work::Draw { draw, .. } if draw.is_indirect() && stereo != Stereo::Multiview => {
             Some("draws the instances that a buffer says")
         }
         Work::Draw { .. } | Work::Fill { .. } => None,

@@ -3,8 +3,8 @@
 use super::casters;
 use super::parts;
 use super::values::MANY;
-use crate::frame::DrawList;
-use crate::language::model::{Draw, Work};
+use crate::frame::{Draw, DrawList};
+use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
 use std::fmt::Display;
@@ -87,18 +87,18 @@ impl Context<'_> {
                     return None;
                 }
                 let shader = self.reader.outside_name(own, "a shader")?;
-                return Some(FieldValue::Constant(Work::Draw { draw: Draw::FullScreen, shader }));
+                return Some(FieldValue::Constant(Work::Draw { draw: Draw::FullScreen, counts: None, shader }));
             }
             "Sky" => {
                 self.reader.bare(word, rest)?;
                 if shader.is_none() {
                     let shader = Name { text: "sky".into(), span: leaf.span() };
-                    return Some(FieldValue::Constant(Work::Draw { draw: Draw::Sky, shader }));
+                    return Some(FieldValue::Constant(Work::Draw { draw: Draw::Sky, counts: None, shader }));
                 }
-                (FieldValue::Constant(Draw::Sky), "draws the sky")
+                (FieldValue::Constant((Draw::Sky, None)), "draws the sky")
             }
-            "Objects" => (FieldValue::Constant(Draw::Objects(list(self.reader, leaf, rest)?)), "draws objects"),
-            "Casters" => (self.casters(leaf, rest)?.map(Draw::Casters), "draws objects"),
+            "Objects" => (FieldValue::Constant((Draw::Objects(list(self.reader, leaf, rest)?), None)), "draws objects"),
+            "Casters" => (self.casters(leaf, rest)?.map(|cascade| (Draw::Casters(cascade), None)), "draws objects"),
             "Vertices" => {
                 let (count, instances) = match rest.and_then(Leaf::tuple) {
                     Some([count, instances]) => (count, Some(instances)),
@@ -113,11 +113,11 @@ impl Context<'_> {
                 let once = Some(FieldValue::Constant(1));
                 let instances = instances.map_or(once, |leaf| self.whole(leaf, "number of instances", range));
                 let vertices = (count?, instances?);
-                (combined(vertices, |(count, instances)| Draw::Vertices { count, instances }), "draws vertices")
+                (combined(vertices, |(count, instances)| (Draw::Vertices { count, instances }, None)), "draws vertices")
             }
             _ => {
                 let [buffer]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
-                (self.buffer_part(buffer)?.map(Draw::Indirect), "draws vertices")
+                (self.buffer_part(buffer)?.map(|part| (Draw::Indirect, Some(part))), "draws vertices")
             }
         };
         let Some(shader) = shader else {
@@ -125,7 +125,7 @@ impl Context<'_> {
             return None;
         };
         let shader = self.reader.outside_name(shader, "a shader")?;
-        Some(draw.map(move |draw| Work::Draw { draw, shader: shader.clone() }))
+        Some(draw.map(move |(draw, counts)| Work::Draw { draw, counts, shader: shader.clone() }))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::base::Diagnostic;
 use crate::frame::Resource;
-use crate::language::model::{Buffer, Draw, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
+use crate::language::model::{Buffer, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
 use crate::ron::{Name, Spanned};
 use std::sync::Arc;
 
@@ -32,13 +32,13 @@ pub(crate) fn check(
 /// Parts that a pass reads, as far as the file alone says.
 fn read(pass: &Pass) -> impl Iterator<Item = Part> {
     let (one, several): (Option<Part>, &[Part]) = match &pass.work {
-        Work::Draw { draw: Draw::Indirect(buffer), .. } => (Some(Part::Buffer(*buffer)), &[]),
+        Work::Draw { counts, .. } => (counts.map(Part::Buffer), &[]),
         Work::Dispatch { groups: Spanned { value: Groups::Indirect { buffer, .. }, .. }, .. } => {
             (Some(Part::Buffer(*buffer)), &[])
         }
         Work::Copy { from, .. } | Work::Blit { from, .. } => (Some(*from), &[]),
         Work::Custom { reads, .. } => (None, reads),
-        Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => (None, &[]),
+        Work::Dispatch { .. } | Work::Fill { .. } => (None, &[]),
     };
     let sampled = pass.sample.iter().map(|sample| Part::Image(sample.part));
     let stored = pass.storage.iter().map(|storage| storage.part);

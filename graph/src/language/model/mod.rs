@@ -17,7 +17,7 @@ pub(crate) use choices::{in_force, unknown_preset};
 pub use decided::{Decided, Decisions};
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub use pass::{
-    Color, Depth, Draw, Face, Forward, Groups, LeftOut, Off, Param, Pass, PassDecisions, Sample, StandIn, Storage,
+    Color, Depth, Face, Forward, Groups, LeftOut, Off, Param, Pass, PassDecisions, Sample, StandIn, Storage,
     StorageAccess, Uniform, Work,
 };
 pub use pipeline::{Instance, Output, Pipeline, RemovedPass};

@@ -5,7 +5,7 @@ use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
 use crate::base::Span;
-use crate::frame::{Blend, Cascade, DrawList, ParamValue, Resource, StencilState, ViewIndex};
+use crate::frame::{Blend, Draw, ParamValue, Resource, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::{AddressMode, CompareOp, Filter};
 use std::sync::Arc;
@@ -107,6 +107,8 @@ pub enum Work {
     Draw {
         /// The draw.
         draw: Draw,
+        /// The counts of an indirect draw.
+        counts: Option<BufferPart>,
         /// The shader's name.
         shader: Name,
     },
@@ -151,26 +153,21 @@ pub enum Work {
     },
 }
 
-/// The draw of a raster pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Draw {
-    /// One of the scene's draw lists.
-    Objects(DrawList),
-    /// Casters of the sun's shadow, for one cascade.
-    Casters(Cascade),
-    /// The sky.
-    Sky,
-    /// One triangle that covers every pixel.
-    FullScreen,
-    /// A number of vertices (or indices) of triangles.
-    Vertices {
-        /// How many.
-        count: u32,
-        /// How many times.
-        instances: u32,
-    },
-    /// An indirect draw: a buffer holds the counts.
-    Indirect(BufferPart),
+impl Work {
+    /// The draw, if it is one.
+    pub const fn draw(&self) -> Option<Draw> {
+        match self {
+            Work::Draw { draw, .. } => Some(*draw),
+            Work::Dispatch { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => {
+                None
+            }
+        }
+    }
+
+    /// Whether it draws what `is` says of a draw.
+    pub fn draws(&self, is: impl FnOnce(Draw) -> bool) -> bool {
+        self.draw().is_some_and(is)
+    }
 }
 
 /// How many workgroups a dispatch has.
