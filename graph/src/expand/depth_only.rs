@@ -5,7 +5,7 @@ use super::resources::Resources;
 use super::shader::{Checked, PARAMS};
 use super::state::State;
 use super::{coverage, variant};
-use crate::frame::{Face, ImageIndex, Pass, ResolveWay, Work};
+use crate::frame::{Face, ImageIndex, Pass, ResolveWay};
 use crate::language;
 use crate::shader::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
 use crate::vulkan::Stages;
@@ -48,13 +48,13 @@ fn hindrance(
     pass: &Pass,
     shaders: &mut Checked<'_>,
 ) -> Option<String> {
-    let Work::Draw { draw, shader, .. } = &pass.work else { return None };
+    let (draw, shader) = pass.work.draw()?;
     if draw.is_custom() {
         return None;
     }
     let variant = variant::of(resources, described);
-    let whole = shaders.drawn(shader, *draw, &variant).ok()?;
-    let alone = shaders.drawn(shader, *draw, &Variant { depth_only: true, ..Variant::default() });
+    let whole = shaders.drawn(shader, draw, &variant).ok()?;
+    let alone = shaders.drawn(shader, draw, &Variant { depth_only: true, ..Variant::default() });
     let wrong = match alone {
         Ok(alone) if variant.alpha_to_coverage && !coverage::leaves_out(&alone) => {
             "it leaves out no samples, which its alpha does".to_owned()

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// Why the shader of a pass can't draw into an image that is turned, behind the name of the pass.
 pub(super) fn hindrance(work: &Work, interface: &ShaderInterface) -> Option<Arc<str>> {
-    let Work::Draw { shader, .. } = work else { return None };
+    let (_, shader) = work.draw()?;
     let wrong: Vec<&str> = interface.unturned.iter().map(|unturned| words(*unturned)).collect();
     (!wrong.is_empty()).then(|| format!("has the shader `{shader}`, which {}", wrong.join(" and ")).into())
 }

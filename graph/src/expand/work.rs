@@ -148,12 +148,11 @@ fn dispatch_fits(
         }
         Described::Count(_) | Described::Invocations(_) => {}
     }
-    let (Work::Dispatch { groups: Groups::Invocations(wanted), .. }, Some(interface)) = (&lowered.work, interface)
-    else {
+    let (Some(Groups::Invocations(wanted)), Some(interface)) = (lowered.work.groups(), interface) else {
         return;
     };
     let size = interface.workgroup_size.unwrap_or([1; 3]);
-    for ((axis, wanted), size) in ["x", "y", "z"].into_iter().zip(*wanted).zip(size) {
+    for ((axis, wanted), size) in ["x", "y", "z"].into_iter().zip(wanted).zip(size) {
         let count = wanted.div_ceil(size.max(1));
         if i64::from(count) > MOST_GROUPS {
             let message = format!(

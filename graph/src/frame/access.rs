@@ -47,12 +47,9 @@ impl Pass {
         let images = self.sampled.iter().map(Access::Sampled).chain(self.storage.iter().map(Access::Storage));
         let attachments = self.color.iter().map(Access::Color).chain(self.depth.iter().map(Access::Depth));
         let others = self.buffers.iter().map(Access::Buffer).chain(self.transfers.iter().map(Access::Transfer));
-        let forwarded = match self.work {
-            Work::Forward { from, to, .. } => {
-                Some([Access::ForwardSource(from, self.span), Access::ForwardTarget(to, self.span)])
-            }
-            _ => None,
-        };
+        let forwarded = self.work.forwarded();
+        let forwarded =
+            forwarded.map(|[from, to]| [Access::ForwardSource(from, self.span), Access::ForwardTarget(to, self.span)]);
         images.chain(attachments).chain(others).chain(forwarded.into_iter().flatten())
     }
 
@@ -65,7 +62,7 @@ impl Pass {
         self.depth.iter().for_each(|it| visitor.visit(Access::Depth(it)));
         self.buffers.iter().for_each(|it| visitor.visit(Access::Buffer(it)));
         self.transfers.iter().for_each(|it| visitor.visit(Access::Transfer(it)));
-        if let Work::Forward { from, to, .. } = self.work {
+        if let Some([from, to]) = self.work.forwarded() {
             visitor.visit(Access::ForwardSource(from, self.span));
             visitor.visit(Access::ForwardTarget(to, self.span));
         }

@@ -20,6 +20,7 @@ mod resource;
 mod texture;
 mod uses;
 mod view;
+mod work;
 
 pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
 pub use capture::{Capture, Captures, capture_name};
@@ -30,7 +31,7 @@ pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;
 pub use param::ParamValue;
 pub(crate) use part::TargetShape;
-pub use pass::{Groups, Pass, Work};
+pub use pass::Pass;
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{
@@ -40,6 +41,7 @@ pub use uses::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
 pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
+pub use work::{Groups, Work};
 
 use crate::base::{Sources, Span};
 use change::Change;

@@ -1,16 +1,9 @@
 //! Passes of a frame, and their work.
 
-use super::{
-    BufferUse, ColorTarget, DepthTarget, Draw, ImageIndex, ParamValue, Sampled, Storage, TransferUse, ViewIndex,
-};
+use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, Sampled, Storage, TransferUse, ViewIndex, Work};
 use crate::base::Span;
 use crate::device::Need;
-use crate::vulkan::{FillValue, Filter};
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-#[cfg(doc)]
-use super::BufferRole;
 
 /// One pass.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,90 +75,4 @@ impl Pass {
             params: Vec::new(),
         }
     }
-}
-
-/// The work of a pass.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Work {
-    /// Draws into its attachments.
-    Draw {
-        /// The geometry.
-        draw: Draw,
-        /// The shader's name.
-        shader: Arc<str>,
-        /// Whether its fragment shader leaves samples out, as it does where it discards fragments: then a full-screen draw doesn't
-        /// cover.
-        discards: bool,
-        /// Whether it tells the samples of a texel apart, as a fragment shader does that runs once a sample.
-        per_sample: bool,
-    },
-    /// Runs compute shaders.
-    Dispatch {
-        /// The shader's name.
-        shader: Arc<str>,
-        /// How many workgroups.
-        groups: Groups,
-    },
-    /// Copies its first transfer into its second: texel for texel, byte for byte, or rows of texels to or from a buffer.
-    Copy,
-    /// Scales its first transfer into its second.
-    Blit {
-        /// Filter between texels.
-        filter: Filter,
-    },
-    /// Sets all of its one transfer to a value.
-    Fill {
-        /// The value.
-        value: FillValue,
-    },
-    /// The embedding program records it outside of rendering scopes.
-    Custom {
-        /// The name by which the program knows it.
-        callback: Arc<str>,
-    },
-    /// Stands in for a pass that is off: `to` takes the contents of `from`.
-    Forward {
-        /// Source.
-        from: ImageIndex,
-        /// Target.
-        to: ImageIndex,
-        /// The condition that switched the pass off: "tone_mapping = false".
-        because: String,
-    },
-}
-
-impl Work {
-    /// The geometry and the shader's name, if it draws.
-    #[must_use]
-    pub const fn draw(&self) -> Option<(Draw, &Arc<str>)> {
-        match self {
-            Work::Draw { draw, shader, .. } => Some((*draw, shader)),
-            Work::Dispatch { .. }
-            | Work::Copy
-            | Work::Blit { .. }
-            | Work::Fill { .. }
-            | Work::Custom { .. }
-            | Work::Forward { .. } => None,
-        }
-    }
-
-    /// Whether it draws what `is` says of a draw.
-    pub fn draws(&self, is: impl FnOnce(Draw) -> bool) -> bool {
-        self.draw().is_some_and(|(draw, _)| is(draw))
-    }
-}
-
-/// How many workgroups a dispatch has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Groups {
-    /// This many workgroups in x, y and z.
-    Count([u32; 3]),
-    /// Enough workgroups for this many invocations in x, y and z: divided by the shader's own workgroup size, rounded up.
-    Invocations([u32; 3]),
-    /// As many as its buffer of the role [`BufferRole::Indirect`] says, a `VkDispatchIndirectCommand` at this byte.
-    Indirect {
-        /// Byte offset, a multiple of 4.
-        offset: u64,
-    },
 }

@@ -112,12 +112,7 @@ pub(super) fn buffer(buffer: &BufferUse, entry: u32, resource: PhysicalIndex) ->
 
 /// The use of an image or buffer by a transfer.
 pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
-    let stages = match work {
-        Work::Blit { .. } => Stages::BLIT,
-        Work::Fill { .. } => Stages::CLEAR,
-        Work::Copy => Stages::COPY,
-        _ => Stages::COPY | Stages::BLIT | Stages::CLEAR,
-    };
+    let stages = work.transfer_stages();
     let made = if transfer.write { target(resource, range, stages) } else { source(resource, range, stages) };
     let layout = if let Resource::Buffer(_) = transfer.resource { Layout::Undefined } else { made.layout };
     Use { entry, layout, reads: made.reads || transfer.keeps, ..made }

@@ -2,7 +2,7 @@
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
 use super::input::Input;
-use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource};
 use crate::plan::{Note, Stage};
 use std::collections::BTreeSet;
 
@@ -79,7 +79,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
                 (false, false) => *later = Needs::Nothing,
             }
         }
-        if let Work::Forward { from, to, .. } = pass.work {
+        if let Some([from, to]) = pass.work.forwarded() {
             let later = std::mem::take(&mut needs[to.0 as usize]);
             // An image that outlives the frame has all its samples.
             let fixed = frame.images[to.0 as usize].lifetime.outlives_frame() && multisampled(to);
@@ -119,7 +119,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
 
 /// Whether a pass could as well draw into a single-sampled image: one that fills its only attachment evenly.
 fn is_flat(pass: &Pass) -> bool {
-    let once = matches!(pass.work, Work::Draw { per_sample: false, .. });
+    let once = pass.work.draws_samples_alike();
     once && !has_edges(pass) && pass.depth.is_none() && pass.color.len() == 1
 }
 
@@ -142,7 +142,7 @@ fn stays(input: &Input<'_>, pass: &Pass, image: ImageIndex, why: Needs) -> Note 
 /// Whether a pass copies into images sample by sample: then it reads single samples, too.
 pub(super) fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
     let target = pass.transfers.iter().find(|used| used.write).map(|used| used.resource);
-    let Some(Resource::Image(target)) = target.filter(|_| matches!(pass.work, Work::Copy | Work::Custom { .. })) else {
+    let Some(Resource::Image(target)) = target.filter(|_| pass.work.keeps_samples()) else {
         return false;
     };
     frame.images[target.0 as usize].samples > 1

@@ -5,7 +5,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{ImageIndex, Pass, ViewIndex, Work};
+use crate::frame::{ImageIndex, ViewIndex};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, Stages, Subresources};
 use std::sync::Arc;
@@ -120,14 +120,14 @@ impl Adapter<'_> {
                 let at = pass.map_or(Span::NONE, |(_, pass)| pass.span);
                 Unavailable { what: format!("`{name}` {what}"), at }
             };
-            if let (OpKind::Pass(number), Some((_, Pass { work: Work::Fill { .. }, .. }))) = (kind, pass) {
+            if let (OpKind::Pass(number), Some(_)) = (kind, pass.and_then(|(_, pass)| pass.work.filled())) {
                 passes.push(Again::Filled(*number));
                 continue;
             }
             let (OpKind::Draw(number), Some((_, pass))) = (kind, pass) else {
                 return Err(unavailable("writes it and is no draw"));
             };
-            let Work::Draw { draw, .. } = pass.work else { return Err(unavailable("is no draw")) };
+            let Some((draw, _)) = pass.work.draw() else { return Err(unavailable("is no draw")) };
             if draw.is_custom() {
                 return Err(unavailable("is recorded by the program"));
             }

@@ -5,7 +5,7 @@ use super::adapter::Adapter;
 use crate::base::Diagnostic;
 use crate::compile::model::{OpKind, PhysicalIndex, Use};
 use crate::device::ImageDescriptor;
-use crate::frame::{Image, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Image, ImageIndex, Pass, Resource};
 use crate::vulkan::{Filter, Rotation};
 
 impl Adapter<'_> {
@@ -77,7 +77,7 @@ impl Adapter<'_> {
 
     /// Help for an image that must take another one's texels as they are.
     fn alike(&self, pass: &Pass, held: &ImageDescriptor, to: &Image) -> String {
-        let Work::Forward { from, .. } = pass.work else { return String::new() };
+        let Some([from, _]) = pass.work.forwarded() else { return String::new() };
         let from = &self.input.frame.images[from.0 as usize];
         let fields = [
             (held.format != to.format, format!("`format: {}`", held.format)),

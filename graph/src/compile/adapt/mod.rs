@@ -21,7 +21,7 @@ pub(super) use input::Input;
 use super::model::Adapted;
 use super::steps::in_order;
 use crate::base::Diagnostic;
-use crate::frame::{Resource, Work};
+use crate::frame::Resource;
 use crate::plan::Note;
 use adapter::Adapter;
 use last_accesses::LastAccesses;
@@ -30,7 +30,7 @@ use last_accesses::LastAccesses;
 pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagnostic>> {
     let Input { frame, live, .. } = input;
     let mut adapter = Adapter::new(input);
-    if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
+    if live.passes.iter().any(|pass| frame.passes[*pass as usize].work.forwarded().is_some()) {
         adapter.last_accesses = LastAccesses::of(frame, live);
         adapter.is_output = vec![false; frame.images.len()];
         for output in &frame.outputs {

@@ -89,7 +89,7 @@ impl Adapter<'_> {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
             self.note(&pass.name, text, pass.span);
         }
-        let kind = if matches!(pass.work, Work::Draw { .. }) { OpKind::Draw(number) } else { OpKind::Pass(number) };
+        let kind = if pass.work.is_draw() { OpKind::Draw(number) } else { OpKind::Pass(number) };
         self.push_pass(kind, pass.side_effect);
     }
 

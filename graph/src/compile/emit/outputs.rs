@@ -36,8 +36,7 @@ fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
         let name = &pass.name;
         let from = match &pass.work {
             Work::Copy => source(pass),
-            Work::Forward { from, .. } => Some(*from),
-            _ => None,
+            work => work.forwarded().map(|[from, _]| from),
         };
         if let Some(from) =
             from.filter(|from| frame.images[from.0 as usize].format == frame.images[image.0 as usize].format)
@@ -62,7 +61,7 @@ fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
 /// The last pass before number `before` that writes `image`, with its number.
 fn last_writer(frame: &Frame, image: ImageIndex, before: usize) -> Option<(usize, &Pass)> {
     let writes = |pass: &Pass| {
-        let forwarded = matches!(pass.work, Work::Forward { to, .. } if to == image);
+        let forwarded = pass.work.forwarded().is_some_and(|[_, to]| to == image);
         let transferred = |used: &crate::frame::TransferUse| used.write && used.resource == Declared::Image(image);
         forwarded
             || pass.color.iter().any(|target| target.image == image)

@@ -118,14 +118,9 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
             ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
         };
     }
-    let (draw, groups, shader) = match &declared.work {
-        FrameWork::Draw { draw, shader, .. } => (Some(*draw), None, shader.clone()),
-        FrameWork::Dispatch { shader, groups } => (None, Some(*groups), shader.clone()),
-        FrameWork::Custom { callback } => (None, None, callback.clone()),
-        FrameWork::Copy | FrameWork::Blit { .. } | FrameWork::Fill { .. } | FrameWork::Forward { .. } => {
-            (None, None, nothing())
-        }
-    };
+    let work = &declared.work;
+    let draw = work.draw().map(|(draw, _)| draw);
+    let shader = work.shader().map_or_else(nothing, Arc::clone);
     let (mut accesses, mut buffers) = (Vec::with_capacity(uses.len()), Vec::new());
     for used in uses {
         if results.subjects[used.resource as usize].is_image {
@@ -135,8 +130,8 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
         }
     }
     let view = view(results, declared.view);
-    let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, groups, shader) };
-    if matches!(declared.work, FrameWork::Draw { .. }) {
+    let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, work.groups(), shader) };
+    if work.is_draw() {
         drawn(&mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
         planned.merged = results.scoped.merged(results.frame, results.adapted, number);
@@ -163,10 +158,9 @@ fn from_source(results: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<
 /// A draw of the frame again, of nothing but its depth.
 fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
     let (op, uses) = (&results.adapted.ops[number as usize], results.adapted.uses(number));
-    let (draw, shader) = match &declared.work {
-        FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
-        _ => (None, Arc::clone(&results.nothing)),
-    };
+    let draw = declared.work.draw();
+    let shader = Arc::clone(draw.map_or(&results.nothing, |(_, shader)| shader));
+    let draw = draw.map(|(draw, _)| draw);
     let mut planned = bare(name.clone(), cause(results, op), draw, None, shader);
     drawn(&mut planned, declared, uses);
     Pass {
@@ -223,7 +217,7 @@ fn weighted(mut pass: Pass) -> Pass {
 
 /// Adds the state that only draws have.
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
-    planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
+    planned.discards = declared.work.discards();
     planned.untouched.clone_from(&declared.untouched);
     planned.covers = declared.covers;
     planned.blend = declared.color.iter().map(|target| target.blend).collect();

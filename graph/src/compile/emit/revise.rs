@@ -27,9 +27,8 @@ pub(in crate::compile) fn values(results: &StageResults<'_>, plan: &mut Plan) {
             }
             (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(results, *op, pass),
             (Work::Fill(fill), Grouped::Single(op)) => {
-                if let Some(FrameWork::Fill { value }) = frame_work(results, &results.adapted.ops[*op as usize]) {
-                    fill.value = *value;
-                }
+                let work = frame_work(results, &results.adapted.ops[*op as usize]);
+                fill.value = work.and_then(FrameWork::filled).unwrap_or(fill.value);
             }
             _ => {}
         }
@@ -40,8 +39,8 @@ fn pass_values(results: &StageResults<'_>, op: u32, planned: &mut Pass) {
     let kind = &results.adapted.ops[op as usize].kind;
     let (OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::DepthOnly { pass, .. }) = kind else { return };
     let declared = &results.frame.passes[*pass as usize];
-    if let FrameWork::Dispatch { groups, .. } = &declared.work {
-        planned.groups = Some(*groups);
+    if let Some(groups) = declared.work.groups() {
+        planned.groups = Some(groups);
     }
     if let Some(stencil) = &mut planned.stencil {
         stencil.clear = declared.depth.as_ref().and_then(|depth| depth.stencil).and_then(|stencil| stencil.clear);

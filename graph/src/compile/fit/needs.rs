@@ -1,7 +1,7 @@
 //! Demands of passes on the formats of images, and the support of a device for formats.
 
 use crate::device::{FormatSupport, Profile};
-use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work};
+use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
 use crate::vulkan::{Format, State, Usage};
 
 /// Support of a device for each format, indexed by format.
@@ -37,7 +37,7 @@ impl Needs {
         let mut needs = vec![Needs::default(); frame.images.len()];
         for pass in passes {
             pass.visit_accesses(&mut AddNeeds(&mut needs));
-            if let Work::Forward { from, to, .. } = pass.work
+            if let Some([from, to]) = pass.work.forwarded()
                 && is_drawn(frame, from, to)
             {
                 needs[from.0 as usize].usage |= Usage::SAMPLED;

@@ -6,7 +6,7 @@ use super::needs::{Needs, Supports};
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;
-use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, TargetShape, Work};
+use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, TargetShape};
 use crate::plan::{Note, Stage};
 use crate::vulkan::{Filter, Format, Sampler, Shape, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
@@ -39,10 +39,10 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
             errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
         }
-        if multisampled && matches!(pass.work, Work::Copy | Work::Custom { .. }) {
+        if multisampled && pass.work.keeps_samples() {
             copied_together(frame, pass, &mut together);
         }
-        if multisampled && let Work::Forward { from, to, .. } = pass.work {
+        if multisampled && let Some([from, to]) = pass.work.forwarded() {
             forwarded[to.0 as usize] = true;
             if frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
                 together.union(from.0, to.0);

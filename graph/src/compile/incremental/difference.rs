@@ -264,7 +264,7 @@ fn same_fill(old: &FillValue, new: &FillValue) -> bool {
 
 /// Whether a pass that is off forwards one image to another.
 pub(super) fn forwards(frame: &Frame) -> bool {
-    frame.passes.iter().any(|pass| matches!(pass.work, Work::Forward { .. }))
+    frame.passes.iter().any(|pass| pass.work.forwarded().is_some())
 }
 
 /// Whether images that had one size have one size again, and others have others.

@@ -71,7 +71,7 @@ impl Eligible<'_> {
         let OpKind::Pass(pass) = kind.kind else { return Err(GraphicsOnly::DrawnOrInserted) };
         let uses = self.adapted.uses(*op);
         let work = &self.frame.passes[pass as usize].work;
-        let fills = matches!(work, Work::Fill { .. });
+        let fills = work.filled().is_some();
         match work {
             _ if kind.side_effect => return Err(GraphicsOnly::Effect),
             Work::Custom { .. } => return Err(GraphicsOnly::Custom),

@@ -9,7 +9,7 @@ mod together;
 
 use super::cull;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Work};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource};
 use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
 use together::{Hindrance, Together, becomes, degrees};
@@ -83,13 +83,10 @@ impl Turner {
     /// Turns images that are forwarded to turned ones where it can, which saves a draw.
     fn forwarded(&mut self) {
         loop {
-            let forwards = self.live.iter().filter_map(|pass| match self.frame.passes[*pass as usize].work {
-                Work::Forward { from, to, .. } => Some((from, to)),
-                _ => None,
-            });
+            let forwards = self.live.iter().filter_map(|pass| self.frame.passes[*pass as usize].work.forwarded());
             let images = &self.frame.images;
             let found =
-                forwards.filter(|(from, _)| !images[from.0 as usize].rotation.turns()).find_map(|(from, to)| {
+                forwards.filter(|[from, _]| !images[from.0 as usize].rotation.turns()).find_map(|[from, to]| {
                     let (source, target) = (&images[from.0 as usize], &images[to.0 as usize]);
                     let rotation = target.rotation;
                     let may = rotation.turns() && becomes(source, target, rotation);

@@ -69,7 +69,7 @@ fn reads(pass: &Pass, image: ImageIndex) -> bool {
 
 /// Whether a pass reads the image otherwise than by sampling it, or needs it upright.
 fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
-    let copies = matches!(pass.work, Work::Copy | Work::Blit { .. });
+    let copies = pass.work.is_transfer() && !pass.work.fills();
     accesses(pass, image).any(|access| match access {
         Access::Storage(_) | Access::ForwardSource(..) => true,
         Access::Transfer(used) => copies || !used.write,
@@ -82,7 +82,7 @@ fn replaces(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
     let declared = &frame.images[image.0 as usize];
     let mut targets = pass.color.iter().filter(|target| target.image == image);
     targets.any(|target| declared.layers == 1 && !pass.keeps_color(target, declared))
-        || matches!(pass.work, Work::Forward { to, .. } if to == image)
+        || pass.work.forwarded().is_some_and(|[_, to]| to == image)
         || pass.transfers.iter().any(|it| it.write && it.resource == Resource::Image(image) && declared.layers == 1)
 }
 

@@ -1,7 +1,7 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
+use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource};
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
@@ -89,7 +89,7 @@ impl Together<'_> {
 
     /// Whether a pass leaves it free to turn: it may draw into it and replace it whole, but not read it.
     fn is_only_drawn(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<(), Hindrance> {
-        let whole = matches!(pass.work, Work::Fill { .. } | Work::Custom { .. });
+        let whole = pass.work.fills();
         for access in pass.accesses().filter(|access| access.resource() == Resource::Image(image)) {
             let verb = match access {
                 Access::Sampled(_) => "samples",
@@ -106,7 +106,7 @@ impl Together<'_> {
 
     /// Whether the image that a pass forwards becomes an image that is turned too, by nothing but a resolve.
     fn passes_on_turned(&self, pass: &Pass, all: &BTreeSet<ImageIndex>) -> bool {
-        let Work::Forward { from, to, .. } = pass.work else { return true };
+        let Some([from, to]) = pass.work.forwarded() else { return true };
         let [source, target] = [from, to].map(|image| &self.frame.images[image.0 as usize]);
         let turned = all.contains(&to) || target.rotation == self.rotation;
         from == to || turned && becomes(source, target, self.rotation)

@@ -46,13 +46,12 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<HashSet<_>>().len() < 2;
     let whole = match pass.work {
         Work::Copy => all_alike && transfers().count() == 2,
-        Work::Fill { .. } => true,
-        _ => false,
+        ref work => work.filled().is_some(),
     };
     for (image, span) in transfers().filter(|(image, _)| eyes(*image).is_some() && !whole) {
         wrong(image, span, "transfers");
     }
-    if let Work::Forward { from, to, .. } = pass.work
+    if let Some([from, to]) = pass.work.forwarded()
         && eyes(from) != eyes(to)
     {
         wrong(if eyes(from).is_some() { from } else { to }, pass.span, "forwards from or to");

@@ -6,7 +6,7 @@ mod pass;
 mod transfers;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View, Work};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View};
 use crate::vulkan::Shape;
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, wrong_clear};
@@ -68,10 +68,10 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
 pub(super) fn values_still_hold(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
-        match pass.work {
-            Work::Copy | Work::Fill { .. } => Check { frame, pass, errors: &mut errors }.transfers(),
-            Work::Draw { .. } if wrong_clear(frame, pass).is_some() => return false,
-            _ => {}
+        if pass.work.is_transfer() {
+            Check { frame, pass, errors: &mut errors }.transfers();
+        } else if pass.work.is_draw() && wrong_clear(frame, pass).is_some() {
+            return false;
         }
     }
     errors.is_empty()

@@ -2,7 +2,7 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, BufferRole, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, Work};
+use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -117,13 +117,8 @@ impl Check<'_> {
     pub(super) fn work(&mut self) {
         let pass = self.pass;
         let attached = !pass.color.is_empty() || pass.depth.is_some();
-        let shaded = match pass.work {
-            Work::Draw { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
-            Work::Dispatch { .. } => Stages::COMPUTE_SHADER,
-            Work::Custom { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER | Stages::COMPUTE_SHADER,
-            Work::Copy | Work::Blit { .. } | Work::Fill { .. } | Work::Forward { .. } => Stages::empty(),
-        };
-        match (attached, matches!(pass.work, Work::Draw { .. })) {
+        let shaded = pass.work.shader_stages();
+        match (attached, pass.work.is_draw()) {
             (true, false) => return self.wrong(pass.span, "has attachments and doesn't draw"),
             (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
             _ => {}
@@ -135,9 +130,9 @@ impl Check<'_> {
         if let Some(storage) = pass.storage.iter().find(|storage| !fits(storage.stages)) {
             return self.wrong_stages(&storage.binding);
         }
-        let wrong = pass.buffers.iter().find(|used| match used.role {
-            BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
+        let wrong = pass.buffers.iter().find(|used| match used.role.is_of_shaders() {
+            true => !fits(used.stages),
+            false => !used.stages.is_empty(),
         });
         if let Some(used) = wrong {
             return self.wrong_stages(&self.frame.buffers[used.buffer.0 as usize].name);
@@ -147,12 +142,7 @@ impl Check<'_> {
             return self.wrong(pass.span, &format!("clears `{name}` to what {format} doesn't hold"));
         }
         let counts = pass.buffers.iter().filter(|used| used.role == BufferRole::Indirect).count();
-        let indirect = match &pass.work {
-            Work::Draw { draw, .. } => draw.is_indirect(),
-            Work::Dispatch { groups, .. } => matches!(groups, Groups::Indirect { .. }),
-            _ => false,
-        };
-        if counts != usize::from(indirect) {
+        if counts != usize::from(pass.work.is_indirect()) {
             return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
         }
         self.transfers();

@@ -7,7 +7,7 @@ use crate::vulkan::{Filter, Subresources};
 impl Check<'_> {
     #[inline]
     pub(super) fn transfers(&mut self) {
-        let is_transfer = matches!(self.pass.work, Work::Copy | Work::Blit { .. } | Work::Fill { .. });
+        let is_transfer = self.pass.work.is_transfer();
         if is_transfer || !self.pass.transfers.is_empty() {
             self.check_sides();
         }
