@@ -1,5 +1,6 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
+use crate::decoder_words;
 use crate::open_exr::OpenExr;
 use crate::srgb;
 use framewright_graph::base::{NoFile, Root, is_of_machine};
@@ -219,7 +220,7 @@ fn unreadable(error: io::Error) -> TextureProblem {
 }
 
 fn damaged(reason: impl std::fmt::Display) -> TextureProblem {
-    TextureProblem::Damaged { reason: reason.to_string() }
+    TextureProblem::Damaged { reason: decoder_words(reason) }
 }
 
 /// Light in floating point is never encoded.

@@ -14,7 +14,7 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
 use std::sync::Arc;
 
@@ -243,6 +243,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    check_covers(&shader.interface, pass, draw).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
@@ -282,6 +283,18 @@ pub(super) fn prepare_draw(
     let usual_vertices = shader.usual_vertices;
     let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
     Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+}
+
+/// The Plan must know what the shader leaves as it was: it may have been made before the shader was changed.
+fn check_covers(shader: &ShaderInterface, pass: &plan::Pass, draw: Draw) -> Result<(), String> {
+    let unknown = if (shader.discards || shader.masks_samples) && !pass.discards {
+        "leaves samples out"
+    } else if draw.is_full_screen() && shader.own_vertices.is_some() && pass.untouched.is_none() {
+        "has a vertex stage of its own"
+    } else {
+        return Ok(());
+    };
+    Err(format!("shader `{}` {unknown}, which the Plan doesn't know: compile the Plan again", pass.shader))
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

@@ -13,7 +13,7 @@ use super::varyings::{Varying, varyings, vertex_inputs};
 use crate::process::ShaderStage;
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
 use rspirv::dr::Operand;
-use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass};
 use std::collections::HashSet;
 
 /// The interface of a stage: its bindings and constants, its inputs and its outputs.
@@ -54,6 +54,7 @@ pub(super) fn reflect(
 ) -> Result<StageInterface, Refused> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = IndexedModule::new(&module);
+    check_stage(&module, stage)?;
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == ShaderStage::Fragment;
@@ -215,7 +216,32 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
         }));
     }
     outputs.sort_by_key(|output| output.location);
+    // Several may share a location, each with components of its own.
+    outputs.dedup_by(|next, first| {
+        let shares = next.location == first.location;
+        if shares {
+            first.components += next.components;
+        }
+        shares
+    });
     Ok(outputs)
+}
+
+/// That the module is one of `stage`: a file may hold another one than its name says.
+fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
+    let (wanted, name) = match stage {
+        ShaderStage::Vertex => (ExecutionModel::Vertex, "vertex"),
+        ShaderStage::Fragment => (ExecutionModel::Fragment, "fragment"),
+        ShaderStage::Compute => (ExecutionModel::GLCompute, "compute"),
+    };
+    let main = |it: &rspirv::dr::Instruction| match &it.operands[..] {
+        [Operand::ExecutionModel(model), _, Operand::LiteralString(entry), ..] => *model == wanted && entry == "main",
+        _ => false,
+    };
+    if module.module.entry_points.iter().any(main) {
+        return Ok(());
+    }
+    Err(Refused::from(format!("its SPIR-V has no entry point `main` of a {name} stage")))
 }
 
 /// Whether the code uses one of these built-in variables.

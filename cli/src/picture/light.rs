@@ -1,5 +1,6 @@
 //! Pictures read from files, as linear light.
 
+use framewright_passes::decoder_words;
 use framewright_passes::open_exr::OpenExr;
 use framewright_passes::srgb;
 use png::{BitDepth, ColorType, Decoder, Limits, Reader, Transformations};
@@ -43,7 +44,7 @@ pub(crate) enum DecodingError {
     #[error("it has no colours: an OpenEXR picture has the channels R, G and B, or Y")]
     NoColors,
     /// The PNG decoder's words.
-    #[error(transparent)]
+    #[error("{}", decoder_words(.0))]
     Png(#[from] png::DecodingError),
     /// The OpenEXR decoder's words.
     #[error("{0}")]

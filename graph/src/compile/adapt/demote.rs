@@ -2,7 +2,7 @@
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
 use super::input::Input;
-use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource};
+use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, ResolveWay, Resource};
 use crate::plan::{Note, Stage};
 use std::collections::BTreeSet;
 
@@ -68,7 +68,9 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
                 (true, false) => {
                     let later = std::mem::take(later);
                     let covers = target.clear.is_none();
-                    if covers && !fixed && options.demote {
+                    // Light below zero counts as none where samples are weighed, so that one sample isn't the same as four alike.
+                    let weighed = image.resolve.as_ref().is_some_and(|resolve| resolve.way == ResolveWay::Weighted);
+                    if covers && !fixed && !weighed && options.demote {
                         match later {
                             Needs::Nothing => drop(demotions.moved.insert((number, target.image))),
                             why => notes.push(stays(input, pass, target.image, why)),

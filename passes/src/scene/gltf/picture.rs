@@ -3,6 +3,7 @@
 use super::accessor::Data;
 use super::document::{self, follow};
 use super::problem::{GltfError, Problem, at_most, at_most_in_all};
+use crate::decoder_words;
 use crate::scene::limits;
 use crate::scene::model::{Sampler, Texture, Wrap};
 use crate::scene::notes::Notes;
@@ -91,7 +92,7 @@ impl Textures {
             _ => return Err(Problem::ImageKind.at(at)),
         };
         let undecodable =
-            |error: image::ImageError| Problem::Image(error.to_string().escape_debug().to_string()).at(at);
+            |error: image::ImageError| Problem::Image(decoder_words(error).escape_debug().to_string()).at(at);
         let (width, height) =
             ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions().map_err(undecodable)?;
         at_most("texels along a side", width.max(height).into(), limits::TEXTURE_SIDE.into(), at)?;
