@@ -168,7 +168,10 @@ impl Described<'_> {
     fn transfer(self, kind: Kind, word: &str, transfer: &Transfer) -> Description {
         let [from, to] = [transfer.source, transfer.target].map(|side| self.side(side));
         let mut fields = match kind {
-            Kind::Resolve => vec![("mode", "AVERAGE".to_owned()), ("done", "by a step of its own".to_owned())],
+            Kind::Resolve => {
+                let mode = name_of(&self.plan.mode_of(transfer));
+                vec![("mode", mode), ("done", "by a step of its own".to_owned())]
+            }
             _ => vec![("work", word.to_owned())],
         };
         if let Some(filter) = &transfer.filter {

@@ -29,7 +29,7 @@
 use crate::base::Place;
 use crate::frame::change::Action;
 use crate::frame::{Decided, EyeForm, Stereo};
-use crate::vulkan::Rotation;
+use crate::vulkan::{ResolveMode, Rotation};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -161,6 +161,15 @@ impl Plan {
     #[must_use]
     pub fn eyes(&self, scope: &RenderScope) -> Option<EyeForm> {
         self.first_attachment(scope).and_then(|it| it.eyes)
+    }
+
+    /// How a resolve that is a step of its own makes one value of samples (`vkCmdResolveImage2`): integers take sample zero.
+    #[must_use]
+    pub fn mode_of(&self, resolve: &Transfer) -> ResolveMode {
+        match resolve.source {
+            Side::Image { image, .. } if self.image(image).format.is_integer() => ResolveMode::SampleZero,
+            Side::Image { .. } | Side::Buffer { .. } => ResolveMode::Average,
+        }
     }
 
     fn first_attachment(&self, scope: &RenderScope) -> Option<&Image> {

@@ -76,11 +76,14 @@ impl Plan {
     }
 }
 
-/// Takes the value out of what may differ.
+/// Takes its values out of a pass.
 fn forget_pass(pass: &mut Pass) {
     pass.cause = Cause::Written(None);
     pass.merged = pass.merged.take().map(|_| Box::new(Reason::from("")));
     pass.params.iter_mut().for_each(|param| param.value = ParamValue::Bool(false));
+    if let Some(stencil) = &mut pass.stencil {
+        stencil.clear = stencil.clear.map(|_| 0);
+    }
     pass.groups = pass.groups.map(|groups| match groups {
         Groups::Count(_) => Groups::Count([0; 3]),
         Groups::Invocations(_) => Groups::Invocations([0; 3]),

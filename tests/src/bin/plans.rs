@@ -175,7 +175,7 @@ fn without_sentences(plan: &Plan) -> String {
 fn strip(value: &mut Value) {
     match value {
         Value::Object(fields) => {
-            for sentence in ["because", "notes", "format_version"] {
+            for sentence in ["because", "notes", "untouched", "format_version"] {
                 fields.remove(sentence);
             }
             fields.values_mut().for_each(strip);

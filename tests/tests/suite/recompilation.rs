@@ -16,11 +16,12 @@ struct Held {
     device: Arc<Profile>,
     options: Options,
     reused: BTreeMap<Reuse, u32>,
+    last: Option<Plan>,
 }
 
 impl Held {
     fn new(device: Profile, options: Options) -> Held {
-        Held { compiler: Compiler::new(), device: Arc::new(device), options, reused: BTreeMap::new() }
+        Held { compiler: Compiler::new(), device: Arc::new(device), options, reused: BTreeMap::new(), last: None }
     }
 
     /// Compiles one frame both ways, and says how much of the last one served; `None`: it can't be compiled.
@@ -34,6 +35,11 @@ impl Held {
                 assert_eq!(bytes(&anew), bytes(followed), "{what}");
                 let reuse = self.compiler.reuse();
                 *self.reused.entry(reuse).or_default() += 1;
+                // What compiles as values alone is drawn with the images and pipelines that are there.
+                if let (Some(last), Reuse::Placement | Reuse::Everything) = (&self.last, reuse) {
+                    assert_eq!(last.differs_beyond_values(&anew), None, "{what}");
+                }
+                self.last = Some(anew);
                 Some(reuse)
             }
             (Err(anew), Err(followed)) => {
