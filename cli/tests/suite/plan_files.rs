@@ -275,3 +275,33 @@ fn a_plan_leaves_inspect_explain_and_diff_nothing_to_choose() {
     let written = ["inspect", "plan.json", "-o", "plan.json"];
     place.run(&written).exits(2).mentions("`plan.json` is a Plan that is read, which would be lost");
 }
+
+/// A Plan was made of shaders as they were: what one leaves as it was by now, its load operations don't know.
+#[test]
+fn a_plan_is_refused_whose_shader_leaves_texels_out_since() {
+    let Some(bench) = Bench::new() else { return };
+    bench.place.file(
+        "p.ron",
+        "Pipeline(version: 1, images: [(name: \"o\", format: R8G8B8A8_UNORM, size: Fixed(8, 8))],
+            passes: [(name: \"fill\", draw: FullScreen(\"fill\"), color: [\"o\"])],
+            outputs: [(image: \"o\", encoding: Unorm)])",
+    );
+    let shader = |body: &str| {
+        let text =
+            format!("#version 460\nlayout(location = 0) out vec4 c;\nvoid main() {{ {body} c = vec4(0, 1, 0, 1); }}\n");
+        bench.place.file("fill.frag", text);
+    };
+    shader("");
+    bench.run(&[&["p.ron"], &SCENE, &["--save-plan", "plan.json"]]).exits(0);
+    let drawn = || bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "x.png"]]);
+    drawn().exits(0);
+    std::fs::remove_file(bench.place.path("x.png")).expect("a picture");
+    for body in ["if (gl_FragCoord.x < 4.0) discard;", "gl_SampleMask[0] = gl_FragCoord.x < 4.0 ? 0 : -1;"] {
+        shader(body);
+        drawn().exits(1).mentions("leaves samples out, which the Plan doesn't know: compile the Plan again");
+    }
+    shader("");
+    bench.place.file("fill.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex - 1, 0, 0, 1); }\n");
+    drawn().exits(1).mentions("has a vertex stage of its own, which the Plan doesn't know");
+    assert!(!bench.place.path("x.png").exists());
+}

@@ -248,3 +248,20 @@ fn line_endings_change_no_compiled_shaders() {
     place.run(&CHECK).exits(0);
     assert_eq!(compiled(&place), before);
 }
+
+/// A file may hold another stage than its name says.
+#[test]
+fn a_module_of_another_stage_is_refused_by_check() {
+    let place = place();
+    let files = compiled(&place);
+    let [fragment, vertex] = &files[..] else { panic!("{files:?}") };
+    let [of_fragment, of_vertex] = [fragment, vertex].map(|file| fs::read(file).expect("SPIR-V"));
+    for (file, module, right, stage) in
+        [(vertex, &of_fragment, &of_vertex, "vertex"), (fragment, &of_vertex, &of_fragment, "fragment")]
+    {
+        fs::write(file, module).expect("written");
+        place.run(&CHECK).exits(1).mentions(&format!("has no entry point `main` of a {stage} stage"));
+        fs::write(file, right).expect("written");
+    }
+    place.run(&CHECK).exits(0);
+}

@@ -395,3 +395,15 @@ fn constants_in_the_place_of_those_that_turn_pictures_are_refused() {
         check(&place(&pipeline("],", passes), &[("s.frag", &fragment)]), &[]).exits(0);
     }
 }
+
+#[test]
+fn outputs_that_share_a_location_write_their_components_together() {
+    let passes = r#"(name: "fill", draw: FullScreen("fill"), color: ["o"])"#;
+    let two = "layout(location = 0, component = 0) out vec2 rg; layout(location = 0, component = 2) out vec2 ba;";
+    let right = format!("{two} void main() {{ rg = vec2(0, 1); ba = vec2(0, 1); }}");
+    draws(&place(&pipeline("],", passes), &[("fill.frag", &right)]), &[], GREEN);
+    let three = "layout(location = 0, component = 0) out vec2 rg; layout(location = 0, component = 3) out float a;";
+    let wrong = format!("{three} void main() {{ rg = vec2(0, 1); a = 1.0; }}");
+    let place = place(&pipeline("],", passes), &[("fill.frag", &wrong)]);
+    check(&place, &[]).exits(1).mentions("writes 3 of the 4 components of `o`");
+}

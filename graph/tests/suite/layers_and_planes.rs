@@ -4,11 +4,12 @@ use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order};
+use framewright_graph::difference::Differences;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, Draw, DrawList, Frame, Lifetime, Pass, Resource, StencilState, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Side};
-use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM, R32_UINT};
 use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {
@@ -235,5 +236,44 @@ fn one_plane_of_depth_with_stencil_is_copied_to_a_buffer() {
             compiled(&frame).expect_err("these are two planes"),
             "`copy` copies depth with stencil to or from a buffer"
         );
+    }
+}
+
+/// What compiles as other values is drawn with the same images and pipelines.
+#[test]
+fn another_clear_value_of_stencil_is_a_value() {
+    let frame = |clear| {
+        let mut raster = Raster::default();
+        let depth = raster.image("depth", D32_SFLOAT_S8_UINT, 1);
+        let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+        raster.objects("opaque").clear_depth(depth);
+        raster.full_screen("show").sample(depth).color(screen, Blend::Replace);
+        let mut frame = raster.output(screen);
+        let stencil = StencilState { clear: Some(clear), test: CompareOp::Always, reference: 1, pass: StencilOp::Keep };
+        frame.passes[0].depth.as_mut().expect("it tests depth").stencil = Some(stencil);
+        frame
+    };
+    let [one, other] = [1, 2].map(|clear| compiled(&frame(clear)).expect("it compiles"));
+    assert_ne!(one, other);
+    assert_eq!(one.differs_beyond_values(&other), None);
+}
+
+#[test]
+fn a_difference_tells_that_integers_take_sample_zero_where_a_resolve_is_a_step() {
+    let plan = |format| {
+        let mut raster = Raster::default();
+        let ids = raster.image("ids", format, 4);
+        raster.objects("opaque").clear(ids);
+        let mut frame = raster.output(ids);
+        frame.images[0].layers = 2;
+        compiled(&frame).expect("it compiles")
+    };
+    let none = Plan { steps: Vec::new(), ..plan(R32_UINT) };
+    for (format, mode) in [(R32_UINT, "SAMPLE_ZERO"), (R8G8B8A8_UNORM, "AVERAGE")] {
+        let plan = plan(format);
+        let resolves = plan.steps.iter().any(|step| matches!(step.work, plan::Work::Resolve(_)));
+        assert!(resolves, "{}", plan.tree());
+        let text = Differences::between(("none", &none), ("some", &plan)).text();
+        assert!(text.contains(&format!("mode {mode}")), "{text}");
     }
 }

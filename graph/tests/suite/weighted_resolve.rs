@@ -144,3 +144,20 @@ fn integers_are_resolved_by_a_draw_where_the_device_takes_another_sample_and_the
         assert!(why.because.ends_with(said), "{}", why.because);
     }
 }
+
+/// Weights count light below zero as none, so one sample isn't the same as four alike.
+#[test]
+fn a_draw_that_covers_an_image_of_weighed_samples_keeps_them() {
+    let plan = |way| {
+        let mut raster = Raster::default();
+        let light = raster.image("light", R16G16B16A16_SFLOAT, 4);
+        let screen = raster.image("screen", R16G16B16A16_SFLOAT, 1);
+        raster.full_screen("cover").color(light, Blend::Replace);
+        raster.full_screen("show").sample(light).color(screen, Blend::Replace);
+        let mut frame = raster.output(screen);
+        say(&mut frame, light, way);
+        planned(&frame).expect("it compiles")
+    };
+    assert_eq!(inserted(&plan(ResolveWay::By(ResolveMode::Average))).len(), 0);
+    assert_eq!(inserted(&plan(ResolveWay::Weighted)).len(), 1);
+}
