@@ -243,7 +243,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    check_covers(&shader.interface, pass, draw).map_err(mismatch)?;
+    check_covers(&shader.interface, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
@@ -286,15 +286,11 @@ pub(super) fn prepare_draw(
 }
 
 /// The Plan must know what the shader leaves as it was: it may have been made before the shader was changed.
-fn check_covers(shader: &ShaderInterface, pass: &plan::Pass, draw: Draw) -> Result<(), String> {
-    let unknown = if (shader.discards || shader.masks_samples) && !pass.discards {
-        "leaves samples out"
-    } else if draw.is_full_screen() && shader.own_vertices.is_some() && pass.untouched.is_none() {
-        "has a vertex stage of its own"
-    } else {
+fn check_covers(shader: &ShaderInterface, pass: &plan::Pass) -> Result<(), String> {
+    if pass.discards || !(shader.discards || shader.masks_samples) {
         return Ok(());
-    };
-    Err(format!("shader `{}` {unknown}, which the Plan doesn't know: compile the Plan again", pass.shader))
+    }
+    Err(format!("shader `{}` leaves samples out, which the Plan doesn't know: compile the Plan again", pass.shader))
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

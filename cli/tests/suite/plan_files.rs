@@ -300,8 +300,5 @@ fn a_plan_is_refused_whose_shader_leaves_texels_out_since() {
         shader(body);
         drawn().exits(1).mentions("leaves samples out, which the Plan doesn't know: compile the Plan again");
     }
-    shader("");
-    bench.place.file("fill.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex - 1, 0, 0, 1); }\n");
-    drawn().exits(1).mentions("has a vertex stage of its own, which the Plan doesn't know");
     assert!(!bench.place.path("x.png").exists());
 }
