@@ -2,14 +2,14 @@
 
 use std::fmt::Display;
 
-/// The words of a decoder's error, without values in Rust's own form: `CRC error while decoding ChunkType { type: IDAT, … } chunk` loses
-/// all behind `while decoding`.
+/// The words of a decoder's error, with the name of a PNG chunk in place of its value in Rust's own form.
 #[must_use]
 pub fn decoder_words(error: impl Display) -> String {
     let words = error.to_string();
-    let behind = |word: &str| words.find(word).map(|at| words[..at].trim_end());
-    let told = behind(" while decoding ChunkType").or_else(|| behind(" {")).unwrap_or(&words);
-    told.trim_end().trim_end_matches('.').to_owned()
+    let Some((before, behind)) = words.split_once("ChunkType { type: ") else { return words.trim_end().to_owned() };
+    let name = behind.split([',', ' ', '}']).next().unwrap_or_default();
+    let rest = behind.split_once('}').map_or("", |(_, rest)| rest);
+    format!("{before}{name}{rest}").trim_end().to_owned()
 }
 
 #[cfg(test)]
@@ -19,12 +19,9 @@ mod tests {
     #[test]
     fn no_value_is_shown_in_rusts_own_form() {
         let crc = "CRC error: expected 0x9d have 0x25 while decoding ChunkType { type: IDAT, critical: true } chunk.";
-        assert_eq!(decoder_words(crc), "CRC error: expected 0x9d have 0x25");
-        assert_eq!(
-            decoder_words("Unrecognized critical chunk: ChunkType { type: ABCD }"),
-            "Unrecognized critical chunk: ChunkType"
-        );
+        assert_eq!(decoder_words(crc), "CRC error: expected 0x9d have 0x25 while decoding IDAT chunk.");
+        assert_eq!(decoder_words("Unknown chunk: ChunkType { type: ABCD }"), "Unknown chunk: ABCD");
         assert_eq!(decoder_words("expected 16 but found 1\n"), "expected 16 but found 1");
-        assert_eq!(decoder_words("it is empty"), "it is empty");
+        assert_eq!(decoder_words("no { here"), "no { here");
     }
 }

@@ -46,8 +46,8 @@ pub fn all() -> Vec<Source> {
 }
 
 fn list(folder: &Path, paths: &mut Vec<PathBuf>) {
-    let Ok(entries) = read_dir(folder) else { return };
-    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+    let entries = read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for path in entries.map(|entry| entry.expect("a folder is listed").path()) {
         if path.is_dir() {
             list(&path, paths);
         } else if path.extension().is_some_and(|end| end == "rs") {

@@ -243,7 +243,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    check_covers(&shader.interface, pass).map_err(mismatch)?;
+    check_covers(&shader.interface, pass, draw).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
@@ -286,8 +286,10 @@ pub(super) fn prepare_draw(
 }
 
 /// The Plan must know what the shader leaves as it was: it may have been made before the shader was changed.
-fn check_covers(shader: &ShaderInterface, pass: &plan::Pass) -> Result<(), String> {
-    if pass.discards || !(shader.discards || shader.masks_samples) {
+fn check_covers(shader: &ShaderInterface, pass: &plan::Pass, draw: Draw) -> Result<(), String> {
+    let leaves_out = shader.discards || shader.masks_samples;
+    let covers = pass.covers || draw.is_full_screen() && pass.untouched.is_none();
+    if pass.discards || !(leaves_out && covers) {
         return Ok(());
     }
     Err(format!("shader `{}` leaves samples out, which the Plan doesn't know: compile the Plan again", pass.shader))

@@ -194,6 +194,10 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
+        // The second source of a blend is no output of its own.
+        if module.decoration_number(id_of, Decoration::Index).is_some_and(|index| index > 0) {
+            continue;
+        }
         let Some(mut ty) = module.pointee(it) else { continue };
         let mut elements: u32 = 1;
         while ty.class.opcode == Op::TypeArray {
@@ -227,7 +231,7 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
     Ok(outputs)
 }
 
-/// That the module is one of `stage`: a file may hold another one than its name says.
+/// Checks that the module is one of `stage`: a file may hold another one than its name says.
 fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
     let (wanted, name) = match stage {
         ShaderStage::Vertex => (ExecutionModel::Vertex, "vertex"),
@@ -238,7 +242,7 @@ fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Ref
         [Operand::ExecutionModel(model), _, Operand::LiteralString(entry), ..] => *model == wanted && entry == "main",
         _ => false,
     };
-    if module.module.entry_points.iter().any(main) {
+    if module.module.entry_points.first().is_some_and(main) {
         return Ok(());
     }
     Err(Refused::from(format!("its SPIR-V has no entry point `main` of a {name} stage")))

@@ -8,9 +8,9 @@ use crate::vulkan::{Accesses, Stages};
 /// Number of stages.
 pub(super) const STAGES: usize = 19;
 /// Number of pairs that write; they come first.
-pub(super) const WRITE_PAIRS: usize = 16;
+pub(super) const WRITE_PAIRS: usize = 18;
 /// Number of pairs.
-pub(super) const PAIRS: usize = 57;
+pub(super) const PAIRS: usize = 60;
 
 /// A set of stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -40,7 +40,8 @@ const RESOLVE: usize = 16;
 const BLIT: usize = 17;
 const CLEAR: usize = 18;
 
-/// The pipelines in logical order: graphics with vertices, and with meshes; compute, which is two stages long.
+/// Pipelines in logical order: graphics with vertices, and with meshes; compute, which is two stages long. That of ray tracing is
+/// left out: its barriers are held to more than they need.
 const PIPELINES: [&[usize]; 3] = [
     &[DRAW_INDIRECT, VERTEX_INPUT, VERTEX_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],
     &[DRAW_INDIRECT, TASK_SHADER, MESH_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],
@@ -67,6 +68,8 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (RAY_TRACING, Accesses::SHADER_STORAGE_WRITE),
     (BUILD, Accesses::ACCELERATION_STRUCTURE_WRITE_KHR),
     (STRUCTURE_COPY, Accesses::ACCELERATION_STRUCTURE_WRITE_KHR),
+    (BUILD, Accesses::TRANSFER_WRITE),
+    (STRUCTURE_COPY, Accesses::TRANSFER_WRITE),
     (VERTEX_SHADER, Accesses::SHADER_SAMPLED_READ),
     (FRAGMENT_SHADER, Accesses::SHADER_SAMPLED_READ),
     (COMPUTE_SHADER, Accesses::SHADER_SAMPLED_READ),
@@ -96,7 +99,6 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (TASK_SHADER, Accesses::UNIFORM_READ),
     (MESH_SHADER, Accesses::UNIFORM_READ),
     (RAY_TRACING, Accesses::UNIFORM_READ),
-    (BUILD, Accesses::SHADER_STORAGE_READ),
     (BUILD, Accesses::INDIRECT_COMMAND_READ),
     (VERTEX_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
     (FRAGMENT_SHADER, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
@@ -107,6 +109,8 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (BUILD, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
     (STRUCTURE_COPY, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
     (RAY_TRACING, Accesses::SHADER_BINDING_TABLE_READ_KHR),
+    (BUILD, Accesses::TRANSFER_READ),
+    (STRUCTURE_COPY, Accesses::TRANSFER_READ),
     (SHADING_RATE, Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR),
 ];
 

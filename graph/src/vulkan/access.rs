@@ -63,7 +63,7 @@ pub(crate) struct AccessRow {
     pub(crate) image: Option<(Usage, Layout)>,
     /// Of a buffer: the usage that it needs. `None`: no buffer is used so.
     pub(crate) buffer: Option<BufferUsage>,
-    /// The device feature that it needs, by Vulkan's name; `None`: every device can do it.
+    /// The device feature that it needs beyond those of its stages, by Vulkan's name, if it needs one.
     pub(crate) feature: Option<&'static str>,
 }
 
@@ -159,8 +159,7 @@ const ROWS: &[AccessRow] = &[
     AccessRow {
         kind: AccessKind::Storage,
         word: word("Storage", "Read and written by shaders.", &[Of::Image, Of::Buffer]),
-        stages: SHADERS.union(Stages::ACCELERATION_STRUCTURE_BUILD_KHR),
-        read_only: Stages::ACCELERATION_STRUCTURE_BUILD_KHR,
+        stages: SHADERS,
         reads: Accesses::SHADER_STORAGE_READ,
         writes: Accesses::SHADER_STORAGE_WRITE,
         image: Some((Usage::STORAGE, Layout::General)),
@@ -202,7 +201,7 @@ const ROWS: &[AccessRow] = &[
     AccessRow {
         kind: AccessKind::TransferSource,
         word: word("TransferSource", "Copied or scaled from.", &[Of::Image, Of::Buffer]),
-        stages: SOURCES,
+        stages: SOURCES.union(STRUCTURES),
         reads: Accesses::TRANSFER_READ,
         image: Some((Usage::TRANSFER_SRC, Layout::TransferSrcOptimal)),
         buffer: Some(BufferUsage::TRANSFER_SRC),
@@ -211,7 +210,7 @@ const ROWS: &[AccessRow] = &[
     AccessRow {
         kind: AccessKind::TransferTarget,
         word: word("TransferTarget", "Copied, scaled or filled into.", &[Of::Image, Of::Buffer]),
-        stages: SOURCES.union(Stages::CLEAR),
+        stages: SOURCES.union(Stages::CLEAR).union(STRUCTURES),
         writes: Accesses::TRANSFER_WRITE,
         image: Some((Usage::TRANSFER_DST, Layout::TransferDstOptimal)),
         buffer: Some(BufferUsage::TRANSFER_DST),
@@ -232,7 +231,7 @@ const ROWS: &[AccessRow] = &[
         stages: Stages::RAY_TRACING_SHADER_KHR,
         reads: Accesses::SHADER_BINDING_TABLE_READ_KHR,
         buffer: Some(BufferUsage::SHADER_BINDING_TABLE_KHR),
-        feature: Some("rayTracingPipeline"),
+        feature: Some("rayTracingMaintenance1"),
         ..NONE
     },
     AccessRow {
@@ -367,7 +366,7 @@ const BUFFER_USAGES: [BufferUsage; 64] = {
     usages
 };
 
-/// The rows stand in the order of the kinds.
+/// Rows stand in the order of their kinds, and in that of the layouts.
 const _: () = {
     let mut row = 0;
     while row < ROWS.len() {
@@ -375,6 +374,12 @@ const _: () = {
         row += 1;
     }
     assert!(AccessKind::Host as usize + 1 == ROWS.len());
+    let mut row = 0;
+    while row < LAYOUTS.len() {
+        assert!(LAYOUTS[row].layout as usize == row);
+        row += 1;
+    }
+    assert!(Layout::FragmentShadingRateAttachmentOptimalKhr as usize + 1 == LAYOUTS.len());
 };
 
 /// What a layout allows: a row for each.

@@ -35,7 +35,7 @@ const ROWS: [StageRow; 20] = [
     row(Stages::RAY_TRACING_SHADER_KHR, true, false, Some("rayTracingPipeline")),
     row(Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR, false, false, Some("attachmentFragmentShadingRate")),
     row(Stages::ACCELERATION_STRUCTURE_BUILD_KHR, true, false, Some("accelerationStructure")),
-    row(Stages::ACCELERATION_STRUCTURE_COPY_KHR, true, false, Some("accelerationStructure")),
+    row(Stages::ACCELERATION_STRUCTURE_COPY_KHR, true, false, Some("rayTracingMaintenance1")),
     row(Stages::COPY, true, true, None),
     row(Stages::RESOLVE, false, false, None),
     row(Stages::BLIT, false, false, None),

@@ -26,9 +26,12 @@ pub(crate) fn contradiction(state: &State, of: Subject<'_>, when: When) -> Optio
     let name = of.name;
     for access in state.accesses.iter() {
         let stages = access.stages();
-        if stages != Stages::all() && !state.stages.intersects(stages | Stages::ALL_COMMANDS) {
+        if !state.stages.intersects(stages | Stages::ALL_COMMANDS) {
             let message = format!("`{name}` can't have seen {} in these stages", words(access));
-            return Some((message, format!("such an access happens in {}", words(stages & Stages::CORE))));
+            // Who names no stage of an extension is shown none.
+            let core = stages & Stages::CORE;
+            let shown = if core.is_empty() || !Stages::CORE.contains(state.stages) { stages } else { core };
+            return Some((message, format!("such an access happens in {}", words(shown))));
         }
     }
     let Some(format) = of.format else {

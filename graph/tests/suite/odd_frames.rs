@@ -178,3 +178,22 @@ fn forwarded_images_are_lowered_together() {
     let plan = plan.expect("the frame is valid");
     assert_eq!(plan.totals.inserted_passes, 0, "{}", plan.tree());
 }
+
+#[test]
+fn a_device_without_the_feature_that_brings_a_state_is_told_of() {
+    let mut frame = frame();
+    let layout = Layout::ShaderReadOnlyOptimal;
+    let before = State { stages: Stages::TASK_SHADER_EXT, accesses: Accesses::SHADER_SAMPLED_READ, layout };
+    frame.images[1].lifetime = Lifetime::Imported { before, after: None };
+    let on = |features: Option<&[&str]>| {
+        let features = features.map(|all| all.iter().map(|name| (*name).to_owned()).collect());
+        let device = Profile { features, ..raster::device() };
+        let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        plan.map(|plan| assert_eq!(verify(&plan), [])).map_err(|wrong| wrong[0].message.clone())
+    };
+    let said = on(Some(&[])).expect_err("it lacks the feature");
+    assert!(said.starts_with("the state of `noise` needs the feature taskShader, which `"), "{said}");
+    for features in [None, Some(&["taskShader"][..])] {
+        assert_eq!(on(features), Ok(()));
+    }
+}

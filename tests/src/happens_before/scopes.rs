@@ -69,11 +69,13 @@ pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
         Accesses::INPUT_ATTACHMENT_READ => Stages::FRAGMENT_SHADER,
         Accesses::COLOR_ATTACHMENT_READ | Accesses::COLOR_ATTACHMENT_WRITE => Stages::COLOR_ATTACHMENT_OUTPUT,
         Accesses::DEPTH_STENCIL_ATTACHMENT_READ | Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE => TESTS,
-        Accesses::TRANSFER_READ => TRANSFERS,
-        Accesses::TRANSFER_WRITE => TRANSFERS.union(Stages::CLEAR),
+        Accesses::TRANSFER_READ => TRANSFERS.union(BUILDS),
+        Accesses::TRANSFER_WRITE => TRANSFERS.union(Stages::CLEAR).union(BUILDS),
         Accesses::HOST_READ | Accesses::HOST_WRITE => Stages::HOST,
-        Accesses::UNIFORM_READ | Accesses::SHADER_SAMPLED_READ | Accesses::SHADER_STORAGE_WRITE => SHADERS,
-        Accesses::SHADER_STORAGE_READ => SHADERS.union(BUILD),
+        Accesses::UNIFORM_READ
+        | Accesses::SHADER_SAMPLED_READ
+        | Accesses::SHADER_STORAGE_READ
+        | Accesses::SHADER_STORAGE_WRITE => SHADERS,
         Accesses::ACCELERATION_STRUCTURE_READ_KHR => SHADERS.union(BUILDS),
         Accesses::ACCELERATION_STRUCTURE_WRITE_KHR => BUILDS,
         Accesses::SHADER_BINDING_TABLE_READ_KHR => Stages::RAY_TRACING_SHADER_KHR,
