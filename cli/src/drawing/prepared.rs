@@ -52,9 +52,7 @@ impl<'p> Prepared<'p> {
 /// The first pass that only the program of another draw source can record.
 fn custom(plan: &Plan) -> Option<&Pass> {
     plan.steps.iter().find_map(|step| {
-        step.work.passes().iter().find(|pass| match (&step.work, pass.draw) {
-            (Work::Custom(_), _) => true,
-            (_, draw) => draw.is_some_and(Draw::is_custom),
-        })
+        let custom = matches!(step.work, Work::Custom(_));
+        step.work.passes().iter().find(|pass| custom || pass.draw.is_some_and(Draw::is_custom))
     })
 }

@@ -17,6 +17,13 @@ fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {
 }
 
 #[test]
+fn a_name_without_its_ending_finds_the_file_that_was_meant() {
+    let place = Place::new();
+    place.run(&["new", "first"]).exits(0);
+    place.run(&["check", "first"]).exits(1).mentions("help: did you mean `first.ron`?");
+}
+
+#[test]
 fn a_folder_is_no_pipeline() {
     Place::new()
         .run(&["check", "."])

@@ -163,11 +163,10 @@ impl Check<'_> {
         let of = read.resource;
         let wrong = Diagnostic::new(read.span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
-            let help = "a pass reads what stood there before the pass".to_owned();
-            let help = match self.previous(of) {
-                Some(previous) => format!("{help}; {previous}"),
-                None => help,
-            };
+            let mut help = "a pass reads what stood there before the pass".to_owned();
+            if let Some(previous) = self.previous(of) {
+                help = format!("{help}; {previous}");
+            }
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
         let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };

@@ -168,6 +168,7 @@ impl Plan {
     pub fn mode_of(&self, resolve: &Transfer) -> ResolveMode {
         match resolve.source {
             Side::Image { image, .. } if self.image(image).format.is_integer() => ResolveMode::SampleZero,
+            // A resolve has two images.
             Side::Image { .. } | Side::Buffer { .. } => ResolveMode::Average,
         }
     }

@@ -1,8 +1,8 @@
 //! The table of accesses: the ways in which work uses images and buffers, and what Vulkan calls each of them.
 //!
 //! Each way is a row. The words for states in files, the stages and layouts that go with an access, and the usages that an image or
-//! a buffer needs are derived from these rows; the stages of queues and pipelines stand in the [table of stages](super::stage). The
-//! checker keeps a table of its own, so that a mistake here is found there.
+//! a buffer needs are derived from these rows. What happens in each layout stands in the [table of layouts](super::layout), the stages of
+//! queues and pipelines in the [table of stages](super::stage). The checker keeps tables of its own, so that a mistake here is found there.
 
 use super::{Accesses, BufferUsage, Layout, Stages, State, Usage};
 
@@ -366,7 +366,7 @@ const BUFFER_USAGES: [BufferUsage; 64] = {
     usages
 };
 
-/// Rows stand in the order of their kinds, and in that of the layouts.
+/// The rows stand in the order of the kinds.
 const _: () = {
     let mut row = 0;
     while row < ROWS.len() {
@@ -374,122 +374,11 @@ const _: () = {
         row += 1;
     }
     assert!(AccessKind::Host as usize + 1 == ROWS.len());
-    let mut row = 0;
-    while row < LAYOUTS.len() {
-        assert!(LAYOUTS[row].layout as usize == row);
-        row += 1;
-    }
-    assert!(Layout::FragmentShadingRateAttachmentOptimalKhr as usize + 1 == LAYOUTS.len());
 };
-
-/// What a layout allows: a row for each.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LayoutRow {
-    pub(crate) layout: Layout,
-    /// Vulkan's name.
-    pub(crate) name: &'static str,
-    /// Images that can be left in it.
-    pub(crate) holds: Holds,
-    /// What happens in it; the usage for the first is what the layout needs. Everything can happen in `GENERAL`.
-    pub(crate) kinds: &'static [AccessKind],
-    /// Whether the writes of these kinds happen too, and not only their reads.
-    pub(crate) written: bool,
-}
-
-/// The images that a frame can take over or leave in a layout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Holds {
-    /// All.
-    Any,
-    /// Colour.
-    Color,
-    /// Colour with one sample.
-    ColorOfOneSample,
-    /// Depth, with stencil or without.
-    Depth,
-    /// Depth without stencil.
-    DepthAlone,
-    /// None: only one plane is in it, or a part of a frame.
-    None,
-}
-
-/// The rows, in the order of [`Layout`].
-pub(crate) const LAYOUTS: &[LayoutRow] = {
-    use AccessKind::{
-        ColorAttachment, DepthAttachment, InputAttachment, Present, Sampled, ShadingRate, TransferSource,
-        TransferTarget,
-    };
-    const fn row(
-        layout: Layout,
-        name: &'static str,
-        holds: Holds,
-        kinds: &'static [AccessKind],
-        written: bool,
-    ) -> LayoutRow {
-        LayoutRow { layout, name, holds, kinds, written }
-    }
-    const READ_ONLY_DEPTH: &[AccessKind] = &[DepthAttachment, Sampled, InputAttachment];
-    &[
-        row(Layout::Undefined, "UNDEFINED", Holds::Any, &[], false),
-        row(Layout::General, "GENERAL", Holds::Any, &[], true),
-        row(Layout::ColorAttachmentOptimal, "COLOR_ATTACHMENT_OPTIMAL", Holds::Color, &[ColorAttachment], true),
-        row(
-            Layout::DepthStencilAttachmentOptimal,
-            "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
-            Holds::Depth,
-            &[DepthAttachment],
-            true,
-        ),
-        row(
-            Layout::DepthStencilReadOnlyOptimal,
-            "DEPTH_STENCIL_READ_ONLY_OPTIMAL",
-            Holds::Depth,
-            READ_ONLY_DEPTH,
-            false,
-        ),
-        row(Layout::DepthAttachmentOptimal, "DEPTH_ATTACHMENT_OPTIMAL", Holds::DepthAlone, &[DepthAttachment], true),
-        row(Layout::DepthReadOnlyOptimal, "DEPTH_READ_ONLY_OPTIMAL", Holds::DepthAlone, READ_ONLY_DEPTH, false),
-        row(Layout::StencilAttachmentOptimal, "STENCIL_ATTACHMENT_OPTIMAL", Holds::None, &[DepthAttachment], true),
-        row(Layout::StencilReadOnlyOptimal, "STENCIL_READ_ONLY_OPTIMAL", Holds::None, READ_ONLY_DEPTH, false),
-        row(Layout::ShaderReadOnlyOptimal, "SHADER_READ_ONLY_OPTIMAL", Holds::Any, &[Sampled, InputAttachment], false),
-        row(Layout::TransferSrcOptimal, "TRANSFER_SRC_OPTIMAL", Holds::Any, &[TransferSource], false),
-        row(Layout::TransferDstOptimal, "TRANSFER_DST_OPTIMAL", Holds::Any, &[TransferTarget], true),
-        row(Layout::PresentSrcKhr, "PRESENT_SRC_KHR", Holds::ColorOfOneSample, &[Present], false),
-        row(Layout::RenderingLocalReadKhr, "RENDERING_LOCAL_READ_KHR", Holds::None, &[InputAttachment], false),
-        row(
-            Layout::FragmentShadingRateAttachmentOptimalKhr,
-            "FRAGMENT_SHADING_RATE_ATTACHMENT_OPTIMAL_KHR",
-            Holds::ColorOfOneSample,
-            &[ShadingRate],
-            false,
-        ),
-    ]
-};
-
-impl Layout {
-    pub(crate) const fn row(self) -> &'static LayoutRow {
-        &LAYOUTS[self as usize]
-    }
-
-    /// The usage that an image must have to be in it.
-    pub(crate) const fn usage(self) -> Usage {
-        match self.row().kinds {
-            [first, ..] => first.usage(),
-            [] => Usage::empty(),
-        }
-    }
-
-    /// The accesses that happen in it, `GENERAL` apart.
-    pub(crate) fn accesses(self) -> Accesses {
-        let LayoutRow { kinds, written, .. } = self.row();
-        kinds.iter().fold(Accesses::empty(), |all, kind| all | kind.accesses(true, *written))
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vulkan::name_of;
 
     #[test]
     fn each_access_but_those_to_any_memory_stands_in_one_row() {
@@ -498,13 +387,6 @@ mod tests {
         }
         for row in AccessKind::TABLE {
             assert!(Accesses::WRITES.contains(row.writes) && !Accesses::WRITES.intersects(row.reads), "{row:?}");
-        }
-    }
-
-    #[test]
-    fn layouts_stand_in_their_order_by_the_names_that_plans_have() {
-        for (at, row) in LAYOUTS.iter().enumerate() {
-            assert_eq!((row.layout as usize, row.name), (at, &*name_of(&row.layout)));
         }
     }
 

@@ -7,6 +7,7 @@ mod fill_value;
 mod foreign_formats;
 mod format;
 mod image_shape;
+pub(crate) mod layout;
 mod name;
 mod rotation;
 mod stage;

@@ -1,6 +1,7 @@
 //! Contradictions in the state in which an image or buffer comes in or goes out.
 
-use super::access::{Holds, Of};
+use super::access::Of;
+use super::layout::Holds;
 use super::{Accesses, Aspects, Format, Layout, Stages, State};
 
 /// The time at which an image or buffer is in a state.

@@ -26,8 +26,8 @@ fn lines(source: &Source) -> usize {
 fn tokens(source: &Source) -> usize {
     let mut all = Vec::new();
     flat(&source.tokens, &mut all);
-    // A documenting comment is `#`, and a group of four tokens.
-    let documenting =
-        all.windows(3).filter(|tokens| tokens[0] == "(" && tokens[1] == "doc" && tokens[2] == "=").count();
-    all.len() - 6 * documenting
+    // A documenting comment is `#[doc = "…"]`, six tokens, or seven with `#!`.
+    let is_doc = |tokens: &&[String]| tokens[1] == "(" && tokens[2] == "doc" && tokens[3] == "=";
+    let documenting = all.windows(4).filter(is_doc);
+    all.len() - documenting.map(|tokens| if tokens[0] == "!" { 7 } else { 6 }).sum::<usize>()
 }

@@ -158,10 +158,9 @@ fn from_source(results: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<
 /// A draw of the frame again, of nothing but its depth.
 fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
     let (op, uses) = (&results.adapted.ops[number as usize], results.adapted.uses(number));
-    let draw = declared.work.draw();
-    let shader = Arc::clone(draw.map_or(&results.nothing, |(_, shader)| shader));
-    let draw = draw.map(|(draw, _)| draw);
-    let mut planned = bare(name.clone(), cause(results, op), draw, None, shader);
+    let drawn_again = declared.work.draw().map(|(draw, shader)| (Some(draw), shader));
+    let (draw, shader) = drawn_again.unwrap_or((None, &results.nothing));
+    let mut planned = bare(name.clone(), cause(results, op), draw, None, Arc::clone(shader));
     drawn(&mut planned, declared, uses);
     Pass {
         redraws: Some(declared.name.clone()),

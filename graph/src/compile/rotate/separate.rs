@@ -69,7 +69,7 @@ fn reads(pass: &Pass, image: ImageIndex) -> bool {
 
 /// Whether a pass reads the image otherwise than by sampling it, or needs it upright.
 fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
-    let copies = pass.work.is_transfer() && !pass.work.fills();
+    let copies = pass.work.is_transfer() && pass.work.filled().is_none();
     accesses(pass, image).any(|access| match access {
         Access::Storage(_) | Access::ForwardSource(..) => true,
         Access::Transfer(used) => copies || !used.write,

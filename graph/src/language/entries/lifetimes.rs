@@ -7,7 +7,8 @@ use crate::fields;
 use crate::language::model::{Lifetime, State};
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words};
-use crate::vulkan::access::{LAYOUTS, Of, StateWord};
+use crate::vulkan::access::{Of, StateWord};
+use crate::vulkan::layout::LAYOUTS;
 use crate::vulkan::{self, AccessKind, Accesses, Layout, Stages};
 use bitflags::Flags;
 
