@@ -7,6 +7,7 @@ mod error;
 mod kept_files;
 mod named;
 mod platform;
+mod shader_stage;
 
 pub use cache::{Cache, CachedFiles};
 pub use error::{Blame, Error, INSTALL};
@@ -21,3 +22,4 @@ pub(crate) use platform::{
     ChildInput, apart_from_interrupts, in_words, is_crash, limit_this_process, start_with_input, take_standard_output,
     with_usual_rights,
 };
+pub(crate) use shader_stage::{ShaderStage, StageFacts, stage_flags};

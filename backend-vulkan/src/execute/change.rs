@@ -5,7 +5,7 @@ use crate::base::Error;
 use crate::memory::RawBuffer;
 use crate::prepare::{PreparedStep, Refuse, check};
 use ash::vk;
-use framewright_graph::plan::{Plan, Work};
+use framewright_graph::plan::Plan;
 use std::sync::Arc;
 
 /// A block of parameters with other values, and the pass that gets it: the number of its step, and its own in there.
@@ -60,7 +60,7 @@ impl Executor {
     fn changed_pipelines(&self, plan: &Plan) -> Result<Vec<ChangedPipeline>, Error> {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
-            let (Work::Render(old), Work::Render(new)) = (&old.work, &new.work) else { continue };
+            let (Some(old), Some(new)) = (old.work.scope(), new.work.scope()) else { continue };
             let PreparedStep::Render(made) = &self.prepared.steps[step] else { continue };
             if old.extent == new.extent {
                 continue;
@@ -78,7 +78,7 @@ impl Executor {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
             let made = &mut self.prepared.steps[step];
-            if let (Work::Dispatch(new), PreparedStep::Dispatch(made)) = (&new.work, &*made) {
+            if let (PreparedStep::Dispatch(made), [new]) = (&*made, new.work.passes()) {
                 made.groups(&self.gpu, new)?;
             }
             let passes = old.work.passes().iter().zip(new.work.passes()).zip(made.sets()).enumerate();

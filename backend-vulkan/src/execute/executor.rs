@@ -14,7 +14,7 @@ use crate::record::{DrawSource, FrameReport, Guarded};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
-use framewright_graph::plan::{Plan, Work};
+use framewright_graph::plan::Plan;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -230,10 +230,7 @@ impl Executor {
     /// no rendering scope has such a pass. So the pipelines can be made before the first frame.
     #[must_use]
     pub fn formats(&self, pass: &str) -> Option<ScopeFormats> {
-        let scopes = self.plan.steps.iter().filter_map(|step| match &step.work {
-            Work::Render(scope) => Some(scope),
-            _ => None,
-        });
+        let scopes = self.plan.steps.iter().filter_map(|step| step.work.scope());
         let mut with_pass = scopes.filter(|scope| scope.passes.iter().any(|it| *it.name == *pass));
         with_pass.next().map(|scope| scope_formats(&self.plan, scope))
     }

@@ -1,16 +1,12 @@
 //! Descriptor set layouts and pipeline layouts, one for each description.
 
-use crate::base::Error;
+use crate::base::{Error, ShaderStage};
 use crate::gpu::{Gpu, LayoutBinding};
 use ash::vk;
 use framewright_graph::shader::MOST_PARTS;
 
 /// The stages that see the push constants: each may ask which part of an image is in use.
-pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::VERTEX.as_raw()
-        | vk::ShaderStageFlags::FRAGMENT.as_raw()
-        | vk::ShaderStageFlags::COMPUTE.as_raw(),
-);
+pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = ShaderStage::FLAGS;
 /// The size of the push constants, in bytes: four numbers for each image that is used in part.
 const PARTS_BYTES: u32 = 16 * MOST_PARTS as u32;
 

@@ -4,10 +4,8 @@ use crate::base::{Error, convert, named};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::frame::{Blend, EyeForm, Stereo};
-use framewright_graph::plan::{
-    Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
-};
-use framewright_graph::vulkan::{Aspects, Filter, name_of};
+use framewright_graph::plan::{Attachment, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work};
+use framewright_graph::vulkan::{Aspects, Filter, Sampler, name_of};
 
 /// A Plan that can't be executed.
 pub(super) fn bad(what: String) -> Result<(), Error> {
@@ -49,9 +47,9 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
     let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
         && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
         && scope.layers <= limits.max_framebuffer_layers
-        && scope.color.len() <= limits.max_color_attachments as usize;
+        && scope.color().len() <= limits.max_color_attachments as usize;
     if !fits {
-        let (count, layers) = (scope.color.len(), scope.layers);
+        let (count, layers) = (scope.color().len(), scope.layers);
         return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
     }
     let draws_so = match (plan.stereo, plan.eyes(scope)) {
@@ -66,7 +64,7 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
         return bad(format!("it draws for both eyes at once ({}) as {} can't", plan.stereo.name(), gpu.summary.name));
     }
     for pass in &scope.passes {
-        for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
+        for (attachment, _) in scope.color().iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
             lacks(gpu, plan, attachment.image, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, "blend into")?;
         }
         filtered(gpu, plan, pass)?;
@@ -78,7 +76,7 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
 fn filtered(gpu: &Gpu, plan: &Plan, pass: &Pass) -> Result<(), Error> {
     let linear = pass.accesses.iter().filter(|access| {
         let binding = access.binding.as_ref();
-        binding.is_some_and(|it| matches!(it.kind, BindingKind::Sampled(sampler) if sampler.is_linear()))
+        binding.and_then(|it| it.kind.sampler()).is_some_and(Sampler::is_linear)
     });
     for access in linear {
         lacks(gpu, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
@@ -99,21 +97,20 @@ fn lacks(gpu: &Gpu, plan: &Plan, image: ImageId, feature: vk::FormatFeatureFlags
 fn resolvable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
     let modes = gpu.depth_stencil_resolve();
     let planes = [
-        (&scope.depth, modes.supported_depth_resolve_modes, "depth"),
-        (&scope.stencil, modes.supported_stencil_resolve_modes, "stencil"),
+        (scope.depth(), modes.supported_depth_resolve_modes, "depth"),
+        (scope.stencil(), modes.supported_stencil_resolve_modes, "stencil"),
     ];
     for (attachment, supported, plane) in planes {
-        let Some(resolve) = attachment.as_ref().and_then(|it| it.resolve.as_ref()) else { continue };
+        let Some(resolve) = attachment.and_then(|it| it.resolve.as_ref()) else { continue };
         if !supported.contains(convert::resolve(resolve.mode)) {
             let target = &plan.image(resolve.image).name;
             let mode = name_of(&resolve.mode);
             return bad(format!("{} can't resolve {plane} into `{target}` by {mode}", gpu.summary.name));
         }
     }
-    let mode =
-        |attachment: &Option<Attachment>| attachment.as_ref().and_then(|it| it.resolve.as_ref()).map(|it| it.mode);
-    let together = scope.depth.is_some() && scope.stencil.is_some();
-    let (depth, stencil) = (mode(&scope.depth), mode(&scope.stencil));
+    let mode = |attachment: Option<&Attachment>| attachment.and_then(|it| it.resolve.as_ref()).map(|it| it.mode);
+    let together = scope.depth().is_some() && scope.stencil().is_some();
+    let (depth, stencil) = (mode(scope.depth()), mode(scope.stencil()));
     let independent =
         if depth.is_none() || stencil.is_none() { modes.independent_resolve_none } else { modes.independent_resolve };
     if together && depth != stencil && independent == vk::FALSE {

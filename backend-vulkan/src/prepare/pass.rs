@@ -13,7 +13,7 @@ use crate::pipeline::{brought_attributes, check_brought, check_needs, check_outp
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
-use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
+use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
 use std::sync::Arc;
@@ -238,9 +238,9 @@ pub(super) fn prepare_draw(
     };
     let brought = shaders.brought_along(Some(draw));
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
-    let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
+    let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color.len()).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     check_covers(&shader.interface, pass, draw).map_err(mismatch)?;
@@ -271,7 +271,7 @@ pub(super) fn prepare_draw(
         strides: strides.clone(),
         attributes,
         formats: formats.clone(),
-        blend: (0..scope.color.len()).map(|number| blend(&number)).collect(),
+        blend: (0..scope.color().len()).map(|number| blend(&number)).collect(),
         depth: pass.depth,
         stencil: pass.stencil,
         alpha_to_coverage: pass.alpha_to_coverage,
@@ -306,7 +306,7 @@ fn targets(plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<Vec<us
                 && it.range.base_mip == access.range.base_mip
                 && it.range.base_layer == access.range.base_layer
         };
-        let found = scope.color.iter().position(|it| same(&it));
+        let found = scope.color().iter().position(|it| same(&it));
         let found =
             found.ok_or_else(|| format!("it writes `{}`, which is no attachment", plan.image(access.image).name));
         targets.push(found?);
@@ -323,13 +323,13 @@ fn local_read(
     shader: &CompiledShader,
     targets: &[usize],
 ) -> Result<Option<LocalRead>, String> {
-    let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color().len()];
     for access in &pass.accesses {
-        let Some(binding) = access.binding.as_ref().filter(|it| it.kind == BindingKind::InputAttachment) else {
+        let Some(binding) = access.binding.as_ref().filter(|it| it.kind.is_input_attachment()) else {
             continue;
         };
         let index = shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|(_, index)| *index);
-        let attachment = scope.color.iter().position(|it| it.image == access.image);
+        let attachment = scope.color().iter().position(|it| it.image == access.image);
         let (Some(index), Some(attachment)) = (index, attachment) else {
             return Err(format!("`{}` is no input attachment of a colour attachment of its scope", binding.name));
         };
@@ -343,7 +343,7 @@ fn local_read(
     if gpu.local_read.is_none() {
         return Err("it needs local reads, and this device has none".to_owned());
     }
-    let mut locations = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    let mut locations = vec![vk::ATTACHMENT_UNUSED; scope.color().len()];
     for (location, target) in (0..).zip(targets) {
         locations[*target] = location;
     }

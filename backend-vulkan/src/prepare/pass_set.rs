@@ -3,7 +3,7 @@
 use super::descriptions::part;
 use super::frame::Frame;
 use super::rings::RingCache;
-use crate::base::{Error, convert};
+use crate::base::{Error, convert, stage_flags};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use crate::pipeline::{DescriptorSet, DescriptorTarget, parameters};
@@ -71,9 +71,13 @@ impl PassSets {
                     let (ty, bound) = block(plan, pass, wanted).map_err(mismatch)?;
                     (ty, vec![bound])
                 }
-                _ => images(gpu, plan, pass, wanted).map_err(mismatch)?,
+                shader::BindingKind::SampledImage(_)
+                | shader::BindingKind::ComparedDepth(_)
+                | shader::BindingKind::StorageImage { .. }
+                | shader::BindingKind::InputAttachment { .. }
+                | shader::BindingKind::Other(_) => images(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
-            let (binding, count, stages) = (wanted.binding, wanted.count(), stages(wanted.stages));
+            let (binding, count, stages) = (wanted.binding, wanted.count(), stage_flags(wanted.stages));
             bindings.push((LayoutBinding { binding, ty, count, stages }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
@@ -180,17 +184,17 @@ fn block(
     let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
     in_stages(wanted, access.stages)?;
     let buffer = &plan.buffers[access.buffer.0 as usize];
-    match &wanted.kind {
-        shader::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
+    let bound = BoundResource::Buffer(access.buffer);
+    let is_uniform = access.accesses.contains(Accesses::UNIFORM_READ);
+    match (wanted.kind.uniform_block(), wanted.kind.storage_block()) {
+        (Some(block), _) if is_uniform => {
             long_enough(name, block.bytes, buffer.bytes.next_multiple_of(16), buffer.bytes)?;
-            Ok((vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Buffer(access.buffer)))
+            Ok((vk::DescriptorType::UNIFORM_BUFFER, bound))
         }
-        shader::BindingKind::StorageBlock { writable, bytes, .. }
-            if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
-        {
-            only_read(name, *writable, access.accesses)?;
-            long_enough(name, *bytes, buffer.bytes, buffer.bytes)?;
-            Ok((vk::DescriptorType::STORAGE_BUFFER, BoundResource::Buffer(access.buffer)))
+        (_, Some((writable, bytes))) if !is_uniform => {
+            only_read(name, writable, access.accesses)?;
+            long_enough(name, bytes, buffer.bytes, buffer.bytes)?;
+            Ok((vk::DescriptorType::STORAGE_BUFFER, bound))
         }
         _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
     }
@@ -283,7 +287,7 @@ fn image(
             shader::BindingKind::SampledImage(shape) | shader::BindingKind::ComparedDepth(shape),
             BindingKind::Sampled(sampler),
         ) => {
-            if matches!(wanted.kind, shader::BindingKind::ComparedDepth(_)) != sampler.compare.is_some() {
+            if wanted.kind.is_compared() != sampler.compare.is_some() {
                 return Err(format!("`{name}` is compared with a depth by only one of Plan and shader"));
             }
             samples(shape.multisampled)?;
@@ -341,15 +345,4 @@ fn view_shape(
         (Dimension::Cube, true) if cubic && range.layers.is_multiple_of(6) => Ok(ViewShape::Cubes),
         _ => Err(format!("`{name}` has another dimension than its image")),
     }
-}
-
-/// Shader stages have other values than pipeline stages.
-fn stages(stages: Stages) -> vk::ShaderStageFlags {
-    let pairs = [
-        (Stages::VERTEX_SHADER, vk::ShaderStageFlags::VERTEX),
-        (Stages::FRAGMENT_SHADER, vk::ShaderStageFlags::FRAGMENT),
-        (Stages::COMPUTE_SHADER, vk::ShaderStageFlags::COMPUTE),
-    ];
-    let flags = pairs.iter().filter(|(stage, _)| stages.contains(*stage)).map(|(_, flag)| *flag);
-    flags.fold(vk::ShaderStageFlags::empty(), |all, flag| all | flag)
 }

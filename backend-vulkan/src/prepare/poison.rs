@@ -16,7 +16,6 @@ use super::frame::Frame;
 use crate::base::{Clear, convert};
 use crate::commands::{ImageSide, TransferCommand, TransferSide, memory_barrier};
 use ash::vk;
-use framewright_graph::frame::BufferRole;
 use framewright_graph::plan::{Buffer, BufferAccess, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, BufferUsage, Format, Layout, Numeric, Usage};
 
@@ -90,7 +89,7 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
 fn replaces(step: &Step, buffer: &Buffer) -> bool {
     let mut uses =
         step.work.passes().iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).peekable();
-    let whole = |it: &BufferAccess| it.role == Some(BufferRole::Storage { read: false, write: true });
+    let whole = |it: &BufferAccess| it.role.is_some_and(|role| !role.reads() && role.writes());
     buffer.usage.contains(BufferUsage::TRANSFER_DST) && uses.peek().is_some() && uses.all(whole)
 }
 

@@ -28,7 +28,7 @@ pub(super) fn prepare_scope(
     let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
     if passes.iter().any(|pass| pass.local.is_some()) {
         // A pass's locations and inputs of attachments hold for the rest of the scope: the others set them back.
-        let straight: Vec<u32> = (0..).take(scope.color.len()).collect();
+        let straight: Vec<u32> = (0..).take(scope.color().len()).collect();
         for pass in &mut passes {
             let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
             pass.local.get_or_insert_with(back);
@@ -48,8 +48,8 @@ pub(super) fn push_scope(
     let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
     let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
     let info = |planned: &Attachment| attachment(frame, planned);
-    let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
-    let (depth, stencil) = (scope.depth.as_ref().map(info).transpose()?, scope.stencil.as_ref().map(info).transpose()?);
+    let color = scope.color().iter().map(info).collect::<Result<Vec<_>, _>>()?;
+    let (depth, stencil) = (scope.depth().map(info).transpose()?, scope.stencil().map(info).transpose()?);
     let begin = ScopeCommand {
         color: Run::add(&mut list.attachments, or_unused(color.into_iter())),
         depth: Run::add(&mut list.attachments, depth),

@@ -39,7 +39,9 @@ impl PreparedStep {
         Ok(match &step.work {
             Work::Render(scope) => PreparedStep::Render(prepare_scope(gpu, plan, scope, shaders)?),
             Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, pass, shaders)?),
-            _ => PreparedStep::Plain,
+            Work::Custom(_) | Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => {
+                PreparedStep::Plain
+            }
         })
     }
 

@@ -4,7 +4,7 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::resources::supplied_layouts;
 use ash::vk;
-use framewright_graph::shader::{Binding, BindingKind, Block, DrawInterface, PASS_SET, ShaderInterface};
+use framewright_graph::shader::{Binding, Block, DrawInterface, PASS_SET, ShaderInterface};
 
 /// The sets of a pipeline that the draw source provides.
 #[derive(Default)]
@@ -42,11 +42,9 @@ impl SuppliedSets {
         let layout = gpu.pipeline_layout([own].into_iter().chain(supplied.iter().copied()).collect())?;
         let sets = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| {
             let of_set = shader.bindings.iter().filter(|it| it.set == set);
-            let block = |it: &Binding| match &it.kind {
-                BindingKind::UniformBlock(Block { bytes, .. }) => {
-                    Some(SuppliedBlock { binding: it.binding, name: it.name.clone(), bytes: *bytes })
-                }
-                _ => None,
+            let block = |it: &Binding| {
+                let Block { bytes, .. } = it.kind.uniform_block()?;
+                Some(SuppliedBlock { binding: it.binding, name: it.name.clone(), bytes: *bytes })
             };
             let is_read = of_set.clone().next().is_some();
             SuppliedSet { layout, is_read, blocks: of_set.filter_map(block).collect() }

@@ -27,11 +27,11 @@ pub(crate) fn view_mask(plan: &Plan, scope: &RenderScope) -> u32 {
 /// What the pipelines of a scope must fit.
 pub(crate) fn scope_formats(plan: &Plan, scope: &RenderScope) -> ScopeFormats {
     let format = |attachment: &Attachment| convert::format(plan.image(attachment.image).format);
-    let or_none = |attachment: &Option<Attachment>| attachment.as_ref().map_or(vk::Format::UNDEFINED, format);
+    let or_none = |attachment: Option<&Attachment>| attachment.map_or(vk::Format::UNDEFINED, format);
     ScopeFormats {
-        color: or_unused(scope.color.iter().map(format)),
-        depth: or_none(&scope.depth),
-        stencil: or_none(&scope.stencil),
+        color: or_unused(scope.color().iter().map(format)),
+        depth: or_none(scope.depth()),
+        stencil: or_none(scope.stencil()),
         samples: convert::samples(scope.samples),
         view_mask: view_mask(plan, scope),
     }

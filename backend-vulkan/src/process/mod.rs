@@ -13,6 +13,6 @@ pub(crate) use compiled::{Compiled, Finding, Verdict};
 pub(crate) use helper::DeviceName;
 pub(crate) use protocol::{
     ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request, SampleResolve,
-    SelfTest, ShaderStage, invalid, parse, read_frame, write, write_frame,
+    SelfTest, invalid, parse, read_frame, write, write_frame,
 };
 pub(crate) use running::NoAnswer;

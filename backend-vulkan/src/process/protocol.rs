@@ -1,6 +1,7 @@
 //! The protocol between a program and its helper process: frames of bytes, each behind its length, mostly of JSON.
 
 use super::compiled::Verdict;
+use crate::base::ShaderStage;
 use framewright_graph::vulkan::ResolveMode;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -55,17 +56,6 @@ pub(crate) enum SelfTest {
     SampleResolve { draws_views: bool },
     /// Drawing of several views at once.
     Multiview,
-}
-
-/// A shader stage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub(crate) enum ShaderStage {
-    /// Vertex shading.
-    Vertex,
-    /// Fragment shading.
-    Fragment,
-    /// Compute shading.
-    Compute,
 }
 
 /// One stage to compile.

@@ -4,7 +4,7 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::prepare::view_mask;
 use ash::vk;
-use framewright_graph::plan::{Plan, Queue, Work};
+use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
 
 /// The counts of one frame: one for each batch whose queue draws.
@@ -23,10 +23,8 @@ pub(crate) struct FragmentCounts {
 impl FragmentCounts {
     /// Counts for the frames of `plan`, which are submitted in `batches` command buffers; `None` where the device can't count them.
     pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: usize) -> Result<Option<FragmentCounts>, Error> {
-        let has_views = plan.steps.iter().any(|step| match &step.work {
-            Work::Render(scope) => view_mask(plan, scope) != 0,
-            _ => false,
-        });
+        let mut scopes = plan.steps.iter().filter_map(|step| step.work.scope());
+        let has_views = scopes.any(|scope| view_mask(plan, scope) != 0);
         let Some(batches) = u32::try_from(batches).ok().filter(|it| *it > 0) else { return Ok(None) };
         if has_views || !gpu.features.pipeline_statistics() {
             return Ok(None);

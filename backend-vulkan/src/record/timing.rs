@@ -239,10 +239,7 @@ impl Drop for Timing {
 
 /// Queries that a timestamp inside a step takes.
 fn views(plan: &Plan, work: &Work) -> u32 {
-    match work {
-        Work::Render(scope) => view_mask(plan, scope).count_ones().max(1),
-        _ => 1,
-    }
+    work.scope().map_or(1, |scope| view_mask(plan, scope).count_ones().max(1))
 }
 
 #[cfg(test)]

@@ -2,20 +2,13 @@
 
 use super::dynamic_buffer::DynamicBuffer;
 use super::texture::{Buffer, Texture};
-use crate::base::Error;
+use crate::base::{Error, ShaderStage};
 use crate::gpu::{Device, Gpu, LayoutBinding};
 use crate::memory::RawBuffer;
 use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought, check_needs};
 use ash::vk;
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// The stages that see what a draw source brings along.
-const SUPPLIED_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::VERTEX.as_raw()
-        | vk::ShaderStageFlags::FRAGMENT.as_raw()
-        | vk::ShaderStageFlags::COMPUTE.as_raw(),
-);
 
 /// Something that can be bound.
 #[derive(Clone, Copy)]
@@ -256,7 +249,7 @@ fn layout_binding(supplied: &Supplied) -> LayoutBinding {
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,
         SuppliedKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     };
-    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: SUPPLIED_STAGES }
+    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: ShaderStage::FLAGS }
 }
 
 /// The layouts of the sets from 1 on that `interface` brings along, without gaps.

@@ -2,10 +2,10 @@
 
 use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
+use crate::base::ShaderStage;
 use crate::base::named;
-use crate::process::ShaderStage;
 use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
-use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
+use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
@@ -22,11 +22,7 @@ pub(super) fn bindings(
     used: &HashSet<u32>,
     in_part: bool,
 ) -> Result<Vec<Binding>, Refused> {
-    let stages = match stage {
-        ShaderStage::Vertex => Stages::VERTEX_SHADER,
-        ShaderStage::Fragment => Stages::FRAGMENT_SHADER,
-        ShaderStage::Compute => Stages::COMPUTE_SHADER,
-    };
+    let stage = stage.facts();
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
@@ -52,15 +48,23 @@ pub(super) fn bindings(
             },
             (None, _) => endless(),
         };
-        let length = length.filter(|_| !matches!(kind, BindingKind::Other(_)));
-        if stage == ShaderStage::Vertex && writes(&kind) {
-            let name = module.name(variable);
-            let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
+        let length = length.filter(|_| kind.unbindable().is_none());
+        if !stage.may_store && kind.is_written() {
+            let (name, stage) = (module.name(variable), stage.name);
+            let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
             return Err(Refused::named(name, what));
         }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
-        bindings.push(Binding { set, binding, name: name.to_owned(), kind, length, adapts: false, stages });
+        bindings.push(Binding {
+            set,
+            binding,
+            name: name.to_owned(),
+            kind,
+            length,
+            adapts: false,
+            stages: stage.pipeline,
+        });
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
@@ -75,11 +79,6 @@ pub(super) fn bindings(
         return Err(Refused::named(other, what));
     }
     Ok(bindings)
-}
-
-/// Whether a shader may write such a resource.
-fn writes(kind: &BindingKind) -> bool {
-    matches!(kind, BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. })
 }
 
 /// Kind and shape of a resource of type `ty`.

@@ -1,7 +1,8 @@
 //! GLSL to SPIR-V through shaderc.
 
 use super::compile::{Includes, MAX_INCLUDES};
-use crate::process::{CompileFailure, CompileJob, LARGEST_SPIRV, ShaderStage};
+use crate::base::ShaderStage;
+use crate::process::{CompileFailure, CompileJob, LARGEST_SPIRV};
 use shaderc::{
     CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
     SpirvVersion, TargetEnv,
@@ -36,13 +37,13 @@ pub(super) fn compile(
     options.set_forced_version_profile(460, GlslProfile::Core);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
     // From 1.6 on a workgroup's size is an `OpExecutionModeId`, which the reader of SPIR-V takes for a mistake.
-    options.set_target_spirv(if stage == ShaderStage::Compute { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
+    options.set_target_spirv(if stage.facts().has_workgroups { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
     if lines {
         options.set_generate_debug_info();
     }
-    if stage == ShaderStage::Fragment {
+    if stage.facts().writes_attachments {
         options.add_macro_definition("FRAMEWRIGHT_FRAGMENT", None);
     }
     for (name, value) in macros {

@@ -4,8 +4,8 @@ use super::indexing;
 use super::module::IndexedModule;
 use super::needs::Feature;
 use super::text::{Refused, Words};
+use crate::base::ShaderStage;
 use crate::base::named;
-use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
@@ -158,7 +158,7 @@ pub(super) fn check_capabilities(
     let allowed = |it: &Capability| {
         EVERYWHERE.contains(it)
             || feature(it).is_some()
-            || stage == ShaderStage::Compute && COMPUTE.contains(it)
+            || stage.facts().has_workgroups && COMPUTE.contains(it)
             || both_eyes && FOR_BOTH_EYES.contains(it)
     };
     // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.

@@ -3,7 +3,7 @@
 //! `main` is renamed and called from a `main` that finds out first which eye is drawn for, and puts vertices in its half or layer
 //! afterwards. shaders/include/stereo.glsl is what the texts in between see of it.
 
-use crate::process::ShaderStage;
+use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::frame::EyeForm;
 use framewright_graph::shader::EyeSource;
 use rspirv::binary::Assemble;
@@ -36,7 +36,7 @@ impl BothEyes {
         if self.form == EyeForm::Halves {
             macros.push(("FRAMEWRIGHT_HALVES", ""));
         }
-        if stage == ShaderStage::Vertex && self.counts_instances() {
+        if stage.facts().places_vertices && self.counts_instances() {
             macros.push(("gl_InstanceIndex", "framewright_instance"));
         }
         macros.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
@@ -70,26 +70,26 @@ impl BothEyes {
     }
 
     fn before(self, stage: ShaderStage, handed_on: impl Fn(&str) -> String) -> String {
-        let extension = match (self.source, self.form, stage) {
-            (EyeSource::ViewIndex, ..) => "#extension GL_EXT_multiview : require\n",
-            (_, EyeForm::Layers, ShaderStage::Vertex) => "#extension GL_ARB_shader_viewport_layer_array : require\n",
+        let StageFacts { places_vertices, draws, .. } = stage.facts();
+        let extension = match (self.source, self.form) {
+            (EyeSource::ViewIndex, _) => "#extension GL_EXT_multiview : require\n",
+            (_, EyeForm::Layers) if places_vertices => "#extension GL_ARB_shader_viewport_layer_array : require\n",
             _ => "",
         };
-        let instance = match stage {
-            ShaderStage::Vertex if self.counts_instances() => {
-                format!("int framewright_instance;\n{}", handed_on("out"))
-            }
-            ShaderStage::Fragment if self.counts_instances() => handed_on("in"),
-            ShaderStage::Vertex | ShaderStage::Fragment | ShaderStage::Compute => String::new(),
+        let instance = match self.counts_instances() {
+            true if places_vertices => format!("int framewright_instance;\n{}", handed_on("out")),
+            true if draws => handed_on("in"),
+            _ => String::new(),
         };
         format!("{extension}int {EYE};\n{instance}")
     }
 
     fn behind(self, stage: ShaderStage) -> String {
-        let eye = match (self.source, stage) {
+        let StageFacts { places_vertices, .. } = stage.facts();
+        let eye = match (self.source, places_vertices) {
             (EyeSource::One(eye), _) => format!("{EYE} = {};", eye as u32),
             (EyeSource::ViewIndex, _) => format!("{EYE} = int(gl_ViewIndex);"),
-            (_, ShaderStage::Fragment) => format!("{EYE} = {HANDED_ON};"),
+            (_, false) => format!("{EYE} = {HANDED_ON};"),
             (EyeSource::InstanceBit, _) => format!(
                 "{EYE} = gl_InstanceIndex < 0 ? 1 : 0;\n    framewright_instance = gl_InstanceIndex & 0x7fffffff;"
             ),
@@ -97,7 +97,7 @@ impl BothEyes {
                 format!("{EYE} = gl_InstanceIndex & 1;\n    framewright_instance = int(uint(gl_InstanceIndex) >> 1);")
             }
         };
-        let place = if stage == ShaderStage::Vertex && self.counts_instances() { self.place() } else { String::new() };
+        let place = if places_vertices && self.counts_instances() { self.place() } else { String::new() };
         format!("#undef main\n#undef gl_InstanceIndex\nvoid main() {{\n    {eye}\n    framewright_main();\n{place}}}\n")
     }
 

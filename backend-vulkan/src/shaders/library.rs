@@ -14,13 +14,14 @@ use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, Refused, Words};
 use super::varyings::without_idle_inputs;
-use crate::process::{CompileJob, Compiled, Finding, Helper, ShaderStage, Verdict};
+use crate::base::ShaderStage;
+use crate::process::{CompileJob, Compiled, Finding, Helper, Verdict};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, BindingKind, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces,
-    ShaderProblem, Unbindable, Variant,
+    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
+    Unbindable, Variant,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -77,6 +78,10 @@ pub struct ShaderLibrary {
     stages: HashMap<StageKey, StageResult>,
 }
 
+const VERTEX: ShaderStage = ShaderStage::Vertex;
+const FRAGMENT: ShaderStage = ShaderStage::Fragment;
+const COMPUTE: ShaderStage = ShaderStage::Compute;
+
 /// A stage's own file.
 struct StageSource {
     found: SourceFile,
@@ -126,13 +131,13 @@ impl ShaderLibrary {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
-        let Some(fragment) = self.stage(format!("{name}.frag"), ShaderStage::Fragment, variant)? else {
-            return Err(self.missing(&FilePath::of_text(name), ".frag"));
+        let Some(fragment) = self.stage(FRAGMENT.file_of(name), FRAGMENT, variant)? else {
+            return Err(self.missing(&FilePath::of_text(name), FRAGMENT));
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, alpha_to_coverage: false, ..variant.clone() };
         // A shipped vertex shader goes with the shipped fragment shader only.
-        let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), ShaderStage::Vertex, &own)? {
+        let (vertex, usual_vertices) = match self.stage(VERTEX.file_of(name), VERTEX, &own)? {
             Some(own) if own.shipped == fragment.shipped => (own, false),
             _ => {
                 let usual = self.usual_vertex_stage(name, draw, variant)?;
@@ -143,7 +148,7 @@ impl ShaderLibrary {
         let mut interface = match join(&vertex, &fragment) {
             Ok(interface) => interface,
             Err(refused) => {
-                let source = self.source(&format!("{name}.frag"))?;
+                let source = self.source(&FRAGMENT.file_of(name))?;
                 let placed = source.map(|source| refused.placed(&self.files, &source.found));
                 return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
             }
@@ -177,8 +182,8 @@ impl ShaderLibrary {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
-        let stage = self.stage(format!("{name}.comp"), ShaderStage::Compute, variant)?;
-        let stage = stage.ok_or_else(|| self.missing(&FilePath::of_text(name), ".comp"))?;
+        let stage = self.stage(COMPUTE.file_of(name), COMPUTE, variant)?;
+        let stage = stage.ok_or_else(|| self.missing(&FilePath::of_text(name), COMPUTE))?;
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
     }
 
@@ -196,7 +201,7 @@ impl ShaderLibrary {
             FilePath::Shipped(_) => FilePath::Shipped(file.into()),
         };
         let bare = Variant { eye: variant.eye, form: variant.form, ..Variant::default() };
-        let stage = self.stage(usual.to_string(), ShaderStage::Vertex, &bare)?;
+        let stage = self.stage(usual.to_string(), VERTEX, &bare)?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
@@ -205,7 +210,7 @@ impl ShaderLibrary {
     /// can't be read are left out.
     #[must_use]
     pub fn own_texts(&self, from: &FilePath, name: &str) -> Vec<String> {
-        let stages = ["frag", "vert", "comp"].map(|ending| format!("{name}.{ending}"));
+        let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
         let usual = USUAL_VERTEX_SHADERS.map(str::to_owned);
         let beside = stages.iter().filter_map(|file| from.beside(file).ok());
         let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
@@ -267,12 +272,12 @@ impl ShaderLibrary {
             });
             refused.map_or(problem, unsupported)
         })?;
-        if stage == ShaderStage::Compute {
+        if stage.facts().has_workgroups {
             sized(files, found).map_err(unsupported)?;
         }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
-        let is_refused = |binding: &Binding| matches!(binding.kind, BindingKind::Other(_));
+        let is_refused = |binding: &Binding| binding.kind.unbindable().is_some();
         if let Verdict::Invalid(finding) = &verdict
             && !reflected.interface.bindings.iter().any(is_refused)
         {
@@ -285,9 +290,9 @@ impl ShaderLibrary {
         if mentioned.eye {
             reflected.interface.sees_alike.clear();
         }
-        let spirv = if stage == ShaderStage::Fragment { without_idle_inputs(spirv) } else { spirv };
+        let spirv = if stage.facts().writes_attachments { without_idle_inputs(spirv) } else { spirv };
         for binding in &mut reflected.interface.bindings {
-            if let BindingKind::Other(Unbindable { place, .. }) = &mut binding.kind {
+            if let Some(Unbindable { place, .. }) = binding.kind.unbindable_mut() {
                 *place = text::place(files, found, |word| word == binding.name);
             }
         }
@@ -305,7 +310,7 @@ impl ShaderLibrary {
             unset.place = text::place(files, found, |word| word == unset.name);
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
-            let sampled = matches!(binding.kind, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_));
+            let sampled = binding.kind.is_sampled();
             // An array is declared as it is, and isn't told of parts.
             let sampled = sampled && binding.length.is_none();
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
@@ -318,15 +323,15 @@ impl ShaderLibrary {
     }
 
     /// That the file `from` names no shader that there is.
-    fn missing(&self, from: &FilePath, ending: &str) -> ShaderProblem {
+    fn missing(&self, from: &FilePath, stage: ShaderStage) -> ShaderProblem {
         let looked_in = self.files.places(from);
-        ShaderProblem::Missing { looked_in, known: self.files.known_shaders(from, ending) }
+        ShaderProblem::Missing { looked_in, known: self.files.known_shaders(from, stage.facts().ending) }
     }
 }
 
 impl ShaderInterfaces for ShaderLibrary {
     fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
-        let ending = if draw.is_some() { ".frag" } else { ".comp" };
+        let stage = if draw.is_some() { FRAGMENT } else { COMPUTE };
         let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{name}` is no name of a shader") };
         let beside = match from {
             FilePath::Shipped(_) => FilePath::Shipped(name.clone()),
@@ -335,13 +340,13 @@ impl ShaderInterfaces for ShaderLibrary {
         // Of a file that the user named by hand the folder may lie outside: nothing is looked for there.
         if from.folder().is_empty() || self.files.may_read(from.folder()) {
             let path = beside.to_string();
-            if self.source(&format!("{path}{ending}"))?.is_some() {
+            if self.source(&stage.file_of(&path))?.is_some() {
                 return Ok(path.into());
             }
         }
         match from {
-            FilePath::Own(_) if self.source(&format!("{name}{ending}"))?.is_some() => Ok(name.clone()),
-            _ => Err(self.missing(from, ending)),
+            FilePath::Own(_) if self.source(&stage.file_of(name))?.is_some() => Ok(name.clone()),
+            _ => Err(self.missing(from, stage)),
         }
     }
 
@@ -397,7 +402,7 @@ fn placed_needs(needs: &[Needed], verdict: &Verdict, files: &ShaderFiles, stage:
 
 /// Images that a variant samples in the layer of the eye that is drawn for.
 fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
-    if stage == ShaderStage::Compute {
+    if !stage.facts().draws {
         return Vec::new();
     }
     let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());

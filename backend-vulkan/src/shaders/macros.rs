@@ -2,7 +2,7 @@
 
 use super::eyes::{BothEyes, EYE};
 use super::mentioned::{COMPONENTS, HAS, LOCAL, Mentioned, PART, TEXTURE};
-use crate::process::ShaderStage;
+use crate::base::ShaderStage;
 use framewright_graph::frame::{Eye, EyeForm};
 use framewright_graph::shader::{EyeSource, Variant};
 

@@ -3,9 +3,9 @@
 use super::module::{IndexedModule, storage_class};
 use super::text::Words;
 use super::{block_layout, indexing};
-use crate::process::ShaderStage;
+use crate::base::ShaderStage;
 use framewright_graph::device::{Limit, NeedKind};
-use framewright_graph::shader::{Binding, BindingKind};
+use framewright_graph::shader::Binding;
 use rspirv::spirv::{Op, StorageClass};
 
 /// A feature that a device must have, and the words of the stage's text that show where.
@@ -43,11 +43,7 @@ pub(super) fn needs(
         }
         same
     });
-    let what = match stage {
-        ShaderStage::Vertex => "the vertex stage",
-        ShaderStage::Fragment => "the fragment stage",
-        ShaderStage::Compute => "it",
-    };
+    let what = stage.facts().subject;
     let features =
         features.into_iter().map(|Feature { name, words }| Needed { kind: NeedKind::Feature { name, what }, words });
     let limits = workgroup.into_iter().flat_map(of_workgroup).chain(shared(module)).chain(blocks(bindings));
@@ -84,13 +80,10 @@ fn shared(module: &IndexedModule<'_>) -> Option<Needed> {
 }
 
 fn blocks(bindings: &[Binding]) -> impl Iterator<Item = Needed> {
-    bindings.iter().filter_map(|binding| match &binding.kind {
-        BindingKind::UniformBlock(block) => {
-            let (name, bytes) = (&binding.name, block.bytes);
-            let what = || format!("the uniform block `{name}` takes {bytes} bytes");
-            need(Limit::UniformBytes, bytes.into(), Words::Whole(name.clone()), what)
-        }
-        _ => None,
+    bindings.iter().filter_map(|binding| {
+        let (name, bytes) = (&binding.name, binding.kind.uniform_block()?.bytes);
+        let what = || format!("the uniform block `{name}` takes {bytes} bytes");
+        need(Limit::UniformBytes, bytes.into(), Words::Whole(name.clone()), what)
     })
 }
 

@@ -3,7 +3,7 @@
 use super::files::{NoShader, ShaderFiles, SourceFile};
 use super::text::included;
 use crate::base::with_usual_rights;
-use crate::process::{CompileJob, LARGEST_SPIRV, ShaderStage};
+use crate::process::{CompileJob, LARGEST_SPIRV};
 use framewright_graph::base::{ReadFiles, is_of_machine, unix_lines};
 use framewright_graph::shader::ShaderProblem;
 use sha2::{Digest, Sha256};
@@ -52,12 +52,7 @@ impl PrecompiledShaders {
             digest.update((text.len() as u64).to_le_bytes());
             digest.update(&*text);
         };
-        let stage = match job.stage {
-            ShaderStage::Vertex => "vertex",
-            ShaderStage::Fragment => "fragment",
-            ShaderStage::Compute => "compute",
-        };
-        [env!("CARGO_PKG_VERSION"), stage, &job.text].into_iter().for_each(&mut add);
+        [env!("CARGO_PKG_VERSION"), job.stage.facts().name, &job.text].into_iter().for_each(&mut add);
         job.macros.iter().flat_map(|(name, value)| [name, value]).for_each(|text| add(text));
         included(files, source).iter().for_each(|file| add(&file.text));
         let digest: String = digest.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();

@@ -10,10 +10,10 @@ use super::needs::{Needed, needs};
 use super::rotation;
 use super::text::Refused;
 use super::varyings::{Varying, varyings, vertex_inputs};
-use crate::process::ShaderStage;
+use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
 use rspirv::dr::Operand;
-use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
 /// The interface of a stage: its bindings and constants, its inputs and its outputs.
@@ -57,7 +57,7 @@ pub(super) fn reflect(
     check_stage(&module, stage)?;
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
-    let fragment = stage == ShaderStage::Fragment;
+    let StageFacts { writes_attachments: fragment, places_vertices: vertex, .. } = stage.facts();
     let features = check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_extensions(&module)?;
@@ -68,14 +68,11 @@ pub(super) fn reflect(
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
     let bindings = bindings(&module, stage, &used, in_part)?;
-    let workgroup_size = (stage == ShaderStage::Compute).then(|| workgroup_size(&module));
+    let workgroup_size = stage.facts().has_workgroups.then(|| workgroup_size(&module));
     let needs = needs(&module, stage, features, &bindings, workgroup_size);
     let interface = ShaderInterface {
         bindings,
-        vertex_inputs: match stage {
-            ShaderStage::Vertex => vertex_inputs(&inputs)?,
-            ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
-        },
+        vertex_inputs: if vertex { vertex_inputs(&inputs)? } else { Vec::new() },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         discards: module
             .code()
@@ -98,7 +95,7 @@ pub(super) fn reflect(
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
-        sees_alike: if stage == ShaderStage::Vertex { matrices(&module, &used) } else { Vec::new() },
+        sees_alike: if vertex { matrices(&module, &used) } else { Vec::new() },
         // They are told with their places, which stand in the text too.
         needs: Vec::new(),
     };
@@ -233,11 +230,7 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
 
 /// Checks that the module is one of `stage`: a file may hold another one than its name says.
 fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
-    let (wanted, name) = match stage {
-        ShaderStage::Vertex => (ExecutionModel::Vertex, "vertex"),
-        ShaderStage::Fragment => (ExecutionModel::Fragment, "fragment"),
-        ShaderStage::Compute => (ExecutionModel::GLCompute, "compute"),
-    };
+    let StageFacts { model: wanted, name, .. } = stage.facts();
     let main = |it: &rspirv::dr::Instruction| match &it.operands[..] {
         [Operand::ExecutionModel(model), _, Operand::LiteralString(entry), ..] => *model == wanted && entry == "main",
         _ => false,

@@ -7,7 +7,7 @@
 
 use super::module::{IndexedModule, id};
 use super::text::Refused;
-use crate::process::ShaderStage;
+use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::Unturned;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op};
@@ -21,7 +21,7 @@ const CONSTANTS: [&str; 3] = ["framewright_rotation", "framewright_turned_width"
 
 /// That a stage which draws has no constant of its own in the place of one of these.
 pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
-    if stage == ShaderStage::Compute {
+    if !stage.facts().draws {
         return Ok(());
     }
     for it in &module.module.types_global_values {
@@ -46,23 +46,22 @@ pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Un
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
     let mut functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
-    match stage {
-        ShaderStage::Compute => Vec::new(),
-        ShaderStage::Vertex => {
-            let all = module.module.functions.len();
-            if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() }
-        }
-        ShaderStage::Fragment => {
-            let places = places(module);
-            let (mut reads, mut differentiates) = (false, false);
-            for function in functions.by_ref() {
-                reads |= code(function).any(|it| mentions(it, &places) && !is_beyond_y(module, it));
-                differentiates |= code(function).any(|it| is_sideways(it.class.opcode));
-            }
-            let found = [(reads, Unturned::FragCoord), (differentiates, Unturned::Derivatives)];
-            found.into_iter().filter(|(found, _)| *found).map(|(_, what)| what).collect()
-        }
+    let StageFacts { draws, places_vertices, .. } = stage.facts();
+    if !draws {
+        return Vec::new();
     }
+    if places_vertices {
+        let all = module.module.functions.len();
+        return if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() };
+    }
+    let places = places(module);
+    let (mut reads, mut differentiates) = (false, false);
+    for function in functions {
+        reads |= code(function).any(|it| mentions(it, &places) && !is_beyond_y(module, it));
+        differentiates |= code(function).any(|it| is_sideways(it.class.opcode));
+    }
+    let found = [(reads, Unturned::FragCoord), (differentiates, Unturned::Derivatives)];
+    found.into_iter().filter(|(found, _)| *found).map(|(_, what)| what).collect()
 }
 
 fn code(function: &Function) -> impl Iterator<Item = &Instruction> {

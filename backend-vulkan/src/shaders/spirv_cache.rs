@@ -153,7 +153,7 @@ fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::process::ShaderStage;
+    use crate::base::ShaderStage;
     use std::fs::{self, File};
     use std::time::{Duration, SystemTime};
 

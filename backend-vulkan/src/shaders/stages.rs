@@ -2,7 +2,7 @@
 
 use super::reflect::StageInterface;
 use super::text::Refused;
-use framewright_graph::shader::{BindingKind, PASS_SET, ShaderInterface};
+use framewright_graph::shader::{PASS_SET, ShaderInterface};
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -19,14 +19,8 @@ pub(super) struct CompiledStage {
 
 /// Whether a fragment stage leaves depth as it would be without one.
 pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
-    let writes = |kind: &BindingKind| {
-        matches!(
-            kind,
-            BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. }
-        )
-    };
     let decides = fragment.discards || fragment.masks_samples || fragment.writes_depth;
-    !decides && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
+    !decides && !fragment.bindings.iter().any(|binding| binding.kind.is_written())
 }
 
 /// The interface of both stages together.

@@ -86,7 +86,7 @@ fn every_kind_of_step() -> Frame {
 
 /// The kinds of work in the frame.
 const KINDS: [fn(&plan::Work) -> bool; 7] = [
-    |it| matches!(it, plan::Work::Render(scope) if scope.color[0].resolve.is_some()),
+    |it| matches!(it, plan::Work::Render(scope) if scope.attachments[0].resolve.is_some()),
     |it| matches!(it, plan::Work::Dispatch(_)),
     |it| matches!(it, plan::Work::Custom(_)),
     |it| matches!(it, plan::Work::Resolve(_)),

@@ -90,9 +90,9 @@ fn in_one_scope(device: &Device) -> Plan {
 
 /// Adds the one pass of `second`, which reads what the one of `scope` draws into `a`.
 fn merge(scope: &mut RenderScope, mut second: RenderScope, a: ImageId) {
-    scope.color[0].layout = LOCAL;
-    scope.color[0].store = StoreOp::DontCare;
-    scope.color.append(&mut second.color);
+    scope.attachments[0].layout = LOCAL;
+    scope.attachments[0].store = StoreOp::DontCare;
+    scope.attachments.append(&mut second.attachments);
     let mut reader = second.passes.remove(0);
     for access in reader.accesses.iter_mut().filter(|access| access.image == a) {
         (access.accesses, access.layout) = (Accesses::INPUT_ATTACHMENT_READ, LOCAL);

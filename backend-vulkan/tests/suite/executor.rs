@@ -123,8 +123,8 @@ fn poison_shows_where_nobody_wrote() {
     let Some(device) = testing::device() else { return };
     let mut plan = plan(device);
     if let Work::Render(scope) = &mut plan.steps[0].work {
-        scope.color[0].load = LoadOp::Load;
-        scope.color[0].clear = None;
+        scope.attachments[0].load = LoadOp::Load;
+        scope.attachments[0].clear = None;
     }
     let options = ExecutorOptions { poison: true, ..ExecutorOptions::default() };
     // SAFETY: the tests run on software drivers, and reading what nobody wrote is all that is wrong.

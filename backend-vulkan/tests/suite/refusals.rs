@@ -5,8 +5,8 @@ use crate::testing::plans::{EXTENT, FORMAT, add_up, resolve_then_sample};
 use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryNeeds, MemoryProvider};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{
-    Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
-    StepId, Work,
+    Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId,
+    Placement, Plan, Role, StepId, Work,
 };
 use framewright_graph::shader::{Attribute, BINDINGS, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
 use framewright_graph::vulkan::{
@@ -182,13 +182,14 @@ fn a_depth_resolve_that_a_device_does_not_have_is_refused() {
         let (layout, range) = (Layout::DepthStencilAttachmentOptimal, Subresources::all(Format::D32_SFLOAT, 1, 1));
         if let Work::Render(scope) = &mut plan.steps[0].work {
             let cause = Cause::Written(None);
-            scope.depth = Some(Attachment {
+            scope.attachments.push(Attachment {
+                kind: AttachmentKind::Depth,
                 image: source,
                 range,
                 layout,
                 clear: Some([0.0; 4]),
                 resolve: Some(AttachmentResolve { image: target, range, layout, mode, cause }),
-                ..scope.color[0].clone()
+                ..scope.attachments[0].clone()
             });
         }
         add_up(&mut plan);

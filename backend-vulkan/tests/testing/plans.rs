@@ -3,9 +3,9 @@
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::frame::{Blend, Draw, ParamValue, Stereo};
 use framewright_graph::plan::{
-    Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap,
-    Image, ImageBarrier, ImageId, Output, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Step,
-    StepId, Totals, Work,
+    Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION,
+    Hazard, Heap, Image, ImageBarrier, ImageId, Output, Param, Pass, Placement, Plan, Queue, RenderScope, Resource,
+    Role, Step, StepId, Totals, Work,
 };
 use framewright_graph::vulkan::{
     Accesses, Filter, Format, Layout, LoadOp, ResolveMode, Rotation, Sampler, Shape, Sharing, Stages, State, StoreOp,
@@ -187,7 +187,8 @@ fn barrier(image: ImageId, from: State, to: State, hazard: Hazard) -> ImageBarri
 fn attachment(image: ImageId, load: LoadOp, store: StoreOp) -> Attachment {
     let layout = Layout::ColorAttachmentOptimal;
     let because = "the test says so".into();
-    Attachment { image, range: range(), layout, load, store, clear: None, resolve: None, because }
+    let kind = AttachmentKind::Color;
+    Attachment { kind, image, range: range(), layout, load, store, clear: None, resolve: None, because }
 }
 
 fn access(image: ImageId, state: State) -> Access {
@@ -227,8 +228,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
 }
 
 fn render(image_barriers: Vec<ImageBarrier>, samples: u32, color: Attachment, passes: Vec<Pass>) -> Step {
-    let scope =
-        RenderScope { extent: EXTENT, layers: 1, samples, color: vec![color], depth: None, stencil: None, passes };
+    let scope = RenderScope { extent: EXTENT, layers: 1, samples, attachments: vec![color], passes };
     step(image_barriers, Work::Render(Box::new(scope)))
 }
 

@@ -4,7 +4,7 @@ use super::diagnostics;
 use crate::error::Error;
 use crate::planning::Assets;
 use framewright_graph::frame::{Draw, Frame};
-use framewright_graph::plan::{Pass, Plan, Work};
+use framewright_graph::plan::{Pass, Plan};
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, FrameReport};
@@ -52,7 +52,7 @@ impl<'p> Prepared<'p> {
 /// The first pass that only the program of another draw source can record.
 fn custom(plan: &Plan) -> Option<&Pass> {
     plan.steps.iter().find_map(|step| {
-        let custom = matches!(step.work, Work::Custom(_));
+        let custom = step.work.is_custom();
         step.work.passes().iter().find(|pass| custom || pass.draw.is_some_and(Draw::is_custom))
     })
 }

@@ -107,7 +107,8 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
 fn resolves(plan: &Plan, scope: &RenderScope) -> Option<String> {
     let image = |image: ImageId| name(plan, Resource::Image(image));
     let resolves: Vec<String> = scope
-        .attachments()
+        .attachments
+        .iter()
         .filter_map(|it| Some(format!("{} → {}", image(it.image), image(it.resolve.as_ref()?.image))))
         .collect();
     (!resolves.is_empty()).then(|| resolves.join(", "))

@@ -2,7 +2,7 @@
 
 use super::labels::{Graph, Vertex};
 use framewright_graph::dataflow::{Dataflow, NodeKind};
-use framewright_graph::plan::{Plan, Work};
+use framewright_graph::plan::Plan;
 use std::fmt::Write;
 
 /// The graph. Passes of one rendering scope stand in one box.
@@ -14,10 +14,8 @@ pub(crate) fn dot(plan: &Plan, flow: &Dataflow) -> String {
     );
     let mut scope = None;
     for (index, vertex) in graph.vertices.iter().enumerate() {
-        let step = graph
-            .node(*vertex)
-            .map(|node| node.step)
-            .filter(|step| matches!(&plan.steps[step.0 as usize].work, Work::Render(_)));
+        let step =
+            graph.node(*vertex).map(|node| node.step).filter(|step| plan.steps[step.0 as usize].work.scope().is_some());
         if scope != step {
             if scope.is_some() {
                 dot += "  }\n";

@@ -95,7 +95,7 @@ fn mean(
 fn drawn(plan: &Plan, size: Size) -> ([u32; 2], u32) {
     let scopes = plan.steps.iter().filter_map(|step| step.work.scope());
     let of_objects = scopes.filter(|scope| {
-        !scope.color.is_empty() && scope.passes.iter().any(|pass| pass.draw.is_some_and(Draw::shows_objects))
+        !scope.color().is_empty() && scope.passes.iter().any(|pass| pass.draw.is_some_and(Draw::shows_objects))
     });
     let largest = of_objects.max_by_key(|scope| u64::from(scope.extent[0]) * u64::from(scope.extent[1]));
     largest.map_or(([size.width, size.height], 1), |scope| (scope.extent, scope.samples))

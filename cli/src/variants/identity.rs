@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn values_change_the_plan_and_not_its_shape() {
-        let clear = |value| changed(|plan| scope(plan).color[0].clear = Some([0.0, value, 0.0, 1.0]));
+        let clear = |value| changed(|plan| scope(plan).attachments[0].clear = Some([0.0, value, 0.0, 1.0]));
         let groups = |count| {
             let groups = framewright_graph::frame::Groups::Count([count, 1, 1]);
             changed(|plan| scope(plan).passes[0].groups = Some(groups))

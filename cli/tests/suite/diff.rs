@@ -43,7 +43,7 @@ fn wrong_choices_and_damaged_plans_are_told() {
     let plan = read(&place, "plan.json");
     place.file("cut.json", &plan[..plan.len() / 2]);
     place.run(&["diff", "cut.json", "forward.ron"]).exits(1).mentions("cut.json: not a Plan: ");
-    place.file("newer.json", plan.replacen("\"format_version\": 13", "\"format_version\": 99", 1));
+    place.file("newer.json", plan.replacen("\"format_version\": 14", "\"format_version\": 99", 1));
     place.run(&["diff", "newer.json", "forward.ron"]).exits(1).mentions("the Plan has format version 99");
     place.file("wrong.json", plan.replacen("\"SHADER_READ_ONLY_OPTIMAL\"", "\"GENERAL\"", 1));
     place.run(&["diff", "wrong.json", "forward.ron"]).exits(1).mentions("wrong.json: the Plan is not right: ");

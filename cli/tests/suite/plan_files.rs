@@ -159,11 +159,11 @@ fn what_a_plan_says_itself_can_not_be_chosen() {
 #[test]
 fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
     let Some(bench) = Bench::new() else { return };
-    let version = "\"format_version\": 13";
-    bench.changed(version, "\"format_version\": 14");
+    let version = "\"format_version\": 14";
+    bench.changed(version, "\"format_version\": 13");
     assert_eq!(
         bench.refused().trim_end(),
-        "error: changed.json: the Plan has format version 14, this program reads version 13: compile it again"
+        "error: changed.json: the Plan has format version 13, this program reads version 14: compile it again"
     );
     bench.changed("\"layers\": 1", "\"layers\": 1000000000");
     assert!(bench.refused().contains("has no images like `color`"), "{}", bench.refused());

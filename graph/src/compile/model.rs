@@ -3,7 +3,7 @@
 use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
-use crate::plan::{Inserted, Note};
+use crate::plan::{AttachmentKind, Inserted, Note};
 use crate::vulkan::{
     AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
     Stages, State, Subresources, Usage,
@@ -410,9 +410,19 @@ pub(super) enum Role {
 }
 
 impl Role {
+    /// Which attachment of a rendering scope it is, if it is one.
+    pub(super) fn attachment(self) -> Option<AttachmentKind> {
+        match self {
+            Role::Color => Some(AttachmentKind::Color),
+            Role::Depth => Some(AttachmentKind::Depth),
+            Role::Stencil => Some(AttachmentKind::Stencil),
+            Role::Sampled | Role::Input | Role::Storage | Role::Buffer | Role::Source | Role::Target => None,
+        }
+    }
+
     /// Whether it is an attachment of a rendering scope.
     pub(super) fn is_attachment(self) -> bool {
-        matches!(self, Role::Color | Role::Depth | Role::Stencil)
+        self.attachment().is_some()
     }
 
     /// The usage that it takes of an image.

@@ -3,9 +3,7 @@
 use crate::base::{Diagnostic, MOST_KEPT, Span};
 use crate::frame::{Draw, Frame};
 use crate::plan::{Pass, Plan};
-use crate::shader::{
-    BindingKind, EyeSource, PARAMS, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
-};
+use crate::shader::{EyeSource, PARAMS, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
 use std::sync::Arc;
 
 /// The shaders that don't compile as the passes of `plan` are drawn, or don't fit them then: for both eyes at once, into a part of an
@@ -51,7 +49,7 @@ fn unmet(pass: &Pass, interface: &ShaderInterface) -> Option<String> {
         return Some(format!("it has no `{surplus}`, which pass `{}` gives", pass.name));
     }
     // The values of the pass go to this block.
-    let own = own().filter(|it| it.name != PARAMS || !matches!(it.kind, BindingKind::UniformBlock(_)));
+    let own = own().filter(|it| it.name != PARAMS || it.kind.uniform_block().is_none());
     let mut elements = own.flat_map(|binding| (0..binding.count()).map(|number| binding.element(number)));
     let missing = elements.find(|name| !given.contains(&&**name))?;
     Some(format!("it declares `{missing}`, which pass `{}` doesn't give", pass.name))

@@ -55,7 +55,8 @@ fn of_transfer(plan: &Plan, step: StepId, kind: NodeKind, transfer: &Transfer) -
 fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node>) {
     // An attachment whose load op drops what was there has contents from its first use on.
     let mut fresh: Vec<(ImageId, Subresources)> = scope
-        .attachments()
+        .attachments
+        .iter()
         .filter(|attachment| attachment.load != LoadOp::Load)
         .map(|attachment| (attachment.image, attachment.range))
         .collect();
@@ -71,7 +72,7 @@ fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node
         }
         nodes.push(of_pass(step, NodeKind::Draw, pass, uses));
     }
-    for Attachment { image, range, resolve, .. } in scope.attachments() {
+    for Attachment { image, range, resolve, .. } in &scope.attachments {
         let Some(resolve) = resolve else { continue };
         let part = |image, range, role| Use {
             resource: Resource::Image(image),

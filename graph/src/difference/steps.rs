@@ -64,7 +64,7 @@ impl Described<'_> {
             }
             all.push(self.pass(pass, fields));
         }
-        for attachment in scope.attachments() {
+        for attachment in &scope.attachments {
             all.push(self.attachment(attachment, &first));
             if let Some(resolve) = &attachment.resolve {
                 let sides = [(attachment.image, attachment.range), (resolve.image, resolve.range)];

@@ -3,7 +3,7 @@
 use crate::base::{Diagnostic, Span};
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface, element_of};
+use crate::shader::{Binding, PASS_SET, ShaderInterface, element_of};
 
 /// What a pass gives under `name` goes to this binding of its shader.
 pub(super) fn binding<'i>(interface: &'i ShaderInterface, name: &str) -> Option<&'i Binding> {
@@ -19,7 +19,7 @@ pub(super) fn misfit<'i>(
 ) -> Option<(&'i str, Option<Diagnostic>)> {
     let (name, element) = element_of(&given.text).map_or((&*given.text, None), |(name, at)| (name, Some(at)));
     let binding = interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name == name)?;
-    if let BindingKind::Other(_) = binding.kind {
+    if binding.kind.unbindable().is_some() {
         // It is reported with the shader.
         return Some((&binding.name, None));
     }

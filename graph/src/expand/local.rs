@@ -5,7 +5,7 @@ use super::shader::Checked;
 use crate::base::Diagnostic;
 use crate::frame::{Face, Pass};
 use crate::language;
-use crate::shader::{BindingKind, PASS_SET, ShaderInterface, Variant};
+use crate::shader::{PASS_SET, ShaderInterface, Variant};
 
 /// Reports images that a pass reads at its own position, if its shader compiled for local reads can't read them so.
 /// `interface`: the shader compiled without local reads, as `variant`; mistakes in it are reported already.
@@ -38,11 +38,10 @@ pub(super) fn check(
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     for sample in own {
         let name = &sample.binding.text;
-        let reads = local.bindings.iter().any(|binding| {
-            binding.set == PASS_SET
-                && *binding.name == **name
-                && matches!(binding.kind, BindingKind::InputAttachment { .. })
-        });
+        let reads = local
+            .bindings
+            .iter()
+            .any(|binding| binding.set == PASS_SET && *binding.name == **name && binding.kind.is_input_attachment());
         if !reads {
             let span = sample.own_pixel.map_or(sample.part.image.span, |own| own.span);
             let message = format!(

@@ -26,7 +26,7 @@ pub(super) fn keep(resources: &Resources<'_>, passes: &mut Vec<Pass>) {
 
 /// The transfer of a copy into a buffer that has more bytes than the texels.
 fn padded(resources: &Resources<'_>, pass: &Pass) -> Option<usize> {
-    let (Work::Copy, [source, target]) = (&pass.work, &pass.transfers[..]) else { return None };
+    let (true, [source, target]) = (pass.work.is_copy(), &pass.transfers[..]) else { return None };
     let (Resource::Image(image), Resource::Buffer(buffer)) = (source.resource, target.resource) else { return None };
     let (image, buffer) = (&resources.image(image)?.image, resources.buffer(buffer)?);
     let part = image.part(source.range);

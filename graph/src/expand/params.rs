@@ -5,7 +5,7 @@ use crate::base::{Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{BindingKind, Block, PASS_SET, ParamMisfit, ParamType, ShaderInterface};
+use crate::shader::{Block, PASS_SET, ParamMisfit, ParamType, ShaderInterface};
 use std::sync::Arc;
 
 /// What a type is that no pipeline file can give.
@@ -69,10 +69,8 @@ pub(super) fn as_written(pass: &language::Pass) -> Vec<(Arc<str>, ParamValue)> {
 }
 
 fn block(interface: &ShaderInterface) -> Option<&Block> {
-    interface.bindings.iter().find_map(|binding| match &binding.kind {
-        BindingKind::UniformBlock(block) if binding.set == PASS_SET && binding.name == PARAMS => Some(block),
-        _ => None,
-    })
+    let mut own = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name == PARAMS);
+    own.find_map(|binding| binding.kind.uniform_block())
 }
 
 /// How a parameter's value is shown: "`3` (setting `steps`)".

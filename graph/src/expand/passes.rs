@@ -24,10 +24,8 @@ pub(super) fn lower(
     let path = shaders.find(pass, errors);
     let interface = path.as_ref().and_then(|path| shaders.found_interface(pass, path, &variant, errors));
     let mut lowered = draft(resources, pass, interface.as_ref(), errors);
-    if let Work::Draw { shader, .. } | Work::Dispatch { shader, .. } = &mut lowered.work
-        && let Some(found) = &path
-    {
-        *shader = found.clone();
+    if let Some(found) = &path {
+        lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
     transfers::draw_part(resources, &mut lowered, errors);

@@ -34,17 +34,17 @@ fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
             let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
             Some(Declared { shape, adapts: false, input: true, compares: false })
         }
-        _ => None,
+        BindingKind::StorageImage { .. }
+        | BindingKind::UniformBlock(_)
+        | BindingKind::StorageBlock { .. }
+        | BindingKind::Other(_) => None,
     }
 }
 
 /// Names of images that a shader samples.
 fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
     let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
-    let sampled = |kind: &BindingKind| {
-        use BindingKind::{ComparedDepth, InputAttachment, SampledImage};
-        matches!(kind, SampledImage(_) | ComparedDepth(_) | InputAttachment { .. })
-    };
+    let sampled = |kind: &BindingKind| kind.is_sampled() || kind.is_input_attachment();
     of_pass.filter(move |binding| sampled(&binding.kind)).map(|binding| &*binding.name)
 }
 

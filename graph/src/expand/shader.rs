@@ -175,7 +175,7 @@ pub(super) fn missing(
     let is_given = |name: &str| if many.is_empty() { given().any(|given| given == name) } else { many.contains(name) };
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let name = &binding.name;
-        if let BindingKind::Other(Unbindable { what, instead, place }) = &binding.kind {
+        if let Some(Unbindable { what, instead, place }) = binding.kind.unbindable() {
             let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
             let message = format!("shader `{shader}` declares `{name}` as {what}{at}, which isn't supported");
             errors.push(Diagnostic::new(*span, message).help(instead));
@@ -219,7 +219,7 @@ fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static s
 /// gives. `Some(None)`: no field can give it, which is reported with the shader.
 pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Option<Option<String>> {
     let binding = arrays::binding(interface, name)?;
-    if let BindingKind::Other(_) = binding.kind {
+    if binding.kind.unbindable().is_some() {
         return Some(None);
     }
     let (kind, thing, field) = given_in(binding)?;

@@ -25,16 +25,6 @@ fn of_pass<'a>(interface: &'a ShaderInterface, name: &str) -> Option<&'a Binding
     arrays::binding(interface, name)
 }
 
-/// Whether a shader may read, and may write, a binding of this kind.
-fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
-    match kind {
-        BindingKind::StorageImage { readable, writable, .. } | BindingKind::StorageBlock { readable, writable, .. } => {
-            Some((*readable, *writable))
-        }
-        _ => None,
-    }
-}
-
 /// Whether a storage image or buffer is read and written: as the file says, else as the shader's declaration allows. Without
 /// either, it is written. Contents of an earlier frame are only read.
 fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
@@ -47,7 +37,7 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
         Some(StorageAccess::ReadWrite) => (true, true),
         None => {
             let declared = interface.and_then(|interface| of_pass(interface, &storage.binding.text));
-            declared.and_then(|binding| allowed(&binding.kind)).unwrap_or((false, true))
+            declared.and_then(|binding| binding.kind.storage()).unwrap_or((false, true))
         }
     }
 }
@@ -72,8 +62,8 @@ pub(super) fn keep(
             Resource::Buffer(_) => {
                 let mut buffers = pass.buffers.iter_mut();
                 let Some(used) = buffers.find(|used| used.binding.as_ref() == Some(name)) else { continue };
-                let BufferRole::Storage { read, write } = &mut used.role else { continue };
-                (read, *write, Subresources::WHOLE)
+                let Some((read, write)) = used.role.storage_mut() else { continue };
+                (read, write, Subresources::WHOLE)
             }
         };
         let Some(cells) = accesses::part(resources, of, &range) else { continue };
@@ -113,7 +103,7 @@ pub(super) fn lower(
 /// Names of storage images, storage blocks and uniform blocks that a shader has.
 fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
     let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name != PARAMS);
-    let fits = |kind: &BindingKind| allowed(kind).is_some() || matches!(kind, BindingKind::UniformBlock(_));
+    let fits = |kind: &BindingKind| kind.storage().is_some() || kind.uniform_block().is_some();
     of_pass.filter(move |binding| fits(&binding.kind)).map(|binding| &*binding.name)
 }
 
@@ -168,26 +158,26 @@ pub(super) fn check<'i>(
                 continue;
             }
         }
-        if let Some((readable, writable)) = kind.and_then(allowed) {
+        if let Some((readable, writable)) = kind.and_then(BindingKind::storage) {
             access_fits(shader, storage, readable, writable, errors);
         }
     }
     for uniform in &pass.uniform {
         let name = &uniform.binding;
-        match of_pass(interface, &name.text).map(|binding| &binding.kind) {
-            Some(BindingKind::UniformBlock(block)) if *name.text != *PARAMS => {
+        match of_pass(interface, &name.text).and_then(|binding| binding.kind.uniform_block()) {
+            Some(block) if *name.text != *PARAMS => {
                 let what = format!("the members of the block `{}`", name.text);
                 let (buffer, span) = (&uniform.part.buffer, uniform.part.buffer.span);
                 work::holds(resources, buffer, u64::from(block.bytes), &what, span, errors);
             }
-            Some(BindingKind::UniformBlock(_)) => {
+            Some(_) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
                 errors.push(
                     Diagnostic::new(name.span, message)
                         .help(format!("leave it out; parameters are given by `{PARAMS}: {{\"…\": …}}`")),
                 );
             }
-            _ => unknown(name, "no uniform block", errors),
+            None => unknown(name, "no uniform block", errors),
         }
     }
     misspelt

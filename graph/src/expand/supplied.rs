@@ -6,7 +6,7 @@ use super::work;
 use crate::base::{Diagnostic, OutsideChoice, suggestion};
 use crate::device::Need;
 use crate::frame::Draw;
-use crate::language::{self, Work};
+use crate::language;
 use crate::ron::Name;
 use crate::shader::{
     Binding, DrawInterface, LayoutFault, PASS_SET, ShaderInterface, Supplied, VertexLayout, resource_needs,
@@ -38,7 +38,7 @@ pub(super) fn check(
 /// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
 pub(super) fn needs(shaders: &mut Checked<'_>, pass: &language::Pass, interface: &ShaderInterface) -> Vec<Need> {
     // A compute shader that reads nothing of what is brought along has nothing of it bound.
-    let dispatched = matches!(pass.work, Work::Dispatch { .. });
+    let dispatched = pass.work.is_dispatch();
     let binds = !dispatched || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = binds.then(|| shaders.brought_along(pass)).flatten();
     let supplied = brought.iter().flat_map(|brought| &brought.supplied);
@@ -146,7 +146,7 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mu
 
 /// Reports a custom pass that the program doesn't record.
 pub(super) fn custom(shaders: &Checked<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    let Work::Custom { callback: Name { text, span }, .. } = &pass.work else { return };
+    let Some(Name { text, span }) = pass.work.callback() else { return };
     let Some(known) = shaders.custom_passes() else { return };
     if !known.contains(text) {
         let message = format!("nobody records `{text}`, which the custom pass `{}` asks for", pass.name.text);

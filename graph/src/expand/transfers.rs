@@ -245,9 +245,7 @@ pub(super) fn blit(
 /// A linear filter mixes in texels beyond the part of an image that a frame uses, which nobody wrote: a blit clamps at the image's edge.
 /// A draw clamps at the part's.
 pub(super) fn draw_part(resources: &Resources<'_>, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
-    let (Work::Blit { filter: Filter::Linear }, [source, target]) = (&lowered.work, &lowered.transfers[..]) else {
-        return;
-    };
+    let (Some(Filter::Linear), [source, target]) = (lowered.work.filter(), &lowered.transfers[..]) else { return };
     let (Resource::Image(from), Resource::Image(to)) = (source.resource, target.resource) else { return };
     let (Some(one), Some(other)) = (resources.image(from), resources.image(to)) else { return };
     let (one, other) = (&one.image, &other.image);

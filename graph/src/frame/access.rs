@@ -218,21 +218,44 @@ impl BufferRole {
     }
 
     /// Whether shaders access it, in stages that the pass says.
-    pub(crate) const fn is_of_shaders(self) -> bool {
+    #[must_use]
+    pub const fn is_of_shaders(self) -> bool {
         match self {
             BufferRole::Uniform | BufferRole::Storage { .. } => true,
             BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => false,
         }
     }
 
+    /// Whether it holds the counts of a draw or dispatch.
+    #[must_use]
+    pub const fn is_indirect(self) -> bool {
+        matches!(self, BufferRole::Indirect)
+    }
+
+    /// Whether it holds indices.
+    #[must_use]
+    pub const fn is_index(self) -> bool {
+        matches!(self, BufferRole::Index)
+    }
+
     /// Whether earlier contents are read or kept.
-    pub(crate) const fn reads(self) -> bool {
+    #[must_use]
+    pub const fn reads(self) -> bool {
         !matches!(self, BufferRole::Storage { read: false, .. })
     }
 
     /// Whether the buffer is written.
-    pub(crate) const fn writes(self) -> bool {
+    #[must_use]
+    pub const fn writes(self) -> bool {
         matches!(self, BufferRole::Storage { write: true, .. })
+    }
+
+    /// Whether a storage block is read, to be changed, and whether it is written; `None`: it is none.
+    pub(crate) const fn storage_mut(&mut self) -> Option<(&mut bool, bool)> {
+        match self {
+            BufferRole::Storage { read, write } => Some((read, *write)),
+            BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
+        }
     }
 }
 

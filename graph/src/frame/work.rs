@@ -193,6 +193,37 @@ impl Work {
         }
     }
 
+    /// The filter, if it is a blit.
+    #[must_use]
+    pub const fn filter(&self) -> Option<Filter> {
+        match self {
+            Work::Blit { filter } => Some(*filter),
+            _ => None,
+        }
+    }
+
+    /// Whether it is a copy.
+    #[must_use]
+    pub const fn is_copy(&self) -> bool {
+        matches!(self, Work::Copy)
+    }
+
+    /// Has a draw or dispatch use another shader.
+    pub(crate) fn set_shader(&mut self, found: &Arc<str>) {
+        match self {
+            Work::Draw { shader, .. } | Work::Dispatch { shader, .. } => shader.clone_from(found),
+            Work::Copy | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } | Work::Forward { .. } => {}
+        }
+    }
+
+    /// Source and target of a forward, to be changed.
+    pub(crate) fn forwarded_mut(&mut self) -> Option<[&mut ImageIndex; 2]> {
+        match self {
+            Work::Forward { from, to, .. } => Some([from, to]),
+            _ => None,
+        }
+    }
+
     /// Source and target, if it stands in for a pass that is off.
     #[must_use]
     pub const fn forwarded(&self) -> Option<[ImageIndex; 2]> {

@@ -66,12 +66,12 @@ pub use text::{About, Detail, Outline};
 pub use totals::Totals;
 pub use view::{View, ViewEye};
 pub use work::{
-    Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass,
-    RenderScope, Side, Transfer, Work,
+    Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param,
+    Pass, RenderScope, Side, Transfer, Work,
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 13;
+pub const FORMAT_VERSION: u32 = 14;
 
 /// The work of a frame on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -174,6 +174,6 @@ impl Plan {
     }
 
     fn first_attachment(&self, scope: &RenderScope) -> Option<&Image> {
-        scope.attachments().next().and_then(|first| self.images.get(first.image.0 as usize))
+        scope.attachments.first().and_then(|first| self.images.get(first.image.0 as usize))
     }
 }

@@ -65,7 +65,9 @@ impl Plan {
             [transfer.source, transfer.target].map(|side| (side.resource(), moved(self.of_side(side)))).into()
         };
         match &step.work {
-            Work::Render(scope) => scope.attachments().flat_map(|attachment| self.of_attachment(attachment)).collect(),
+            Work::Render(scope) => {
+                scope.attachments.iter().flat_map(|attachment| self.of_attachment(attachment)).collect()
+            }
             Work::Resolve(transfer) => sides(transfer, |resolved| Moved { resolved, ..Moved::default() }),
             Work::Copy(transfer) | Work::Blit(transfer) => {
                 sides(transfer, |copied| Moved { copied, ..Moved::default() })

@@ -56,7 +56,7 @@ impl Totals {
             Work::Render(scope) => {
                 self.scopes += 1;
                 scope.passes.iter().for_each(|pass| self.pass(pass));
-                let folded = scope.attachments().filter(|target| target.resolve.is_some()).count();
+                let folded = scope.attachments.iter().filter(|target| target.resolve.is_some()).count();
                 self.folded_resolves += length(folded);
                 self.resolves += length(folded);
             }

@@ -28,10 +28,10 @@ impl Plan {
             step.work.passes_mut().iter_mut().for_each(forget_pass);
             match &mut step.work {
                 Work::Render(scope) => {
-                    if scope.attachments().next().is_some_and(|first| changes(first.image)) {
+                    if scope.attachments.first().is_some_and(|first| changes(first.image)) {
                         scope.extent = [0, 0];
                     }
-                    scope.attachments_mut().for_each(forget_attachment);
+                    scope.attachments.iter_mut().for_each(forget_attachment);
                 }
                 Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
                     transfer.cause = Cause::Written(None);

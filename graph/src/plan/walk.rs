@@ -1,18 +1,39 @@
 //! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
 
-use super::{Attachment, Pass, RenderScope, Resource, Side, Step, Work};
+use super::{Attachment, AttachmentKind, Pass, RenderScope, Resource, Side, Step, Work};
 use crate::vulkan::Subresources;
 use std::slice;
 
 impl RenderScope {
-    /// Its attachments: colour by location, then depth, then stencil.
-    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
-        self.color.iter().chain(&self.depth).chain(&self.stencil)
+    /// Colour attachments by location.
+    #[must_use]
+    pub fn color(&self) -> &[Attachment] {
+        let is_color = |attachment: &Attachment| attachment.kind == AttachmentKind::Color;
+        let count = self.attachments.iter().take_while(|it| is_color(it)).count();
+        &self.attachments[..count]
     }
 
-    /// Its attachments, to be changed.
-    pub fn attachments_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
-        self.color.iter_mut().chain(&mut self.depth).chain(&mut self.stencil)
+    /// The depth attachment.
+    #[must_use]
+    pub fn depth(&self) -> Option<&Attachment> {
+        self.only(AttachmentKind::Depth)
+    }
+
+    /// The stencil attachment.
+    #[must_use]
+    pub fn stencil(&self) -> Option<&Attachment> {
+        self.only(AttachmentKind::Stencil)
+    }
+
+    fn only(&self, kind: AttachmentKind) -> Option<&Attachment> {
+        self.attachments.iter().find(|attachment| attachment.kind == kind)
+    }
+
+    /// Whether the attachments stand in the order of their kinds, and no kind comes more often than it may.
+    #[must_use]
+    pub fn is_in_order(&self) -> bool {
+        let ordered = |a: &Attachment, b: &Attachment| a.kind < b.kind || a.kind == b.kind && a.kind.may_repeat();
+        self.attachments.is_sorted_by(ordered)
     }
 }
 
@@ -32,9 +53,21 @@ impl Work {
         }
     }
 
+    /// Whether it is a compute pass.
+    #[must_use]
+    pub fn is_dispatch(&self) -> bool {
+        matches!(self, Work::Dispatch(_))
+    }
+
+    /// Whether the embedding program records it.
+    #[must_use]
+    pub fn is_custom(&self) -> bool {
+        matches!(self, Work::Custom(_))
+    }
+
     /// The attachments of its rendering scope.
     pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
-        self.scope().into_iter().flat_map(RenderScope::attachments)
+        self.scope().into_iter().flat_map(|scope| &scope.attachments)
     }
 
     /// Its passes in order.

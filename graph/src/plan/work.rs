@@ -3,7 +3,7 @@
 use super::{BufferId, Cause, ImageId, Reason, Resource, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
 use crate::vulkan::{
-    Accesses, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
+    Accesses, Aspects, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
     Subresources,
 };
 use serde::{Deserialize, Serialize};
@@ -41,20 +41,52 @@ pub struct RenderScope {
     pub layers: u32,
     /// Samples of its attachments.
     pub samples: u32,
-    /// Colour attachments by location.
-    pub color: Vec<Attachment>,
-    /// Depth attachment.
-    pub depth: Option<Attachment>,
-    /// Stencil attachment: another plane of the depth attachment's image, if there are both.
-    pub stencil: Option<Attachment>,
+    /// Attachments: of colour by location, then depth, then stencil, which is another plane of the depth attachment's image if
+    /// there are both.
+    pub attachments: Vec<Attachment>,
     /// Passes in order.
     pub passes: Vec<Pass>,
+}
+
+/// What an attachment is to its scope. A scope lists its attachments in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AttachmentKind {
+    /// A colour attachment; its location is the number of those before it.
+    Color,
+    /// The depth attachment.
+    Depth,
+    /// The stencil attachment.
+    Stencil,
+}
+
+impl AttachmentKind {
+    /// The plane of an image that it is.
+    #[must_use]
+    pub const fn plane(self) -> Aspects {
+        match self {
+            AttachmentKind::Color => Aspects::COLOR,
+            AttachmentKind::Depth => Aspects::DEPTH,
+            AttachmentKind::Stencil => Aspects::STENCIL,
+        }
+    }
+
+    /// Whether a scope may have several of its kind.
+    #[must_use]
+    pub const fn may_repeat(self) -> bool {
+        match self {
+            AttachmentKind::Color => true,
+            AttachmentKind::Depth | AttachmentKind::Stencil => false,
+        }
+    }
 }
 
 /// An attachment of a rendering scope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
+    /// What it is to the scope.
+    pub kind: AttachmentKind,
     /// Which image.
     pub image: ImageId,
     /// Which part of it: one mip level, one plane.
@@ -173,6 +205,23 @@ pub enum BindingKind {
     Storage,
     /// An input attachment.
     InputAttachment,
+}
+
+impl BindingKind {
+    /// The sampler, if it is sampled.
+    #[must_use]
+    pub fn sampler(&self) -> Option<&Sampler> {
+        match self {
+            BindingKind::Sampled(sampler) => Some(sampler),
+            BindingKind::Storage | BindingKind::InputAttachment => None,
+        }
+    }
+
+    /// Whether it is an input attachment.
+    #[must_use]
+    pub fn is_input_attachment(&self) -> bool {
+        matches!(self, BindingKind::InputAttachment)
+    }
 }
 
 /// A value for a member of a shader's parameter block.

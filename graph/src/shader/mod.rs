@@ -158,14 +158,80 @@ pub enum BindingKind {
 }
 
 impl BindingKind {
+    /// Whether the shader may write it.
+    #[must_use]
+    pub fn is_written(&self) -> bool {
+        self.storage().is_some_and(|(_, writable)| writable)
+    }
+
+    /// Whether the shader may read, and may write, a storage image or block; `None`: it is none.
+    #[must_use]
+    pub fn storage(&self) -> Option<(bool, bool)> {
+        match self {
+            BindingKind::StorageImage { readable, writable, .. }
+            | BindingKind::StorageBlock { readable, writable, .. } => Some((*readable, *writable)),
+            _ => None,
+        }
+    }
+
+    /// Whether the shader samples it.
+    #[must_use]
+    pub fn is_sampled(&self) -> bool {
+        matches!(self, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_))
+    }
+
+    /// Whether sampling compares it with a depth.
+    #[must_use]
+    pub fn is_compared(&self) -> bool {
+        matches!(self, BindingKind::ComparedDepth(_))
+    }
+
+    /// Whether it is an input attachment.
+    #[must_use]
+    pub fn is_input_attachment(&self) -> bool {
+        matches!(self, BindingKind::InputAttachment { .. })
+    }
+
+    /// The block, if it is a uniform block.
+    #[must_use]
+    pub fn uniform_block(&self) -> Option<&Block> {
+        match self {
+            BindingKind::UniformBlock(block) => Some(block),
+            _ => None,
+        }
+    }
+
+    /// Whether the shader may write a storage block, and the bytes of its members; `None`: it is none.
+    #[must_use]
+    pub fn storage_block(&self) -> Option<(bool, u32)> {
+        match self {
+            BindingKind::StorageBlock { writable, bytes, .. } => Some((*writable, *bytes)),
+            _ => None,
+        }
+    }
+
+    /// The resource that no pass can give, if it is one.
+    #[must_use]
+    pub fn unbindable(&self) -> Option<&Unbindable> {
+        match self {
+            BindingKind::Other(unbindable) => Some(unbindable),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    #[must_use]
+    pub fn unbindable_mut(&mut self) -> Option<&mut Unbindable> {
+        match self {
+            BindingKind::Other(unbindable) => Some(unbindable),
+            _ => None,
+        }
+    }
+
     /// Whether the shader may write it, and can't read it.
     #[must_use]
     pub fn is_only_written(&self) -> bool {
-        matches!(
-            self,
-            BindingKind::StorageImage { readable: false, writable: true, .. }
-                | BindingKind::StorageBlock { readable: false, writable: true, .. }
-        )
+        self.storage() == Some((false, true))
     }
 
     /// The kind in words.

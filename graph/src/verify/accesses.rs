@@ -16,7 +16,7 @@ use super::work::{is_attached, mip_extent};
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
-    Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, Aspects, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 /// How an access is kept apart from others of its step.
@@ -141,8 +141,7 @@ fn side(side: &Side, stages: Stages, accesses: Accesses, usage: [u32; 2], conten
 
 /// The attachments of a scope: whether they are of colour beside each.
 pub(super) fn attachments(scope: &RenderScope) -> impl Iterator<Item = (&Attachment, bool)> {
-    let color = scope.color.iter().map(|attachment| (attachment, true));
-    color.chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)))
+    scope.attachments.iter().map(|attachment| (attachment, attachment.kind.plane() == Aspects::COLOR))
 }
 
 fn render(scope: &RenderScope, to: &mut Builder) {
@@ -261,14 +260,14 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
     let same = |attachment: &Attachment| attachment.image == access.image && attachment.range == access.range;
     let deep = pass.depth.is_some_and(|depth| depth.write);
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
-    let mut targets = scope.color.iter().zip(&pass.blend);
+    let mut targets = scope.color().iter().zip(&pass.blend);
     let passes = untested && unmasked;
     let proven = pass.draw.is_some_and(Draw::is_full_screen) && !pass.discards && pass.untouched.is_none() && passes;
     scope.layers == 1
         && (proven || pass.covers)
         && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
-            || passes && deep && scope.depth.as_ref().is_some_and(same)
-            || passes && set && scope.stencil.as_ref().is_some_and(same))
+            || passes && deep && scope.depth().is_some_and(same)
+            || passes && set && scope.stencil().is_some_and(same))
 }
 
 fn buffer_usage(accesses: Accesses) -> BufferUsage {

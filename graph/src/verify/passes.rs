@@ -66,10 +66,10 @@ impl<'p> Check<'_, 'p> {
         {
             self.wrong_pass(pass, "draws a part of the shadows' reach that there isn't");
         }
-        if pass.blend.len() != scope.color.len() {
+        if pass.blend.len() != scope.color().len() {
             self.wrong_pass(pass, "doesn't say how each colour attachment is blended");
         }
-        let covers = scope.samples > 1 && !scope.color.is_empty() && pass.redraws.is_none();
+        let covers = scope.samples > 1 && !scope.color().is_empty() && pass.redraws.is_none();
         if pass.alpha_to_coverage && !(covers && pass.discards) {
             self.wrong_pass(pass, "covers samples by alpha and can't, or doesn't say that fragments may be lost");
         }
@@ -77,7 +77,7 @@ impl<'p> Check<'_, 'p> {
         if pass.local_barrier && !local {
             self.wrong_pass(pass, "has a local barrier in a scope without local reads");
         }
-        for (attachment, blend) in scope.color.iter().zip(&pass.blend) {
+        for (attachment, blend) in scope.color().iter().zip(&pass.blend) {
             let reads = *blend != Blend::Replace;
             let integer = self.plan.image(attachment.image).format.is_integer();
             self.demand(!(reads && integer), attachment.image, "has integers, which can't be blended");
@@ -90,7 +90,7 @@ impl<'p> Check<'_, 'p> {
         }
         self.depth(scope, pass);
         self.stencil(scope, pass);
-        let tests = if scope.depth.is_some() || scope.stencil.is_some() { TESTS } else { Stages::empty() };
+        let tests = if scope.depth().is_some() || scope.stencil().is_some() { TESTS } else { Stages::empty() };
         let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
         let by = if pass.draw.is_some_and(Draw::is_custom) { By::Program } else { By::Plan };
         for access in &pass.accesses {
@@ -101,7 +101,7 @@ impl<'p> Check<'_, 'p> {
             let stray = access.accesses.intersects(ATTACHMENT) && !attached;
             self.demand(!stray, access.image, "is accessed as an attachment that its scope doesn't have");
         }
-        let indexed = pass.buffers.iter().any(|access| access.role == Some(BufferRole::Index));
+        let indexed = pass.buffers.iter().any(|access| access.role.is_some_and(BufferRole::is_index));
         if let (Some([count, _]), true) = (pass.draw.and_then(Draw::counts), indexed) {
             self.holds(pass, BufferRole::Index, u64::from(count) * 4);
         }
@@ -112,7 +112,7 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn depth(&mut self, scope: &RenderScope, pass: &Pass) {
-        let (state, attachment) = match (&pass.depth, &scope.depth) {
+        let (state, attachment) = match (&pass.depth, scope.depth()) {
             (Some(state), Some(attachment)) => (state, attachment),
             (Some(_), None) => return self.wrong_pass(pass, "tests depth without a depth attachment"),
             (None, _) => return,
@@ -122,7 +122,7 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn stencil(&mut self, scope: &RenderScope, pass: &Pass) {
-        let (state, attachment) = match (&pass.stencil, &scope.stencil) {
+        let (state, attachment) = match (&pass.stencil, scope.stencil()) {
             (Some(state), Some(attachment)) => (state, attachment),
             (Some(_), None) => return self.wrong_pass(pass, "tests stencil without a stencil attachment"),
             (None, _) => return,
@@ -242,18 +242,14 @@ impl<'p> Check<'_, 'p> {
         };
         self.demand(!of_shader.is_empty(), access.image, "is bound without such an access");
         self.demand(possible.contains(of_shader), access.image, "is accessed by a shader without such a binding");
-        let linear = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.is_linear());
+        let sampler = binding.kind.sampler();
+        let linear = sampler.is_some_and(Sampler::is_linear);
         let Image { allocated, format, .. } = self.plan.image(access.image);
-        let ends = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.address == AddressMode::ClampToEdge);
-        let sampled = matches!(binding.kind, BindingKind::Sampled(_));
-        self.demand(
-            allocated.is_none() || ends || !sampled,
-            access.image,
-            "is used in part and looked up beyond its edges",
-        );
+        let beyond = sampler.is_some_and(|sampler| sampler.address != AddressMode::ClampToEdge);
+        self.demand(allocated.is_none() || !beyond, access.image, "is used in part and looked up beyond its edges");
         let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
-        let compares = matches!(binding.kind, BindingKind::Sampled(Sampler { compare: Some(_), .. }));
+        let compares = sampler.is_some_and(|sampler| sampler.compare.is_some());
         let depth = format.is_depth() && access.range.aspects != Aspects::STENCIL;
         self.demand(!compares || depth, access.image, "is compared with a depth, and holds none");
         let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));
@@ -318,7 +314,7 @@ impl<'p> Check<'_, 'p> {
         if !by.waits(access.stages, access.accesses) {
             self.found.structure(Some(self.id), resource, NOT_WAITED);
         }
-        let named = matches!(access.role, Some(BufferRole::Uniform | BufferRole::Storage { .. }));
+        let named = access.role.is_some_and(BufferRole::is_of_shaders);
         if named != access.binding.is_some() {
             self.found.structure(Some(self.id), resource, "has a shader's name exactly if a shader names it");
         }

@@ -2,17 +2,14 @@
 
 use super::findings::Findings;
 use crate::plan::names::Shown;
-use crate::plan::{Image, Pass, Plan, RenderScope, StepId, Work};
+use crate::plan::{Image, Pass, Plan, RenderScope, StepId};
 use std::collections::HashMap;
 
 /// Reports passes that draw depth again, and not that of another pass.
 pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     let drawn = || {
         let steps = (0..).map(StepId).zip(&plan.steps);
-        steps.filter_map(|(id, step)| match &step.work {
-            Work::Render(scope) => Some((id, &**scope)),
-            _ => None,
-        })
+        steps.filter_map(|(id, step)| Some((id, step.work.scope()?)))
     };
     let passes = || drawn().flat_map(|(id, scope)| scope.passes.iter().map(move |pass| (id, scope, pass)));
     if !passes().any(|(_, _, pass)| pass.redraws.is_some()) {
@@ -41,12 +38,12 @@ fn wrong(
     let same = (pass.draw, &pass.shader, pass.view, pass.discards, &pass.params)
         == (original.draw, &original.shader, original.view, original.discards, &original.params);
     let tests = pass.depth == original.depth && pass.stencil == original.stencil && pass.stencil.is_none();
-    let (Some(depth), Some(drawn)) = (&scope.depth, &of.depth) else { return Some("draws no depth again") };
+    let (Some(depth), Some(drawn)) = (scope.depth(), of.depth()) else { return Some("draws no depth again") };
     let [copy, image] = [depth, drawn].map(|attachment| plan.image(attachment.image));
     let size = |image: &Image| (image.extent, image.allocated, image.rotation);
     let same_size = size(copy) == size(image);
     let fewer = scope.samples == 1 && of.samples > 1 && copy.format == image.format && same_size;
-    let alone = pass.accesses.len() == 1 && pass.buffers.is_empty() && scope.color.is_empty();
+    let alone = pass.accesses.len() == 1 && pass.buffers.is_empty() && scope.color().is_empty();
     if original.redraws.is_some() || !same {
         Some("draws something else than the pass that it draws again")
     } else if !tests {

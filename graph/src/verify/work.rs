@@ -73,8 +73,11 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn step(&mut self, step: &'p Step) {
-        let graphics = matches!(step.work, Work::Render(_) | Work::Resolve(_) | Work::Blit(_));
-        let compute = matches!(step.work, Work::Dispatch(_));
+        let (graphics, compute) = match step.work {
+            Work::Render(_) | Work::Resolve(_) | Work::Blit(_) => (true, false),
+            Work::Dispatch(_) => (false, true),
+            Work::Custom(_) | Work::Copy(_) | Work::Fill(_) | Work::Export => (false, false),
+        };
         if graphics && step.queue != Queue::Graphics || compute && step.queue == Queue::Transfer {
             self.wrong_step(format!("does what {} can't", name_of(&step.queue)));
         }
@@ -98,24 +101,22 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn scope(&mut self, scope: &'p RenderScope) {
-        if attachments(scope).next().is_none() || scope.color.len() > MOST_COLORS {
-            let count = scope.color.len();
+        if attachments(scope).next().is_none() || scope.color().len() > MOST_COLORS {
+            let count = scope.color().len();
             self.wrong_step(format!("has {count} colour attachments, or none at all, as no rendering scope can"));
         }
-        for attachment in &scope.color {
-            self.attachment(scope, attachment, Aspects::COLOR);
+        if !scope.is_in_order() {
+            self.wrong_step("lists attachments otherwise than colour, depth, stencil, or depth or stencil twice");
         }
-        for (attachment, plane) in [(&scope.depth, Aspects::DEPTH), (&scope.stencil, Aspects::STENCIL)] {
-            if let Some(attachment) = attachment {
-                self.attachment(scope, attachment, plane);
-            }
+        for attachment in &scope.attachments {
+            self.attachment(scope, attachment, attachment.kind.plane());
         }
-        if let (Some(depth), Some(stencil)) = (&scope.depth, &scope.stencil) {
+        if let (Some(depth), Some(stencil)) = (scope.depth(), scope.stencil()) {
             let part = |of: &Attachment| (of.image, Subresources { aspects: Aspects::empty(), ..of.range });
             let alike = part(depth) == part(stencil);
             self.demand(alike, stencil.image, "is the stencil attachment beside the depth of another part or image");
         }
-        let few = scope.color.len() <= MOST_COLORS;
+        let few = scope.color().len() <= MOST_COLORS;
         if few {
             self.exclusive(scope);
         }

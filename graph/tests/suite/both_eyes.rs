@@ -211,7 +211,7 @@ fn what_is_drawn_for_both_eyes_shares_no_scope_with_what_is_drawn_once() {
             let found = scopes(&plan);
             assert_eq!(found.len(), 2, "{stereo:?}: {}", plan.tree());
             for scope in found {
-                let mut forms = scope.color.iter().map(|it| plan.image(it.image).eyes);
+                let mut forms = scope.color().iter().map(|it| plan.image(it.image).eyes);
                 assert!(forms.all(|it| it == plan.eyes(scope)), "{stereo:?}: {}", plan.tree());
             }
         }

@@ -25,10 +25,10 @@ fn a_multisampled_scene_that_is_tone_mapped_takes_one_folded_resolve() {
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves), (1, 1));
     assert_eq!(pass_names(&plan), [vec!["opaque", "sky", "glass"], vec!["tonemap"]]);
     let scope = scopes(&plan)[0];
-    let color = &scope.color[0];
+    let color = &scope.attachments[0];
     assert_eq!((color.load, color.store), (LoadOp::Clear, StoreOp::DontCare));
     assert_eq!(color.resolve.as_ref().map(|resolve| resolve.mode), Some(ResolveMode::Average));
-    let depth = scope.depth.as_ref().expect("the scene has depth");
+    let depth = scope.depth().expect("the scene has depth");
     assert_eq!((depth.load, depth.store), (LoadOp::Clear, StoreOp::DontCare));
     for attachment in [color, depth] {
         assert!(plan.image(attachment.image).usage.contains(Usage::TRANSIENT_ATTACHMENT));
@@ -48,7 +48,7 @@ fn without_hdr_and_tone_mapping_the_scene_goes_straight_into_the_output() {
     let plan = compiled(&forward(1, false, false));
     assert_eq!(scopes(&plan).len(), 1);
     assert_eq!(plan.images.len(), 2, "the screen and the depth");
-    assert!(matches!(plan.image(scopes(&plan)[0].color[0].image).role, Role::External { .. }));
+    assert!(matches!(plan.image(scopes(&plan)[0].attachments[0].image).role, Role::External { .. }));
     assert!(note(&plan, Stage::Adapt, "screen").contains("they are one image"), "{:?}", plan.notes);
 }
 
@@ -56,7 +56,7 @@ fn without_hdr_and_tone_mapping_the_scene_goes_straight_into_the_output() {
 fn a_forward_that_only_loses_samples_is_the_resolve() {
     let plan = compiled(&forward(4, false, false));
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.inserted_passes), (1, 1, 0));
-    let resolve = scopes(&plan)[0].color[0].resolve.as_ref().expect("a folded resolve");
+    let resolve = scopes(&plan)[0].attachments[0].resolve.as_ref().expect("a folded resolve");
     assert!(matches!(plan.image(resolve.image).role, Role::External { .. }));
 }
 
@@ -92,7 +92,7 @@ fn readers_of_one_version_share_its_resolve_and_the_next_version_gets_its_own() 
     raster.full_screen("last").sample(color).sample(a).sample(b).color(screen, Blend::Replace);
     let plan = compiled(&raster.output(screen));
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves), (2, 2));
-    let opaque = &scopes(&plan)[0].color[0];
+    let opaque = &scopes(&plan)[0].attachments[0];
     assert_eq!(opaque.store, StoreOp::Store, "glass draws on top of it");
 }
 
@@ -133,7 +133,7 @@ fn a_draw_that_samples_what_it_replaces_gets_a_second_image() {
     raster.full_screen("blur").sample(color).color(color, Blend::Replace);
     let plan = compiled(&raster.output(color));
     let blur = &scopes(&plan)[1];
-    assert_ne!(blur.color[0].image, blur.passes[0].accesses[0].image);
+    assert_ne!(blur.attachments[0].image, blur.passes[0].accesses[0].image);
     assert_eq!(plan.totals.copies, 0);
 }
 
@@ -146,8 +146,8 @@ fn a_draw_that_samples_what_it_blends_onto_gets_a_copy() {
     let plan = compiled(&raster.output(color));
     assert_eq!(plan.totals.copies, 1);
     let haze = &scopes(&plan)[1];
-    assert_ne!(haze.color[0].image, haze.passes[0].accesses[0].image);
-    assert_eq!(haze.color[0].load, LoadOp::Load);
+    assert_ne!(haze.attachments[0].image, haze.passes[0].accesses[0].image);
+    assert_eq!(haze.attachments[0].load, LoadOp::Load);
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn integers_are_resolved_by_sample_zero() {
     let ids = raster.image("ids", R32_UINT, 4);
     raster.objects("opaque").clear(ids);
     let plan = compiled(&raster.output(ids));
-    let resolve = scopes(&plan)[0].color[0].resolve.as_ref().expect("a folded resolve");
+    let resolve = scopes(&plan)[0].attachments[0].resolve.as_ref().expect("a folded resolve");
     assert_eq!(resolve.mode, ResolveMode::SampleZero);
 }
 
@@ -228,7 +228,7 @@ fn depth_that_is_only_tested_is_left_alone() {
     raster.full_screen("fog").sample(depth).sample(color).color(screen, Blend::Replace);
     raster.objects("glass").color(screen, Blend::Alpha).test_depth(depth);
     let plan = compiled(&raster.output(screen));
-    let glass = scopes(&plan)[2].depth.as_ref().expect("glass is tested");
+    let glass = scopes(&plan)[2].depth().expect("glass is tested");
     assert_eq!((glass.load, glass.store), (LoadOp::Load, StoreOp::None));
     let barriers_of_depth =
         plan.steps.iter().flat_map(|step| &step.image_barriers).filter(|barrier| barrier.image == glass.image).count();
@@ -245,7 +245,7 @@ fn multisampled_depth_that_leaves_the_frame_is_its_sample_zero() {
     raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
     let plan = compiled(&raster.outputs(&[color, depth]));
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.scopes), (2, 2, 1));
-    let resolve = scopes(&plan)[0].depth.as_ref().and_then(|depth| depth.resolve.as_ref()).expect("a folded resolve");
+    let resolve = scopes(&plan)[0].depth().and_then(|depth| depth.resolve.as_ref()).expect("a folded resolve");
     assert_eq!(resolve.mode, ResolveMode::SampleZero);
     assert_eq!(plan.outputs[1].resource, Resource::Image(resolve.image));
 }
@@ -353,8 +353,8 @@ fn a_full_screen_draw_whose_depth_test_always_passes_covers() {
     raster.full_screen("preview").sample(color).color(second, Blend::Replace);
     raster.full_screen("fog").color(color, Blend::Replace).pass_depth(depth);
     let mut plan = compiled(&raster.outputs(&[color, second]));
-    assert_eq!(scopes(&plan)[2].color[0].load, LoadOp::DontCare);
-    let image = scopes(&plan)[2].color[0].image;
+    assert_eq!(scopes(&plan)[2].attachments[0].load, LoadOp::DontCare);
+    let image = scopes(&plan)[2].attachments[0].image;
     for barrier in plan.steps[2].image_barriers.iter_mut().filter(|barrier| barrier.image == image) {
         barrier.old_layout = Layout::ShaderReadOnlyOptimal;
     }

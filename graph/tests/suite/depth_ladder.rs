@@ -67,8 +67,8 @@ fn iq_12_what_drew_the_depth_is_drawn_again_with_one_sample_in_one_scope_before_
     assert_eq!(names[again], ["opaque (depth only)", "masked (depth only)"], "the sky writes no depth");
     assert!(again < at("stripes"), "{}", plan.tree());
     let scope = scopes(&plan)[again];
-    let depth = scope.depth.as_ref().expect("it draws depth");
-    assert_eq!((scope.samples, scope.color.len(), depth.load, depth.store), (1, 0, LoadOp::Clear, StoreOp::Store));
+    let depth = scope.depth().expect("it draws depth");
+    assert_eq!((scope.samples, scope.color().len(), depth.load, depth.store), (1, 0, LoadOp::Clear, StoreOp::Store));
     assert_eq!(&*plan.image(depth.image).name, "depth (depth only)");
     let redraws: Vec<Option<&str>> = scope.passes.iter().map(|pass| pass.redraws.as_deref()).collect();
     assert_eq!(redraws, [Some("opaque"), Some("masked")]);
@@ -82,7 +82,7 @@ fn iq_16_glass_behind_the_stripes_is_still_multisampled_and_tested_against_all_s
     let plan = compiled(&Stripes::new(4).frame(None));
     let scopes = scopes(&plan);
     let glass = scopes.iter().find(|scope| scope.passes.iter().any(|pass| &*pass.name == "glass")).expect("it runs");
-    let depth = glass.depth.as_ref().expect("it is tested");
+    let depth = glass.depth().expect("it is tested");
     assert_eq!((glass.samples, &*plan.image(depth.image).name), (4, "depth"));
 }
 
@@ -97,7 +97,7 @@ fn iq_10_depth_is_averaged_only_where_its_image_says_so() {
         frame.outputs.extend(leaves.then_some(output));
         let plan = on(&frame, &device).expect("the frame is valid");
         scopes(&plan).into_iter().any(|scope| {
-            let folded = scope.depth.as_ref().and_then(|depth| depth.resolve.as_ref());
+            let folded = scope.depth().and_then(|depth| depth.resolve.as_ref());
             folded.is_some_and(|resolve| resolve.mode == ResolveMode::Average)
                 || scope.passes.iter().any(|pass| pass.shader.ends_with("average"))
         })
@@ -129,7 +129,7 @@ fn iq_15_multisampled_depth_that_only_what_is_drawn_again_is_sampled_of_is_never
     raster.full_screen("fog").sample(depth).sample(color).color(screen, Blend::Replace);
     let plan = compiled(&raster.output(screen));
     let scope = scopes(&plan).into_iter().find(|scope| scope.samples == 4).expect("the scene");
-    let depth = scope.depth.as_ref().expect("it has depth");
+    let depth = scope.depth().expect("it has depth");
     assert_eq!((depth.store, depth.resolve.is_none()), (StoreOp::DontCare, true));
     assert!(plan.image(depth.image).usage.contains(Usage::TRANSIENT_ATTACHMENT));
 }
@@ -155,7 +155,7 @@ fn iq_14_a_mode_that_the_device_has_is_folded_into_the_scope_that_drew_the_depth
     for mode in [ResolveMode::SampleZero, ResolveMode::Min, ResolveMode::Max, ResolveMode::Average] {
         let frame = Stripes::new(4).frame(Some(Some(mode)));
         let plan = on(&frame, &resolving(&[mode])).expect("the frame is valid");
-        let resolve = scopes(&plan).into_iter().find_map(|scope| scope.depth.as_ref()?.resolve.as_ref());
+        let resolve = scopes(&plan).into_iter().find_map(|scope| scope.depth()?.resolve.as_ref());
         let resolve = resolve.unwrap_or_else(|| panic!("{}", plan.tree()));
         assert_eq!((resolve.mode, plan.totals.inserted_passes), (mode, 0));
         assert_eq!(because(&resolve.cause), "`stripes` samples `depth` and it has 4 samples, `resolve: …`");
@@ -208,7 +208,7 @@ fn iq_14_a_mode_that_the_device_lacks_or_only_claims_is_drawn_and_the_reason_sai
         let (scope, pass) = passes.into_iter().find(|(_, pass)| &*pass.name == "depth (resolved)").expect("a draw");
         assert_eq!((&*pass.shader, pass.draw, scope.samples), (shader, Some(Draw::FullScreen), 1));
         assert_eq!(pass.depth.map(|depth| (depth.test, depth.write)), Some((CompareOp::Always, true)));
-        assert_eq!(scope.depth.as_ref().map(|depth| depth.load), Some(LoadOp::DontCare));
+        assert_eq!(scope.depth().map(|depth| depth.load), Some(LoadOp::DontCare));
         assert!(because(&pass.cause).ends_with(&format!("`resolve: …`; by a draw: {why}")), "{:?}", pass.cause);
     }
 }

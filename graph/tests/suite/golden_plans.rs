@@ -157,7 +157,7 @@ fn touches(work: &Work, resource: Resource) -> bool {
     };
     match work {
         Work::Render(scope) => {
-            let mut attached = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).flat_map(|attachment| {
+            let mut attached = scope.attachments.iter().flat_map(|attachment| {
                 [Some(attachment.image), attachment.resolve.as_ref().map(|resolve| resolve.image)]
             });
             attached.any(|image| image.map(Resource::Image) == Some(resource)) || by_passes(&scope.passes)

@@ -45,7 +45,7 @@ fn lighting_joins_the_scope_of_the_geometry_that_it_reads_at_its_own_pixel() {
     let plan = compiled(&deferred(1), &device(true));
     let [first, _] = scopes(&plan)[..] else { panic!("{}", plan.tree()) };
     let [geometry, light] = &first.passes[..] else { panic!("{}", plan.tree()) };
-    let layouts: Vec<Layout> = first.color.iter().map(|attachment| attachment.layout).collect();
+    let layouts: Vec<Layout> = first.color().iter().map(|attachment| attachment.layout).collect();
     let local = Layout::RenderingLocalReadKhr;
     assert_eq!(layouts, [local, local, Layout::ColorAttachmentOptimal]);
     assert!(!geometry.local_barrier && light.local_barrier);
@@ -73,7 +73,7 @@ fn what_is_read_only_locally_never_leaves_its_scope() {
         let image = plan.images.iter().find(|image| *image.name == *name).expect("it is in the Plan");
         assert_eq!(image.usage, Usage::COLOR_ATTACHMENT | Usage::INPUT_ATTACHMENT | Usage::TRANSIENT_ATTACHMENT);
     }
-    let stores: Vec<StoreOp> = scopes(&plan)[0].color.iter().map(|attachment| attachment.store).collect();
+    let stores: Vec<StoreOp> = scopes(&plan)[0].color().iter().map(|attachment| attachment.store).collect();
     assert_eq!(stores, [StoreOp::DontCare, StoreOp::DontCare, StoreOp::Store]);
 }
 
@@ -197,7 +197,7 @@ fn a_program_s_own_draws_share_no_scope_in_which_colours_come_and_go() {
     let colors = |frame: &Frame| -> Vec<(Vec<String>, usize)> {
         let plan = compiled(frame, &device(true));
         let names = |scope: &RenderScope| scope.passes.iter().map(|pass| pass.name.to_string()).collect();
-        scopes(&plan).into_iter().map(|scope| (names(scope), scope.color.len())).collect()
+        scopes(&plan).into_iter().map(|scope| (names(scope), scope.color().len())).collect()
     };
     let named = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Vec<_>>();
     assert_eq!(colors(&frame), [(named(&["geometry", "light", "grass"]), 2)]);

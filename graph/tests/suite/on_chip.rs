@@ -33,11 +33,7 @@ fn texel_bits(format: &str, plane: &str) -> u64 {
 /// Bytes of a Plan's attachments in lazily allocated memory that are neither loaded nor stored.
 fn counted(plan: &Value) -> u64 {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let attachments = |step: &Value| {
-        let scope = &step["work"]["render"];
-        let planes = [&scope["depth"], &scope["stencil"]].map(Clone::clone);
-        list(&scope["color"]).into_iter().chain(planes).filter(|it| it.is_object()).collect::<Vec<_>>()
-    };
+    let attachments = |step: &Value| list(&step["work"]["render"]["attachments"]);
     let bytes = |attachment: &Value| {
         let image = &plan["images"][number(&attachment["image"]) as usize];
         let lazily = image["role"]["transient"]["heap"].as_u64();

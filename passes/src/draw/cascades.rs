@@ -9,7 +9,7 @@ use super::block::Block;
 use crate::facts::splits::{Splits, through};
 use crate::scene::{Bounds, Camera, Object, Scene};
 use framewright_graph::frame::{Cascade, Draw};
-use framewright_graph::plan::{Plan, ViewId, Work};
+use framewright_graph::plan::{Plan, ViewId};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use std::collections::BTreeMap;
 
@@ -37,7 +37,7 @@ pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<CascadeMap> {
     let mut maps = BTreeMap::new();
     let between = |of: ViewId| plan.views.get(of.0 as usize).and_then(|view| view.eye).map_or(of, |eye| eye.of);
     for step in &plan.steps {
-        let Work::Render(scope) = &step.work else { continue };
+        let Some(scope) = step.work.scope() else { continue };
         for pass in scope.passes.iter().filter(|pass| pass.view.map(between) == view) {
             if let Some(cascade) = pass.draw.and_then(Draw::cascade) {
                 let texels = scope.extent[0].min(scope.extent[1]);

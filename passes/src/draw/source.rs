@@ -8,7 +8,7 @@ use super::textures::Textures;
 use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
-use framewright_graph::plan::{Plan, Step, View, ViewId, Work};
+use framewright_graph::plan::{Plan, Step, View, ViewId};
 use framewright_vulkan::{BindGroup, Device, DispatchRecorder, DrawSource, Error, Recorder};
 use std::collections::BTreeMap;
 
@@ -344,12 +344,10 @@ fn no_camera(scene: &Scene, view: &View) -> Error {
 
 /// The views of passes that draw, with whether they draw for both eyes at once.
 fn views_of_draws(plan: &Plan) -> impl Iterator<Item = (Option<ViewId>, bool)> {
-    plan.steps.iter().flat_map(|step| match &step.work {
-        Work::Render(scope) => {
-            let at_once = plan.eyes(scope).is_some();
-            scope.passes.iter().map(|pass| (pass.view, at_once)).collect()
-        }
-        _ => Vec::new(),
+    let scopes = plan.steps.iter().filter_map(|step| step.work.scope());
+    scopes.flat_map(|scope| {
+        let at_once = plan.eyes(scope).is_some();
+        scope.passes.iter().map(move |pass| (pass.view, at_once))
     })
 }
 
@@ -364,7 +362,8 @@ fn draws_for_one(plan: &Plan, view: ViewId) -> bool {
 
 /// Whether passes draw or compute for one eye of a view.
 fn is_seen_by_one(plan: &Plan, view: ViewId) -> bool {
-    let computes = |step: &Step| matches!(&step.work, Work::Dispatch(pass) if is_eye_of(plan, pass.view, view));
+    let computes =
+        |step: &Step| step.work.is_dispatch() && step.work.passes().iter().any(|pass| is_eye_of(plan, pass.view, view));
     draws_for_one(plan, view) || plan.steps.iter().any(computes)
 }
 

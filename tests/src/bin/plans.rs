@@ -165,11 +165,33 @@ fn kept(into: &Path, text: &str) -> Result<usize> {
     Ok(1)
 }
 
-/// The JSON form, without what is said in words and without its version.
+/// The JSON form of version 13, without what is said in words and without its version.
 fn without_sentences(plan: &Plan) -> String {
     let mut value = serde_json::to_value(plan).expect("random and shipped pipelines hold finite numbers");
     strip(&mut value);
+    let steps = value["steps"].as_array_mut().into_iter().flatten();
+    steps.filter_map(|step| step["work"].get_mut("render")).for_each(as_version_13);
     serde_json::to_string_pretty(&value).expect("JSON is written as text")
+}
+
+/// Puts the attachments of a scope where version 13 had them: those of colour in a list, those of depth and stencil in fields.
+fn as_version_13(scope: &mut Value) {
+    let attachments = scope["attachments"].take();
+    let of_kind = |kind: &str| -> Vec<Value> {
+        let own = attachments.as_array().into_iter().flatten().filter(|it| it["kind"] == kind).cloned();
+        let old = own.map(|mut it| {
+            it.as_object_mut().and_then(|fields| fields.remove("kind"));
+            it
+        });
+        old.collect()
+    };
+    let [depth, stencil] = ["depth", "stencil"].map(|kind| of_kind(kind).pop().unwrap_or_default());
+    let color = of_kind("color").into();
+    if let Some(fields) = scope.as_object_mut() {
+        fields.remove("attachments");
+        fields
+            .extend([("color", color), ("depth", depth), ("stencil", stencil)].map(|(name, it)| (name.to_owned(), it)));
+    }
 }
 
 fn strip(value: &mut Value) {

@@ -332,8 +332,8 @@ impl Follower<'_> {
 
     fn draw(&mut self, step: usize, scope: &RenderScope, pass: &Pass) {
         let mut read = self.reads(step, pass, uses::of_pass(pass, [0; 2], Kind::Plain));
-        let depth = pass.depth.zip(scope.depth.as_ref());
-        let stencil = pass.stencil.zip(scope.stencil.as_ref());
+        let depth = pass.depth.zip(scope.depth());
+        let stencil = pass.stencil.zip(scope.stencil());
         let tested = depth.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);
         let stencil_tested =
             stencil.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);
@@ -343,7 +343,7 @@ impl Follower<'_> {
         }
         let fills = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.untouched.is_none();
         let sure = (pass.covers || fills && tested.is_none() && stencil_tested.is_none()) && scope.layers == 1;
-        for (location, attachment) in scope.color.iter().enumerate() {
+        for (location, attachment) in scope.color().iter().enumerate() {
             if !writes(pass, attachment) {
                 continue;
             }

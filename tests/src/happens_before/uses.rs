@@ -1,7 +1,7 @@
 //! The uses that the work of a step makes of images and buffers, as the Plan's module documentation says.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::plan::{Attachment, BindingKind, Pass, RenderScope, Resource, Side, Work};
+use framewright_graph::plan::{Attachment, AttachmentKind, BindingKind, Pass, RenderScope, Resource, Side, Work};
 use framewright_graph::vulkan::{Accesses, Layout, LoadOp, Stages, StoreOp, Subresources};
 
 /// One use.
@@ -108,8 +108,7 @@ pub(super) fn of_pass(pass: &Pass, [number, shown]: [usize; 2], plain: Kind) -> 
 
 /// The attachments of a scope: colour, then depth and stencil; whether each is colour.
 pub(super) fn attachments(scope: &RenderScope) -> impl Iterator<Item = (&Attachment, bool)> {
-    let color = scope.color.iter().map(|attachment| (attachment, true));
-    color.chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)))
+    scope.attachments.iter().map(|attachment| (attachment, attachment.kind == AttachmentKind::Color))
 }
 
 fn of_scope(scope: &RenderScope) -> Vec<Use> {

@@ -9,7 +9,7 @@ use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{self, Frame, Stereo};
 use framewright_graph::language::{self, Facts};
-use framewright_graph::plan::{Attachment, Hazard, Plan, Work};
+use framewright_graph::plan::{Attachment, AttachmentKind, Hazard, Plan, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Layout, LoadOp, Rotation};
 use framewright_passes::draw::interfaces;
@@ -242,9 +242,13 @@ fn overwrite(plan: &mut Plan) {
                 (attachment.load, attachment.clear) = (LoadOp::Clear, Some(value));
             }
         };
-        scope.color.iter_mut().for_each(|color| clear(color, [0.9, 0.1, 0.8, 0.3]));
-        scope.depth.iter_mut().for_each(|depth| clear(depth, [1.0, 0.0, 0.0, 0.0]));
-        scope.stencil.iter_mut().for_each(|stencil| clear(stencil, [3.0, 0.0, 0.0, 0.0]));
+        for attachment in &mut scope.attachments {
+            match attachment.kind {
+                AttachmentKind::Color => clear(attachment, [0.9, 0.1, 0.8, 0.3]),
+                AttachmentKind::Depth => clear(attachment, [1.0, 0.0, 0.0, 0.0]),
+                AttachmentKind::Stencil => clear(attachment, [3.0, 0.0, 0.0, 0.0]),
+            }
+        }
     }
 }
 

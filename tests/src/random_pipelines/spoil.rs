@@ -55,7 +55,7 @@ impl Spoil {
     }
 
     fn scope(self, scope: &mut RenderScope) -> bool {
-        let attachment = scope.color.iter_mut().any(|attachment| match (self, attachment.load) {
+        let attachment = scope.attachments.iter_mut().any(|attachment| match (self, attachment.load) {
             (Spoil::Clear, LoadOp::Clear) => {
                 attachment.clear = attachment.clear.map(|clear| clear.map(|value| f64::from(value == 0.0)));
                 true

@@ -7,6 +7,7 @@ mod hand_written_plans;
 mod happens_before;
 mod hostile_plans;
 mod kinds;
+mod kinds_asked;
 mod mutation;
 mod partial_passes;
 mod platforms;

@@ -338,8 +338,8 @@ fn steps(
                 let new_size = size.replace(scope.extent) != Some(scope.extent);
                 let [width, height] = scope.extent;
                 StepWork::Render {
-                    color: scope.color.iter().map(|it| maker.attachment(it)).collect(),
-                    depth: scope.depth.as_ref().map(|it| maker.attachment(it)),
+                    color: scope.color().iter().map(|it| maker.attachment(it)).collect(),
+                    depth: scope.depth().map(|it| maker.attachment(it)),
                     area: vk::Rect2D { extent: vk::Extent2D { width, height }, ..vk::Rect2D::default() },
                     new_size,
                     passes: scope.passes.iter().map(|pass| maker.draw(scope, pass)).collect(),

@@ -98,10 +98,10 @@ impl<'m> PassMaker<'m> {
         let key = PipelineKey {
             shader: pass.shader.to_string(),
             layout,
-            color: scope.color.iter().map(format).zip(pass.blend.iter().copied()).collect(),
-            depth: scope.depth.as_ref().map(format).zip(pass.depth),
+            color: scope.color().iter().map(format).zip(pass.blend.iter().copied()).collect(),
+            depth: scope.depth().map(format).zip(pass.depth),
         };
-        assert_eq!(key.color.len(), scope.color.len(), "a pass draws all attachments of its scope");
+        assert_eq!(key.color.len(), scope.color().len(), "a pass draws all attachments of its scope");
         let pipeline = match self.pipelines.get(&key) {
             Some(pipeline) => *pipeline,
             None => {

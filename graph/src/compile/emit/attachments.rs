@@ -6,22 +6,28 @@ use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
 use crate::frame::Blend;
-use crate::plan::{Attachment, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
+use crate::plan::{Attachment, AttachmentKind, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
 use crate::vulkan::{Layout, LoadOp};
 use std::sync::Arc;
 
 pub(super) fn scope(results: &StageResults<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(results, scope);
     let attachments = results.load_store.of(step);
-    let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
-    let plane = |role: Role| attachments.iter().find(|ops| ops.role == role);
+    let mut resolves = scope.resolves.iter().copied();
+    let mut planned = |ops: &AttachmentOps| {
+        let kind = ops.role.attachment()?;
+        let resolve = match kind {
+            AttachmentKind::Color => resolves.next().flatten(),
+            AttachmentKind::Depth => scope.depth_resolve,
+            AttachmentKind::Stencil => None,
+        };
+        Some(attachment(results, scope, (kind, ops), resolve))
+    };
     RenderScope {
         extent,
         layers,
         samples,
-        color: color.map(|(ops, resolve)| attachment(results, scope, ops, *resolve)).collect(),
-        depth: plane(Role::Depth).map(|ops| attachment(results, scope, ops, scope.depth_resolve)),
-        stencil: plane(Role::Stencil).map(|ops| attachment(results, scope, ops, None)),
+        attachments: attachments.iter().filter_map(&mut planned).collect(),
         passes: if scope.local {
             local_passes(results, scope, attachments)
         } else {
@@ -76,10 +82,16 @@ pub(super) fn shape(results: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32
     })
 }
 
-fn attachment(results: &StageResults<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
+fn attachment(
+    results: &StageResults<'_>,
+    scope: &Scope,
+    (kind, ops): (AttachmentKind, &AttachmentOps),
+    resolve: Option<u32>,
+) -> Attachment {
     let mut uses = scope.ops.iter().flat_map(|op| results.adapted.uses(*op));
     let used = uses.find(|used| used.role == ops.role && Target::of(results.adapted, used) == ops.target);
     Attachment {
+        kind,
         image: ImageId(results.adapted.resources[ops.target.resource as usize].id),
         range: ops.target.range,
         layout: used.map_or(Layout::General, |used| used.layout),

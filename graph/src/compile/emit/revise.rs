@@ -18,7 +18,7 @@ pub(in crate::compile) fn values(results: &StageResults<'_>, plan: &mut Plan) {
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&results.scoped.steps).zip(0_u32..) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
-                for (attachment, ops) in planned.attachments_mut().zip(results.load_store.of(number)) {
+                for (attachment, ops) in planned.attachments.iter_mut().zip(results.load_store.of(number)) {
                     attachment.clear = ops.clear;
                 }
                 for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {

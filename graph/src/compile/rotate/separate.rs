@@ -104,9 +104,6 @@ fn rename(pass: &mut Pass, from: ImageIndex, to: ImageIndex) {
     for transfer in pass.transfers.iter_mut().filter(|it| it.resource == Resource::Image(from)) {
         transfer.resource = Resource::Image(to);
     }
-    if let Work::Forward { from: source, to: target, .. } = &mut pass.work {
-        for image in [source, target].into_iter().filter(|it| **it == from) {
-            *image = to;
-        }
-    }
+    let forwarded = pass.work.forwarded_mut().into_iter().flatten();
+    forwarded.filter(|it| **it == from).for_each(|it| *it = to);
 }

@@ -1,7 +1,7 @@
 //! Images that hold both eyes' parts are used for both eyes at once.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo, Work};
+use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo};
 use crate::vulkan::Shape;
 use std::collections::HashSet;
 
@@ -44,10 +44,8 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
         })
     };
     let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<HashSet<_>>().len() < 2;
-    let whole = match pass.work {
-        Work::Copy => all_alike && transfers().count() == 2,
-        ref work => work.filled().is_some(),
-    };
+    let copied_whole = pass.work.is_copy() && all_alike && transfers().count() == 2;
+    let whole = copied_whole || pass.work.filled().is_some();
     for (image, span) in transfers().filter(|(image, _)| eyes(*image).is_some() && !whole) {
         wrong(image, span, "transfers");
     }

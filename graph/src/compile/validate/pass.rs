@@ -2,7 +2,7 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
+use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -141,7 +141,7 @@ impl Check<'_> {
             let Image { name, format, .. } = image;
             return self.wrong(pass.span, &format!("clears `{name}` to what {format} doesn't hold"));
         }
-        let counts = pass.buffers.iter().filter(|used| used.role == BufferRole::Indirect).count();
+        let counts = pass.buffers.iter().filter(|used| used.role.is_indirect()).count();
         if counts != usize::from(pass.work.is_indirect()) {
             return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
         }
@@ -188,7 +188,7 @@ impl Check<'_> {
             let name = &self.frame.buffers[used.buffer.0 as usize].name;
             if twice {
                 self.wrong(used.span, &format!("writes `{name}` and accesses it in another way"));
-            } else if matches!(used.role, BufferRole::Storage { read: false, write: false }) {
+            } else if !used.role.reads() && !used.role.writes() {
                 self.wrong(used.span, &format!("neither reads nor writes `{name}`"));
             } else if used.role.writes() && used.frames_ago > 0 {
                 self.wrong(used.span, &format!("writes `{name}` of an earlier frame"));

@@ -44,7 +44,7 @@ impl Apart {
             for sample in elements.filter(|sample| own_part(&&sample.part)) {
                 apart.part(sample.part.image.index, || format!("`{name}` samples it as an element of an array"));
             }
-            if let Work::Copy { from: Part::Image(from), to: Part::Image(to) } = &pass.work
+            if let Some([Part::Image(from), Part::Image(to)]) = pass.work.copied()
                 && own[index(to.image.index)]
                 && !own[index(from.image.index)]
             {
@@ -162,10 +162,7 @@ fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
 
 /// Images that a pass reads.
 fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
-    let copied = match &pass.work {
-        Work::Copy { from, .. } => image(from),
-        _ => None,
-    };
+    let copied = pass.work.copied().and_then(|[from, _]| image(from));
     pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(looked_up(pass))
 }
 
@@ -189,7 +186,7 @@ fn looked_up(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
         Work::Copy { from: from @ Part::Image(part), to } if is_part(part) || !whole(to) => std::slice::from_ref(from),
         Work::Blit { from, .. } => std::slice::from_ref(from),
         Work::Custom { reads, .. } => reads,
-        _ => &[],
+        Work::Draw { .. } | Work::Dispatch { .. } | Work::Copy { .. } | Work::Fill { .. } => &[],
     };
     pass.storage.iter().filter_map(|storage| image(&storage.part)).chain(transfers.iter().filter_map(image))
 }
@@ -199,7 +196,12 @@ fn written_alone(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let to = match &pass.work {
         Work::Copy { from, to } if !whole(to) || !whole(from) => image(to),
         Work::Fill { to, .. } if !whole(to) => image(to),
-        _ => None,
+        Work::Draw { .. }
+        | Work::Dispatch { .. }
+        | Work::Copy { .. }
+        | Work::Blit { .. }
+        | Work::Fill { .. }
+        | Work::Custom { .. } => None,
     };
     to.into_iter()
 }

@@ -168,6 +168,36 @@ impl Work {
     pub fn draws(&self, is: impl FnOnce(Draw) -> bool) -> bool {
         self.draw().is_some_and(is)
     }
+
+    /// Whether it runs a compute shader.
+    pub const fn is_dispatch(&self) -> bool {
+        match self {
+            Work::Dispatch { .. } => true,
+            Work::Draw { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => {
+                false
+            }
+        }
+    }
+
+    /// Source and target, if it copies.
+    pub const fn copied(&self) -> Option<[&Part; 2]> {
+        match self {
+            Work::Copy { from, to } => Some([from, to]),
+            Work::Draw { .. } | Work::Dispatch { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => {
+                None
+            }
+        }
+    }
+
+    /// The name by which the embedding program knows it, if that records it.
+    pub const fn callback(&self) -> Option<&Name> {
+        match self {
+            Work::Custom { callback, .. } => Some(callback),
+            Work::Draw { .. } | Work::Dispatch { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } => {
+                None
+            }
+        }
+    }
 }
 
 /// How many workgroups a dispatch has.

@@ -10,8 +10,8 @@ use super::words::{
 use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
+    Access, Attachment, AttachmentKind, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass,
+    Plan, Queue, RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -170,14 +170,10 @@ impl Tree<'_> {
     }
 
     fn scope(self, scope: &RenderScope, parts: &mut Vec<Outline>) {
-        let color =
-            scope.color.iter().enumerate().map(|(location, attachment)| (format!("color {location}"), attachment));
-        let depth = scope.depth.iter().map(|attachment| ("depth".to_owned(), attachment));
-        let stencil = scope.stencil.iter().map(|attachment| ("stencil".to_owned(), attachment));
-        let attachments: Vec<_> = color.chain(depth).chain(stencil).collect();
-        parts.extend(attachments.iter().map(|(place, attachment)| self.attachment(place, attachment)));
+        let attachments = || scope.attachments.iter();
+        parts.extend(attachments().enumerate().map(|(location, attachment)| self.attachment(location, attachment)));
         parts.extend(scope.passes.iter().map(|pass| self.pass(pass)));
-        for (_, attachment) in &attachments {
+        for attachment in attachments() {
             if let Some(resolve) = &attachment.resolve {
                 let [from, to] = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
                 let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
@@ -189,11 +185,16 @@ impl Tree<'_> {
         }
     }
 
-    fn attachment(self, place: &str, attachment: &Attachment) -> Outline {
-        let clear = match attachment.clear {
-            Some([value, ..]) if matches!(place, "depth" | "stencil") => format!(" {value}"),
-            Some([red, green, blue, alpha]) => format!(" ({red}, {green}, {blue}, {alpha})"),
-            None => String::new(),
+    fn attachment(self, location: usize, attachment: &Attachment) -> Outline {
+        let place = match attachment.kind {
+            AttachmentKind::Color => format!("color {location}"),
+            AttachmentKind::Depth => "depth".to_owned(),
+            AttachmentKind::Stencil => "stencil".to_owned(),
+        };
+        let clear = match (attachment.clear, attachment.kind) {
+            (Some([red, green, blue, alpha]), AttachmentKind::Color) => format!(" ({red}, {green}, {blue}, {alpha})"),
+            (Some([value, ..]), AttachmentKind::Depth | AttachmentKind::Stencil) => format!(" {value}"),
+            (None, _) => String::new(),
         };
         let part = self.part(attachment.image, attachment.range);
         let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];

@@ -31,9 +31,9 @@ fn plan(depth: &str) -> Result<Plan, String> {
 fn a_full_screen_pass_whose_tests_always_pass_covers_the_depth_and_stencil_that_it_writes_first() {
     let plan = plan(r#"(image: "depth", test: Always, stencil: (pass: Replace))"#).expect("it covers");
     let Work::Render(scope) = &plan.steps[0].work else { panic!("a scope comes first") };
-    let planes = [&scope.depth, &scope.stencil].map(|plane| plane.as_ref().map(|attachment| attachment.load));
+    let planes = [scope.depth(), scope.stencil()].map(|plane| plane.map(|attachment| attachment.load));
     assert_eq!(planes, [Some(LoadOp::DontCare); 2]);
-    assert_eq!(scope.color[0].load, LoadOp::DontCare);
+    assert_eq!(scope.attachments[0].load, LoadOp::DontCare);
     assert_eq!(verify(&plan), []);
 }
 
@@ -93,7 +93,7 @@ fn a_full_screen_draw_covers_unless_its_shader_may_leave_texels_or_the_file_prom
             });
             let scopes: Vec<_> = scopes.collect();
             let [scope] = &scopes[..] else { panic!("{}", plan.tree()) };
-            let attachment = &scope.color[0];
+            let attachment = &scope.attachments[0];
             assert_eq!(attachment.load, if covers { LoadOp::DontCare } else { LoadOp::Load }, "{shader}{promise}");
             if !covers {
                 let expected = format!(

@@ -132,7 +132,7 @@ fn other_rooms_samples_or_passes_are_more_than_values() {
     let larger = changed(&|plan| scope(plan, &|scope| scope.extent = [65, 36]));
     assert!(larger.is_some_and(|said| said.contains("does something else")));
     assert!(changed(&|plan| scope(plan, &|scope| scope.passes[0].shader = "other".into())).is_some());
-    assert_eq!(changed(&|plan| scope(plan, &|scope| scope.color[0].because = "so".into())), None);
+    assert_eq!(changed(&|plan| scope(plan, &|scope| scope.attachments[0].because = "so".into())), None);
 }
 
 #[test]

@@ -177,7 +177,7 @@ fn the_checker_refuses_a_clear_or_a_fill_that_the_format_does_not_hold() {
     for step in &mut cleared.steps {
         if let PlanWork::Render(scope) = &mut step.work {
             scope
-                .color
+                .attachments
                 .iter_mut()
                 .filter(|it| it.clear.is_some())
                 .for_each(|it| it.clear = Some([128.0, 0.0, 0.0, 0.0]));

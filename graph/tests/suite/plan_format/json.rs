@@ -60,7 +60,7 @@ pub(crate) fn passes(step: &Value) -> impl Iterator<Item = &Value> {
 pub(crate) fn accesses(step: &Value) -> Vec<(Named, Option<&Value>)> {
     let (work, mut all) = (&step["work"], Vec::new());
     let scope = &work["render"];
-    let attachments = list(&scope["color"]).iter().chain([&scope["depth"], &scope["stencil"]]);
+    let attachments = list(&scope["attachments"]).iter();
     let attachments = attachments.filter(|it| !it.is_null()).flat_map(|it| [it, &it["resolve"]]);
     let by_passes = passes(step).flat_map(|pass| list(&pass["accesses"]));
     for it in attachments.chain(by_passes).filter(|it| !it.is_null()) {

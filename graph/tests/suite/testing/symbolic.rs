@@ -114,7 +114,7 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
         }
         match &step.work {
             plan::Work::Render(scope) => {
-                let attachments = || scope.color.iter().chain(&scope.depth);
+                let attachments = || scope.attachments.iter();
                 for attachment in attachments() {
                     let value = &mut held[attachment.image.0 as usize];
                     match attachment.load {
@@ -174,11 +174,11 @@ fn plan_pass(plan: &Plan, pass: &plan::Pass, scope: Option<&plan::RenderScope>, 
         held[image] = made(&pass.name, &name, ANYTHING, ANYTHING, &read);
     }
     let Some(scope) = scope else { return };
-    let depth_image = scope.depth.as_ref().filter(|_| pass.depth.is_some()).map(|depth| depth.image.0 as usize);
+    let depth_image = scope.depth().filter(|_| pass.depth.is_some()).map(|depth| depth.image.0 as usize);
     let replaces = |state: plan::DepthState| state.write && state.test == CompareOp::Always;
     let whole = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.depth.is_some_and(replaces);
     let depth = depth_image.filter(|_| !whole).map_or(ANYTHING, |image| held[image]);
-    for (location, attachment) in scope.color.iter().enumerate() {
+    for (location, attachment) in scope.color().iter().enumerate() {
         let value = &mut held[attachment.image.0 as usize];
         *value = match &*pass.shader {
             "shipped:copy" if only_turns(plan, pass, plan.image(attachment.image)) => read[0].1,

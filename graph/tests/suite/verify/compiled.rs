@@ -131,8 +131,8 @@ fn contents_that_are_forgotten_and_not_loaded_are_missed() {
     raster.objects("sky").color(color, Blend::Replace);
     let mut plan = compiled(&raster.outputs(&[color, second]), &raster::device(), &Options::default());
     let Work::Render(scope) = &mut plan.steps[2].work else { panic!("{}", plan.tree()) };
-    scope.color[0].load = LoadOp::DontCare;
-    let image = scope.color[0].image;
+    scope.attachments[0].load = LoadOp::DontCare;
+    let image = scope.attachments[0].image;
     for barrier in plan.steps[2].image_barriers.iter_mut().filter(|barrier| barrier.image == image) {
         barrier.old_layout = Layout::Undefined;
     }

@@ -52,7 +52,7 @@ fn with_two_layers(mut plan: Plan) -> Plan {
         let of_color = step.image_barriers.iter_mut().filter(|barrier| barrier.image.0 == 0);
         of_color.for_each(|barrier| barrier.range.layers = 2);
         let Work::Render(scope) = &mut step.work else { continue };
-        let attached = scope.color.iter_mut().filter(|attachment| attachment.image.0 == 0);
+        let attached = scope.attachments.iter_mut().filter(|attachment| attachment.image.0 == 0);
         for attachment in attached {
             (attachment.range.layers, scope.layers) = (2, 2);
         }

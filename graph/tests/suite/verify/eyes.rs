@@ -121,8 +121,8 @@ const CHANGES: &[(Change, &str)] = &[
     ),
     (
         |plan| {
-            let other = scope(plan, "mirror").color[0].clone();
-            scope(plan, "show").color.push(other);
+            let other = scope(plan, "mirror").attachments[0].clone();
+            scope(plan, "show").attachments.push(other);
         },
         "`mirror`: is drawn beside an image that holds both eyes' parts otherwise",
     ),

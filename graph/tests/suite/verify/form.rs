@@ -132,11 +132,22 @@ fn every_mistake_of_form_is_said() {
             },
             "`screen`: comes or goes in DEPTH_ATTACHMENT_OPTIMAL, which not all of its planes can be in",
         ),
-        (|plan| scope(plan, 1).color.clear(), "has 0 colour attachments, or none at all, as no rendering scope can"),
+        (|plan| scope(plan, 0).attachments.reverse(), "lists attachments otherwise than colour, depth, stencil"),
         (
             |plan| {
-                let attachment = scope(plan, 1).color[0].clone();
-                scope(plan, 1).color = vec![attachment; 33];
+                let scope = scope(plan, 0);
+                scope.attachments.extend(scope.depth().cloned());
+            },
+            "lists attachments otherwise than colour, depth, stencil, or depth or stencil twice",
+        ),
+        (
+            |plan| scope(plan, 1).attachments.clear(),
+            "has 0 colour attachments, or none at all, as no rendering scope can",
+        ),
+        (
+            |plan| {
+                let attachment = scope(plan, 1).attachments[0].clone();
+                scope(plan, 1).attachments = vec![attachment; 33];
             },
             "has 33 colour attachments",
         ),
@@ -178,11 +189,17 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[2].shape = Shape::D3, "`color.resolved`: is three-dimensional and can't be an attachment"),
         (|plan| plan.images[3].shape = Shape::D3, "`screen`: is three-dimensional and can't be an attachment"),
         (|plan| scope(plan, 0).samples = 1, "`color`: has another sample count than its scope"),
-        (|plan| scope(plan, 0).color[0].clear = None, "has a clear value exactly if its load is CLEAR"),
-        (|plan| scope(plan, 0).color[0].clear = Some([f64::NAN; 4]), "has a clear value that its format doesn't hold"),
-        (|plan| scope(plan, 0).color[0].clear = Some([1e39; 4]), "has a clear value that its format doesn't hold"),
-        (|plan| scope(plan, 1).color[0].clear = Some([0.0; 4]), "has a clear value exactly if its load is CLEAR"),
-        (|plan| scope(plan, 0).depth = None, "pass `opaque` tests depth without a depth attachment"),
+        (|plan| scope(plan, 0).attachments[0].clear = None, "has a clear value exactly if its load is CLEAR"),
+        (
+            |plan| scope(plan, 0).attachments[0].clear = Some([f64::NAN; 4]),
+            "has a clear value that its format doesn't hold",
+        ),
+        (
+            |plan| scope(plan, 0).attachments[0].clear = Some([1e39; 4]),
+            "has a clear value that its format doesn't hold",
+        ),
+        (|plan| scope(plan, 1).attachments[0].clear = Some([0.0; 4]), "has a clear value exactly if its load is CLEAR"),
+        (|plan| scope(plan, 0).attachments.truncate(1), "pass `opaque` tests depth without a depth attachment"),
         (|plan| scope(plan, 0).passes[0].blend.clear(), "doesn't say how each colour attachment is blended"),
         (|plan| scope(plan, 0).passes[0].blend = vec![Blend::Alpha], "doesn't list its COLOR_ATTACHMENT_READ"),
         (|plan| scope(plan, 0).passes[0].accesses.clear(), "doesn't list its COLOR_ATTACHMENT_WRITE"),
@@ -210,13 +227,13 @@ fn every_mistake_of_form_is_said() {
         (|plan| scope(plan, 1).passes[0].name = "sky".into(), "a pass has the name of another pass"),
         (|plan| plan.images[2].format = Format::R8G8B8A8_UNORM, "is the target of a resolve from another format"),
         (
-            |plan| scope(plan, 0).color[0].resolve.iter_mut().for_each(|resolve| resolve.mode = ResolveMode::Max),
+            |plan| scope(plan, 0).attachments[0].resolve.iter_mut().for_each(|resolve| resolve.mode = ResolveMode::Max),
             "can't be resolved in that mode",
         ),
         (
             |plan| {
-                let attached = scope(plan, 0).color[0].clone();
-                scope(plan, 0).color.push(attached);
+                let attached = scope(plan, 0).attachments[0].clone();
+                scope(plan, 0).attachments.push(attached);
             },
             "`color`: is attached twice",
         ),
@@ -230,7 +247,7 @@ fn every_mistake_of_form_is_said() {
         ),
         (
             |plan| {
-                let depth = scope(plan, 0).depth.as_mut().expect("the scene has depth");
+                let depth = scope(plan, 0).attachments.last_mut().expect("the scene has depth");
                 depth.layout = Layout::DepthStencilReadOnlyOptimal;
             },
             "is attached read-only, which takes a LOAD load and a NONE store",
@@ -268,7 +285,7 @@ fn every_mistake_of_form_is_said() {
 #[test]
 fn a_store_without_need_of_contents_is_no_mistake() {
     let mut plan = multisampled();
-    scope(&mut plan, 0).color[0].store = StoreOp::Store;
+    scope(&mut plan, 0).attachments[0].store = StoreOp::Store;
     assert_eq!(verify(&plan), []);
 }
 
@@ -277,7 +294,7 @@ fn a_store_without_need_of_contents_is_no_mistake() {
 fn contents_that_a_draw_may_leave_standing_must_be_loaded() {
     let mut plan = hand_written_plans::all().into_iter().nth(2).expect("the Plan with read-only depth").1;
     let glass = scope(&mut plan, 2);
-    glass.color[0].load = LoadOp::DontCare;
+    glass.attachments[0].load = LoadOp::DontCare;
     glass.passes[0].blend = vec![Blend::Replace];
     glass.passes[0].accesses[0].accesses = Accesses::COLOR_ATTACHMENT_WRITE;
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
@@ -295,8 +312,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 13", "\"format_version\": 14"),
-        "the Plan has format version 14, this program reads version 13: compile it again"
+        changed("\"format_version\": 14", "\"format_version\": 13"),
+        "the Plan has format version 13, this program reads version 14: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");
@@ -310,7 +327,7 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
     assert!(matches!(Plan::from_json(&"[".repeat(100_000)), Err(PlanError::Syntax(_))));
     assert!(changed("0.0", "1e999").contains("number out of range"));
     let mut plan = plan;
-    scope(&mut plan, 0).color[0].clear = Some([f64::NAN; 4]);
+    scope(&mut plan, 0).attachments[0].clear = Some([f64::NAN; 4]);
     assert_eq!(plan.to_json().unwrap_err().to_string(), "a clear value in steps[0] is not a finite number");
 }
 

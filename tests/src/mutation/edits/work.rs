@@ -11,8 +11,7 @@ use framewright_graph::vulkan::{Layout, LoadOp, StoreOp};
 /// Everything about the work of a step.
 pub(super) fn of_step(plan: &Plan, number: usize, step: &Step, edits: &mut Vec<Edit>) {
     if let Work::Render(scope) = &step.work {
-        let count = scope.color.len() + usize::from(scope.depth.is_some()) + usize::from(scope.stencil.is_some());
-        (0..count).for_each(|attachment| operations(plan, number, attachment, edits));
+        (0..scope.attachments.len()).for_each(|attachment| operations(plan, number, attachment, edits));
         let local = scope.passes.iter().enumerate().filter(|(_, pass)| pass.local_barrier);
         edits.extend(local.map(|(pass, _)| {
             Edit::new(Kind::LocalBarrierDropped, format!("of pass {pass} in step {number}"), move |plan| {
@@ -59,7 +58,7 @@ fn each_layout(work: &mut Work, visit: &mut dyn FnMut(ImageId, &mut Layout)) {
     };
     match work {
         Work::Render(scope) => {
-            for attachment in scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil) {
+            for attachment in &mut scope.attachments {
                 visit(attachment.image, &mut attachment.layout);
                 attachment.resolve.iter_mut().for_each(|resolve| visit(resolve.image, &mut resolve.layout));
             }
@@ -82,7 +81,7 @@ fn side_layout(side: &mut Side, visit: &mut dyn FnMut(ImageId, &mut Layout)) {
 
 fn attachment_of(plan: &mut Plan, number: usize, attachment: usize) -> Option<&mut Attachment> {
     let Work::Render(scope) = &mut plan.steps.get_mut(number)?.work else { return None };
-    scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil).nth(attachment)
+    scope.attachments.get_mut(attachment)
 }
 
 fn operations(plan: &Plan, number: usize, at: usize, edits: &mut Vec<Edit>) {
@@ -111,7 +110,7 @@ fn operations(plan: &Plan, number: usize, at: usize, edits: &mut Vec<Edit>) {
     edit(Kind::ResolveDropped, "resolve", |attachment| attachment.resolve = None);
     let earlier = (0..number).rev().find_map(|step| {
         let count = match &plan.steps[step].work {
-            Work::Render(scope) => scope.color.len() + 1,
+            Work::Render(scope) => scope.color().len() + 1,
             _ => 0,
         };
         (0..count).find_map(|other| {
@@ -188,7 +187,7 @@ fn standalone_resolve(plan: &Plan, number: usize, edits: &mut Vec<Edit>) {
         return;
     };
     let draws = |step: &Step| match &step.work {
-        Work::Render(scope) => scope.color.iter().chain(&scope.depth).any(|attachment| attachment.image == image),
+        Work::Render(scope) => scope.attachments.iter().any(|attachment| attachment.image == image),
         _ => false,
     };
     if let Some(step) = plan.steps[..number].iter().rposition(draws) {

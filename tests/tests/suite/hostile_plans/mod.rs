@@ -202,7 +202,7 @@ fn very_long_lists_are_looked_at_in_little_time() {
     let mut attached = plan.clone();
     for step in &mut attached.steps {
         if let Work::Render(scope) = &mut step.work {
-            scope.color = vec![scope.color[0].clone(); MANY as usize];
+            scope.attachments = vec![scope.attachments[0].clone(); MANY as usize];
         }
     }
     assert!(!verify(&attached).is_empty());

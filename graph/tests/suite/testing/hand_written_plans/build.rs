@@ -119,7 +119,9 @@ pub(crate) fn sampled(name: &str, image: &Image, state: State) -> Access {
 }
 
 pub(crate) fn attachment(image: &Image, layout: Layout, load: LoadOp, store: StoreOp, because: &str) -> Attachment {
+    let kind = if image.format.is_depth() { AttachmentKind::Depth } else { AttachmentKind::Color };
     Attachment {
+        kind,
         image: image.id,
         range: range(image.format),
         layout,
@@ -167,7 +169,8 @@ pub(crate) fn dispatch(name: &str, line: u32, accesses: Vec<Access>) -> Pass {
 }
 
 pub(crate) fn scope(samples: u32, color: Vec<Attachment>, depth: Option<Attachment>, passes: Vec<Pass>) -> Work {
-    let scope = RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, stencil: None, passes };
+    let attachments = color.into_iter().chain(depth).collect();
+    let scope = RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, attachments, passes };
     Work::Render(Box::new(scope))
 }
 

@@ -62,7 +62,10 @@ pub(crate) fn plan() -> Plan {
         Pass { stencil: Some(marked), ..draw("tint", 30, Draw::FullScreen, &[Blend::Premultiplied], None, accesses) };
 
     let with_stencil = |work: Work, attachment: Attachment| match work {
-        Work::Render(scope) => Work::Render(Box::new(RenderScope { stencil: Some(attachment), ..*scope })),
+        Work::Render(mut scope) => {
+            scope.attachments.push(Attachment { kind: AttachmentKind::Stencil, ..attachment });
+            Work::Render(scope)
+        }
         other => other,
     };
     let (clear, load, store) = (LoadOp::Clear, LoadOp::Load, StoreOp::Store);

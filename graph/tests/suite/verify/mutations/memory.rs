@@ -62,10 +62,7 @@ fn attachments(plan: &mut Plan) -> impl Iterator<Item = (usize, &mut Attachment)
             Work::Render(scope) => Some(scope),
             _ => None,
         };
-        scope
-            .into_iter()
-            .flat_map(|scope| scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil))
-            .map(move |of| (step, of))
+        scope.into_iter().flat_map(|scope| &mut scope.attachments).map(move |of| (step, of))
     })
 }
 

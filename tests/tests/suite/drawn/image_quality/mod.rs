@@ -116,7 +116,7 @@ fn listing(plan: &Plan) -> Vec<String> {
         match &step.work {
             Work::Render(scope) => {
                 listing.extend(scope.passes.iter().map(|pass| pass.name.to_string()));
-                let resolved = scope.color.iter().filter(|color| color.resolve.is_some());
+                let resolved = scope.color().iter().filter(|color| color.resolve.is_some());
                 listing.extend(resolved.map(|_| "(resolve)".to_owned()));
             }
             Work::Resolve(_) => listing.push("(resolve)".to_owned()),
@@ -132,7 +132,7 @@ fn listing(plan: &Plan) -> Vec<String> {
 fn drawn_by<'p>(plan: &'p Plan, pass: &str) -> Option<&'p Image> {
     plan.steps.iter().find_map(|step| match &step.work {
         Work::Render(scope) if scope.passes.iter().any(|it| &*it.name == pass) => {
-            plan.images.get(scope.color.first()?.image.0 as usize)
+            plan.images.get(scope.color().first()?.image.0 as usize)
         }
         _ => None,
     })

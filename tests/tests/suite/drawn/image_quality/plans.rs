@@ -163,13 +163,13 @@ fn nothing_is_loaded_that_was_not_kept_or_is_drawn_over() -> Result<(), Box<dyn 
         for step in &plan.steps {
             let Work::Render(scope) = &step.work else { continue };
             let [first, ..] = &scope.passes[..] else { continue };
-            for (attachment, blend) in scope.color.iter().zip(&first.blend) {
+            for (attachment, blend) in scope.color().iter().zip(&first.blend) {
                 let covers = first.draw == Some(Draw::FullScreen) && *blend == Blend::Replace && !first.discards;
                 let wanted = if covers { LoadOp::DontCare } else { attachment.load };
                 assert_eq!(attachment.load, wanted, "{set:?}: `{}` covers all: {}", first.name, plan.tree());
                 drawn_over += usize::from(covers && stored.contains_key(&attachment.image));
             }
-            for attachment in scope.color.iter().chain(&scope.depth) {
+            for attachment in scope.attachments.iter() {
                 let before = stored.insert(attachment.image, attachment.store);
                 let loaded = attachment.load == LoadOp::Load;
                 assert!(!loaded || before == Some(StoreOp::Store), "{set:?}: {}", plan.tree());

@@ -38,7 +38,7 @@ fn scopes(plan: &Plan) -> impl Iterator<Item = &RenderScope> {
 
 /// All attachments of a Plan.
 fn attachments(plan: &Plan) -> impl Iterator<Item = &Attachment> {
-    scopes(plan).flat_map(|scope| scope.color.iter().chain(&scope.depth).chain(&scope.stencil))
+    scopes(plan).flat_map(|scope| &scope.attachments)
 }
 
 /// The resolves of a Plan, by scopes or steps: each image with the one that it is resolved to.
