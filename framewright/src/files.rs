@@ -85,6 +85,13 @@ impl PipelineFile {
         .and_then(|file| file.extended(&options.extensions))
     }
 
+    /// A pipeline that the program carries within itself, which messages call `name`. The files that it names are shipped ones.
+    #[must_use]
+    pub fn carried(name: &str, text: &str) -> PipelineFile {
+        let own = Found { shown: name.to_owned(), relative: name.into(), bytes: text.as_bytes().to_vec() };
+        PipelineFile::of(own, PipelineFiles::shipped(shipped::PIPELINES), None, &ReadFiles::default())
+    }
+
     /// Records in `read` the files that [`PipelineFile::find`] is going to read, before any is read.
     pub fn expect(path: &Path, options: &FileOptions, read: &ReadFiles) {
         read.expect(THE_PIPELINE, path);

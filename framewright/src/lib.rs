@@ -49,7 +49,7 @@ pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
-    DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType,
+    DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType, Overlay,
     PrecompiledShaders, PresentMode, Presentation, Recorder, Resource, SamplerDescriptor, ScopeFormats, SemaphorePoint,
     ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };

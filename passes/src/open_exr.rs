@@ -37,7 +37,7 @@ enum Channels {
 const ABSENT: [&str; 2] = ["(absent 1)", "(absent 2)"];
 
 impl<R: BufRead + Seek> OpenExr<R> {
-    /// Looks at a file's headers. Of several parts the first one with colours counts; where none has colours, the first one that can be
+    /// Looks at a file's headers. The first part with colours counts; where none has colours, the first part that can be
     /// read.
     ///
     /// # Errors

@@ -26,6 +26,7 @@ pub const SHADERS: Shipped = carried!(
     "casters_masked.frag",
     "color_grade.frag",
     "copy.frag",
+    "corner.frag",
     "count_frames.comp",
     "deferred_lighting.frag",
     "depth_of_field.frag",
@@ -145,7 +146,7 @@ pub const PIPELINES: Shipped = carried!(
 /// The scenes in `examples/scenes`.
 pub const SCENES: Shipped = carried!("scenes": "courtyard.ron", "passing.ron", "spheres_and_cubes.ron");
 
-/// Names by which shipped files are asked for: of those in no folder, without their ending.
+/// Names by which shipped files are asked for, without their ending. Files in folders have none.
 pub fn names(files: Shipped) -> impl Iterator<Item = &'static str> {
     files.iter().filter_map(|(file, _)| name(file))
 }

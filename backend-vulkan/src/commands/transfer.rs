@@ -23,6 +23,26 @@ pub(crate) enum TransferSide {
     Buffer { buffer: vk::Buffer, bytes: u64 },
 }
 
+/// A copy, resolve, blit or fill, ready to be recorded as often as needed.
+pub(crate) enum TransferCommand {
+    Copy(TransferSide, TransferSide),
+    Resolve(ImageSide, ImageSide),
+    Blit(ImageSide, ImageSide, vk::Filter),
+    Fill(TransferSide, Clear),
+}
+
+impl TransferCommand {
+    /// Records it.
+    pub(crate) fn record(&self, gpu: &Gpu, commands: vk::CommandBuffer) {
+        match self {
+            TransferCommand::Copy(source, target) => copy_between(gpu, commands, *source, *target),
+            TransferCommand::Resolve(source, target) => resolve(gpu, commands, *source, *target),
+            TransferCommand::Blit(source, target, filter) => blit(gpu, commands, *source, *target, *filter),
+            TransferCommand::Fill(target, value) => fill(gpu, commands, *target, *value),
+        }
+    }
+}
+
 /// Copies one place to another: texel for texel, byte for byte, or texels without gaps to or from a buffer.
 pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: TransferSide, target: TransferSide) {
     let device = &gpu.raw;

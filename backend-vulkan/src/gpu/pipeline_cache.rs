@@ -20,7 +20,7 @@ const MOST_BYTES: u64 = 256 << 20;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PipelineCounts {
-    /// All that were made for Plans. A frame makes none. Those of overlays over windows don't count.
+    /// All that were made for Plans. A frame makes none.
     pub made: u64,
     /// Those of them that the driver found in its cache: it says so, where it says anything.
     pub found: u64,
@@ -121,8 +121,8 @@ impl PipelineCache {
         }
     }
 
-    /// Keeps what was added since it was opened, with what other processes kept meanwhile. Of two processes that do so at once, the later one
-    /// may replace what the other added: that is made again some day.
+    /// Keeps what was added since it was opened, with what other processes kept meanwhile. Where two processes
+    /// do so at once, the later may replace what the earlier added: that is made again some day.
     ///
     /// # Safety
     /// It is a cache of `device`, in which no thread makes pipelines.

@@ -28,11 +28,6 @@ impl Gpu {
         })
     }
 
-    /// A pipeline of this description that belongs to the caller, who destroys it.
-    pub(crate) fn own_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<vk::Pipeline, Error> {
-        Ok(self.create_pipeline(name, descriptor)?.0)
-    }
-
     /// A new pipeline, and whether the driver found it in its cache.
     fn create_pipeline(&self, name: &str, descriptor: &PipelineDescriptor) -> Result<(vk::Pipeline, bool), Error> {
         let created = match descriptor {
@@ -47,7 +42,7 @@ impl Gpu {
     /// runs at once.
     ///
     /// # Errors
-    /// Of those that can't be made, the error of the first.
+    /// The error of the first one that can't be made.
     pub(crate) fn pipelines(&self, wanted: &[(&str, &PipelineDescriptor)]) -> Result<Vec<vk::Pipeline>, Error> {
         let mut seen = HashSet::new();
         let missing = wanted

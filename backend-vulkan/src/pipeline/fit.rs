@@ -1,12 +1,28 @@
-//! Whether a shader fits what its pass and its draw source give it.
+//! Whether a shader fits what its pass, its draw source and the device give it.
 
-use crate::gpu::VertexAttribute;
+use crate::gpu::{Gpu, VertexAttribute};
 use ash::vk;
+use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
-    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, VertexInput, VertexLayout,
+    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, VertexInput, VertexLayout, resource_needs,
 };
 use framewright_graph::vulkan::Component;
+
+/// Checks a shader against the device's features and limits, with the resources that the draw source brings along, whether the shader
+/// reads them or not, and the number of its pass's targets.
+pub(crate) fn check_needs<'s>(
+    gpu: &Gpu,
+    shader: &ShaderInterface,
+    brought: impl Iterator<Item = &'s Supplied> + Clone,
+    targets: usize,
+) -> Result<(), String> {
+    let limits = gpu.shader_limits();
+    let abilities = Abilities { device: "this device", limits: Some(&limits), has: &|name| gpu.features.has(name) };
+    let of_resources = resource_needs(shader, brought, targets);
+    let unmet = shader.needs.iter().chain(&of_resources).find_map(|need| need.unmet(&abilities));
+    unmet.map_or(Ok(()), Err)
+}
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.
 pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {

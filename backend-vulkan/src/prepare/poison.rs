@@ -135,7 +135,7 @@ fn pattern(format: Format) -> Clear {
         Numeric::Sfloat | Numeric::Ufloat => vk::ClearColorValue { float32: [f32::NAN; 4] },
         Numeric::Unorm | Numeric::Snorm | Numeric::Srgb => vk::ClearColorValue { float32: [1.0, 0.0, 1.0, 1.0] },
         Numeric::Uint | Numeric::Sint => {
-            // Of signed numbers those that aren't negative, which have the same bits.
+            // The sign stays clear, so that signed and unsigned numbers have the same bits.
             let sign = u64::from(format.numeric() == Numeric::Sint);
             let bits = format.texel_bytes() * 8 / u64::from(format.components().max(1)) - sign;
             let mask = u32::MAX.unbounded_shr(32_u32.saturating_sub(u32::try_from(bits).unwrap_or(32)));

@@ -1,4 +1,4 @@
-//! What a swapchain is made like: of what its surface offers, that which the options ask for.
+//! The form of a swapchain: what the options ask for, as far as the surface offers it.
 
 use super::options::{PresentMode, SwapchainOptions};
 use super::surface::SurfaceHandle;
@@ -10,7 +10,7 @@ use framewright_graph::vulkan::{Format, Rotation};
 /// The colour space of all swapchains.
 pub(super) const COLOR_SPACE: vk::ColorSpaceKHR = vk::ColorSpaceKHR::SRGB_NONLINEAR;
 
-/// All that a swapchain is made like. One that would be made like the one that there is would be no other.
+/// All that a swapchain is made with. Two of the same form are alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct SwapchainForm {
     pub(super) format: Format,

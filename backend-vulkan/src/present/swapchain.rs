@@ -3,7 +3,6 @@
 use super::form::SwapchainForm;
 use super::handle::SwapchainHandle;
 use super::options::{PresentMode, SwapchainOptions};
-use super::overlay::{Overlay, OverlayLayer};
 use super::surface::{Surface, presenting};
 use crate::base::{Error, SLICE};
 use crate::gpu::PendingWork;
@@ -14,8 +13,6 @@ use std::time::Instant;
 
 /// The images that a surface shows. [`Executor::present`](crate::Executor::present) draws into them.
 pub struct Swapchain {
-    /// Before the images that it is laid over: dropping it waits for the device.
-    overlay: OverlayLayer,
     surface: Surface,
     options: SwapchainOptions,
     /// `None`: the surface has no area, as that of a minimised window.
@@ -66,7 +63,6 @@ impl Swapchain {
     /// [`Error::BadResource`] if the surface has none of the formats; [`Error::SurfaceLost`], [`Error::OutOfMemory`].
     pub fn new(surface: &Surface, options: &SwapchainOptions) -> Result<Swapchain, Error> {
         let mut swapchain = Swapchain {
-            overlay: OverlayLayer::new(&surface.handle.gpu)?,
             surface: surface.clone(),
             options: options.clone(),
             current: None,
@@ -88,7 +84,7 @@ impl Swapchain {
     /// still be shown, they stay. `extent` counts where the surface leaves the size to the program. Returns whether the surface has
     /// an area now.
     ///
-    /// Executors and the overlay keep the old images until they present again or are dropped; then all work of the graphics queue is waited
+    /// Executors keep the old images until they present again or are dropped; then all work of the graphics queue is waited
     /// for.
     ///
     /// # Errors
@@ -127,29 +123,6 @@ impl Swapchain {
     /// Chooses another present mode, from the next [`Swapchain::resize`] on.
     pub fn set_mode(&mut self, mode: PresentMode) {
         self.options.mode = mode;
-    }
-
-    /// Lays a picture over what the window shows, from the next frame on, in place of the one before; `None`: none. It is copied.
-    /// Frames, what they leave and their times stay as they are. The first frame after a change sends the texels to the device,
-    /// unless they are those that it has, and waits for the last frame that did so: an overlay that changes in every frame leaves one frame on
-    /// its way at a time. The first frame under an overlay makes a pipeline.
-    ///
-    /// # Errors
-    /// [`Error::BadResource`] if the picture has no area, is larger than an image of the device, or has another number of bytes
-    /// than its texels take.
-    pub fn set_overlay(&mut self, overlay: Option<&Overlay<'_>>) -> Result<(), Error> {
-        self.overlay.set(overlay)
-    }
-
-    /// Makes ready to lay the overlay over the next image. Returns whether any of it can be seen.
-    pub(crate) fn ready_overlay(&mut self) -> Result<bool, Error> {
-        self.current.as_ref().map_or(Ok(false), |current| self.overlay.ready(current, self.options.timeout))
-    }
-
-    /// Lays the overlay over an image, in place of the frame that draws it: it signals that the image is drawn.
-    /// [`Swapchain::ready_overlay`] must have said that it can be seen.
-    pub(crate) fn lay_over(&mut self, image: &FreeImage) -> Result<(), Error> {
-        self.overlay.lay_over(image.number, image.done, image.drawn, self.options.timeout)
     }
 
     /// The format of the images; `None` while the surface has no area.

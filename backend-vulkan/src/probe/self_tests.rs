@@ -133,7 +133,7 @@ impl SelfTestRuns {
     }
 }
 
-/// Of a device whose self-test gave no answer nothing is used: draws resolve instead. `fails`: that is the device's doing.
+/// Findings that use no resolves of a device whose self-test gave no answer: draws resolve instead. `fails`: that is the device's doing.
 fn without_answer(device: &Device, fails: bool) -> SampleResolve {
     let said = depth_resolve_modes(&device.gpu);
     let (refuted, untested) = if fails { (said, Vec::new()) } else { (Vec::new(), said) };
@@ -194,8 +194,7 @@ fn outcome_of(end: &NoAnswer) -> Outcome {
     }
 }
 
-/// All that what is found depends on: the device, its driver and that one's version, and the program that tests it, which
-/// another build replaces.
+/// Names what the findings depend on: the device with its driver and the driver's version, and the build of the program that tests.
 fn key(device: &Device, helper: &Helper) -> String {
     format!("{}; {}", device.summary().identity, identity_of(helper.path()))
 }

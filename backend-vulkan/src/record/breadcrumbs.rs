@@ -64,7 +64,7 @@ impl Breadcrumbs {
         barrier_call(&self.gpu, commands, &[after], &[]);
     }
 
-    /// The steps that began and whose batches haven't ended, by number: of each queue the one that the device is at. Empty too if the
+    /// The steps that began and whose batches haven't ended, by number: one for each queue that is at work. Empty too if the
     /// memory can't be read.
     pub(crate) fn running(&self) -> Vec<usize> {
         let words = self.words.contents(4 * self.batches).unwrap_or_default();

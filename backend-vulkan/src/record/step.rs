@@ -20,7 +20,7 @@ pub(crate) struct Recording<'r> {
     pub(crate) source: &'r mut dyn DrawSource,
     pub(crate) observers: &'r mut Observers,
     pub(crate) recorded: &'r mut Recorded,
-    /// Of the command buffer that is being recorded.
+    /// The state of the command buffer that is being recorded.
     pub(crate) state: CommandState,
 }
 

@@ -27,7 +27,7 @@ struct Lies {
     bytes: u64,
     /// Whether what follows it begins behind its padding.
     padded: bool,
-    /// Of a vector the bytes of its scalars.
+    /// The bytes of a vector's scalars; `None`: it is no vector.
     scalar_of_vector: Option<u64>,
 }
 

@@ -136,7 +136,7 @@ impl Set {
 struct Output {
     variable: u32,
     location: Option<u32>,
-    /// Of an array; for an array of arrays the outermost length comes first.
+    /// The lengths of an array, the outermost first.
     lengths: Vec<usize>,
     components: usize,
     first: usize,

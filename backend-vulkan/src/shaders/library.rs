@@ -337,7 +337,7 @@ impl ShaderInterfaces for ShaderLibrary {
             FilePath::Shipped(_) => FilePath::Shipped(name.clone()),
             FilePath::Own(_) => from.beside(name).map_err(none)?,
         };
-        // Of a file that the user named by hand the folder may lie outside: nothing is looked for there.
+        // A file that the user named by hand may lie in a folder outside: nothing is looked for there.
         if from.folder().is_empty() || self.files.may_read(from.folder()) {
             let path = beside.to_string();
             if self.source(&stage.file_of(&path))?.is_some() {

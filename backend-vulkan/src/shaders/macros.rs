@@ -65,7 +65,7 @@ pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStag
     own.chain(one).chain(both).collect()
 }
 
-/// The part that one eye has of what is used in halves, of which the left one's is `left`.
+/// One eye's part of an image that is used in halves. `left` is the left eye's part.
 fn half(left: &str, eye: Option<Eye>) -> String {
     let eye = eye.map_or_else(|| format!("float({EYE})"), |eye| format!("{}.0", eye as u32));
     format!("({left} + vec4(0.0, 0.0, {left}.x * {eye}, 0.0))")

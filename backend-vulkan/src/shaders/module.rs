@@ -26,7 +26,7 @@ struct Sizes {
     own_bytes: u64,
     /// Locations of a value of the type.
     locations: u32,
-    /// Of a struct the bytes up to the end of its last member of a written length.
+    /// Bytes of a struct up to the end of its last member of a written length.
     block_end: u32,
 }
 

@@ -1,23 +1,86 @@
-//! EM-4: pictures that are laid over what a window shows, and over nothing else.
+//! EM-4: frames that are drawn over what a window shows, and over nothing else.
 
-use crate::frames::library;
-use crate::presenting::{SHADERS, Window, executor_for, in_windows, options, planned_for};
+use crate::frames::{Small, Uses, draw, library, planned};
+use crate::presenting::{PRESENTED, SHADERS, Window, executor_for, in_windows, options, planned_for};
 use crate::testing::Nothing;
-use framewright_graph::vulkan::Format;
+use framewright_graph::compile::Options;
+use framewright_graph::frame::{Blend, Draw, Frame, Image, Lifetime, Output, Pass, Resource};
+use framewright_graph::vulkan::{Aspects, FillValue, Format, Layout, Numeric, State, Subresources};
 use framewright_tests::sweep;
-use framewright_vulkan::{Device, Executor, ExecutorOptions, Overlay, Presentation, Swapchain, SwapchainOptions};
+use framewright_vulkan::{
+    Device, DrawSource, Error, Executor, ExecutorOptions, Overlay, Presentation, Recorder, Swapchain, SwapchainOptions,
+};
 use std::time::{Duration, Instant};
 
 const EXTENT: [u32; 2] = [64, 48];
+
+/// The upper left corner of the picture that overlays show.
+const CORNER: [u32; 2] = [10, 20];
+
+const OVER: &[(&str, &str)] = &[(
+    "over.frag",
+    "#version 460
+    layout(set = 0, binding = 0) uniform sampler2D picture;
+    layout(location = 0) out vec4 color;
+    void main() {
+        ivec2 texel = ivec2(gl_FragCoord.xy) - ivec2(10, 20);
+        bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, textureSize(picture, 0)));
+        color = inside ? texelFetch(picture, texel, 0) : vec4(0.0);
+    }",
+)];
+
+/// Draws a picture of this size over an image `screen` that is handed in as it was presented.
+fn over(format: Format, [width, height]: [u32; 2], picture: [u32; 2]) -> Frame {
+    let mut small = Small::default();
+    let is_srgb = format.numeric() == Numeric::Srgb;
+    let shown = if is_srgb { Format::R8G8B8A8_SRGB } else { Format::R8G8B8A8_UNORM };
+    let lifetime = Lifetime::Persistent { initial: FillValue::Color([0.0; 4]) };
+    let picture = Image { lifetime, ..Image::new("picture", shown, picture[0], picture[1]) };
+    let picture = small.image_like(picture);
+    let lifetime = Lifetime::Imported { before: PRESENTED, after: Some(PRESENTED) };
+    let screen = small.image_like(Image { lifetime, ..Image::new("screen", format, width, height) });
+    let pass = draw("over", Draw::FullScreen).samples("picture", picture, Subresources::WHOLE);
+    let mut pass = pass.draws(screen, Subresources::WHOLE, None);
+    pass.color[0].blend = Blend::Alpha;
+    small.pass(pass);
+    small.frame.outputs.push(Output { after: Some(PRESENTED), ..Resource::Image(screen).into() });
+    small.frame
+}
+
+/// An executor of such a frame for the images of a swapchain.
+fn overlay_for(device: &Device, swapchain: &Swapchain, picture: [u32; 2]) -> Executor {
+    let (format, extent) = (swapchain.format().expect("an area"), swapchain.extent().expect("an area"));
+    overlay_of(device, &over(format, extent, picture))
+}
+
+fn overlay_of(device: &Device, frame: &Frame) -> Executor {
+    let options = ExecutorOptions { frames_in_flight: 2, ..ExecutorOptions::default() };
+    let plan = planned(device, frame, &Options::default());
+    Executor::new(device, &plan, &mut library(OVER), &options).expect("an executor")
+}
 
 /// Texels of one colour.
 fn filled([width, height]: [u32; 2], texel: [u8; 4]) -> Vec<u8> {
     texel.repeat((width * height) as usize)
 }
 
+fn write(overlay: &mut Executor, texels: &[u8]) {
+    overlay.write_image("picture", Aspects::COLOR, 0, texels).expect("it fits");
+}
+
 /// Presents a frame, which must be shown.
 fn present(executor: &mut Executor, swapchain: &mut Swapchain) -> u64 {
-    match executor.present(&mut Nothing, swapchain, "screen").expect("shown") {
+    shown(executor.present(&mut Nothing, swapchain, "screen"))
+}
+
+/// The same below an overlay.
+fn present_below(executor: &mut Executor, swapchain: &mut Swapchain, overlay: &mut Executor) -> u64 {
+    let overlay = Overlay { executor: overlay, source: &mut Nothing, name: "screen" };
+    shown(executor.present_with_overlay(&mut Nothing, swapchain, "screen", overlay))
+}
+
+fn shown(presented: Result<Presentation, Error>) -> u64 {
+    match presented.expect("shown") {
         Presentation::Shown(frame) => frame,
         other => panic!("{other:?}"),
     }
@@ -52,23 +115,21 @@ fn em_4_an_overlay_is_in_the_window_and_not_in_what_the_frame_leaves() {
         let plan = planned_for(device, &swapchain);
         let kept = ExecutorOptions { frames_in_flight: 2, readback: true, ..ExecutorOptions::default() };
         let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &kept).expect("an executor");
-        let (extent, mut texels) = ([6, 4], filled([6, 4], [200, 100, 50, 255]));
+        let (extent, [left, top]) = ([6, 4], CORNER);
+        let mut overlay = overlay_for(device, &swapchain, extent);
+        let mut texels = filled(extent, [200, 100, 50, 255]);
         // The upper left texel is another one, and the lower right one lets the frame through.
         texels[..4].copy_from_slice(&[1, 2, 3, 255]);
         texels[92..].copy_from_slice(&[255, 255, 255, 0]);
-        let with = |count, x: u32, y: u32| match (x.wrapping_sub(10), y.wrapping_sub(20)) {
+        write(&mut overlay, &texels);
+        let with = |count, x: u32, y: u32| match (x.wrapping_sub(left), y.wrapping_sub(top)) {
             (0, 0) => [1, 2, 3],
             (5, 3) => frame(count, x),
             (0..6, 0..4) => [200, 100, 50],
             _ => frame(count, x),
         };
         for count in 1..=6 {
-            let overlay = Overlay { extent, offset: [10, 20], texels: &texels };
-            // It stays until another one takes its place.
-            if count == 1 {
-                swapchain.set_overlay(Some(&overlay)).expect("an overlay");
-            }
-            let number = present(&mut executor, &mut swapchain);
+            let number = present_below(&mut executor, &mut swapchain, &mut overlay);
             shows(window, EXTENT, |x, y| Some(with(count, x, y)));
             let left = executor.read_back_image(number, 0).expect("it was kept").bytes;
             let swapped = swapchain.format() == Some(Format::B8G8R8A8_UNORM);
@@ -78,22 +139,14 @@ fn em_4_an_overlay_is_in_the_window_and_not_in_what_the_frame_leaves() {
                 assert_eq!(texel, expected, "of frame {count}");
             }
         }
-        // Partly outside of the window, then another one, then none.
-        swapchain.set_overlay(Some(&Overlay { extent, offset: [-5, -2], texels: &texels })).expect("an overlay");
-        present(&mut executor, &mut swapchain);
-        let inside = |x, y| match (x, y) {
-            (0, 0) => [200, 100, 50],
-            _ => frame(7, x),
-        };
-        shows(window, EXTENT, |x, y| Some(inside(x, y)));
-        let half = filled([64, 2], [255, 255, 255, 128]);
-        swapchain.set_overlay(Some(&Overlay { extent: [64, 2], offset: [0, 46], texels: &half })).expect("an overlay");
-        present(&mut executor, &mut swapchain);
-        let blended = |x, y| frame(8, x).map(|below| if y < 46 { below } else { 128 + below / 2 });
+        // Another picture, then none.
+        write(&mut overlay, &filled(extent, [255, 255, 255, 128]));
+        present_below(&mut executor, &mut swapchain, &mut overlay);
+        let is_inside = |x, y| (left..left + 6).contains(&x) && (top..top + 4).contains(&y);
+        let blended = |x, y| frame(7, x).map(|below| if is_inside(x, y) { 128 + below / 2 } else { below });
         shows(window, EXTENT, |x, y| Some(blended(x, y)));
-        swapchain.set_overlay(None).expect("none");
         present(&mut executor, &mut swapchain);
-        shows(window, EXTENT, |x, _| Some(frame(9, x)));
+        shows(window, EXTENT, |x, _| Some(frame(8, x)));
     });
 }
 
@@ -103,14 +156,13 @@ fn em_4_an_overlay_has_its_colours_in_windows_of_srgb_and_its_light_is_blended()
         let options = SwapchainOptions { extent: EXTENT, ..SwapchainOptions::default() };
         let mut swapchain = Swapchain::new(surface, &options).expect("a swapchain");
         let mut executor = executor_for(device, &swapchain);
-        let mut texels = filled([2, 1], [100, 150, 200, 255]);
-        texels[4..].copy_from_slice(&[255, 255, 255, 128]);
-        swapchain.set_overlay(Some(&Overlay { extent: [2, 1], offset: [0, 0], texels: &texels })).expect("an overlay");
-        present(&mut executor, &mut swapchain);
+        let mut overlay = overlay_for(device, &swapchain, [2, 1]);
+        write(&mut overlay, &[100, 150, 200, 255, 255, 255, 255, 128]);
+        present_below(&mut executor, &mut swapchain, &mut overlay);
         // Half of white's light over nearly none.
         let expected = |x, y| match (x, y) {
-            (0, 0) => Some([100, 150, 200]),
-            (1, 0) => Some([188; 3]),
+            (10, 20) => Some([100, 150, 200]),
+            (11, 20) => Some([188, 191, 188]),
             _ => None,
         };
         shows(window, EXTENT, expected);
@@ -118,19 +170,16 @@ fn em_4_an_overlay_has_its_colours_in_windows_of_srgb_and_its_light_is_blended()
 }
 
 #[test]
-fn em_4_frames_under_an_overlay_allocate_nothing_until_it_changes_and_many_resizes_take_no_more_memory() {
+fn em_4_frames_under_an_overlay_allocate_nothing_and_many_resizes_take_no_more_memory() {
     let resizes = if sweep::is_long() { 1_000 } else { 200 };
     in_windows(|device, window, surface| {
         let before = device.memory_in_use();
         let mut swapchain = Swapchain::new(surface, &options(EXTENT)).expect("a swapchain");
         let mut executor = executor_for(device, &swapchain);
-        let texels = filled([20, 20], [0, 0, 0, 200]);
-        let overlay = Overlay { extent: [20, 20], offset: [2, 2], texels: &texels };
+        let mut overlay = overlay_for(device, &swapchain, [20, 20]);
         for frame in 0..60 {
             let counted = allocation_counter::measure(|| {
-                // The same texels are sent once.
-                swapchain.set_overlay(Some(&Overlay { offset: [frame % 7, 2], ..overlay })).expect("an overlay");
-                present(&mut executor, &mut swapchain);
+                present_below(&mut executor, &mut swapchain, &mut overlay);
             });
             if frame > 20 {
                 assert_eq!(counted.count_total, 0, "frame {frame}");
@@ -141,46 +190,90 @@ fn em_4_frames_under_an_overlay_allocate_nothing_until_it_changes_and_many_resiz
             let extent = [30 + step % 30, 30 + step % 7];
             window.resize(extent);
             assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+            drop(overlay);
             let mut next = executor_for(device, &swapchain);
             next.migrate_from(executor).expect("the count goes on");
             executor = next;
             // Another picture, and another size of it now and then.
-            let texels = filled([20, 20 + step / 50 % 2], [u8::try_from(step % 200).expect("small"), 0, 0, 255]);
-            let overlay = Overlay { extent: [20, 20 + step / 50 % 2], offset: [2, 2], texels: &texels };
-            swapchain.set_overlay(Some(&overlay)).expect("an overlay");
-            present(&mut executor, &mut swapchain);
-            present(&mut executor, &mut swapchain);
+            let picture = [20, 20 + step / 50 % 2];
+            overlay = overlay_for(device, &swapchain, picture);
+            write(&mut overlay, &filled(picture, [u8::try_from(step % 200).expect("small"), 0, 0, 255]));
+            present_below(&mut executor, &mut swapchain, &mut overlay);
+            present_below(&mut executor, &mut swapchain, &mut overlay);
             if step % 100 == 99 {
                 let now = device.memory_in_use();
                 assert_eq!(*settled.get_or_insert(now), now, "step {step}");
             }
         }
         let red = u8::try_from((resizes - 1) % 200).expect("small");
-        shows(window, [22, 22], |x, y| (x >= 2 && y >= 2).then_some([red, 0, 0]));
-        swapchain.set_overlay(None).expect("none");
-        present(&mut executor, &mut swapchain);
-        drop((executor, swapchain));
+        shows(window, [30, 30], |x, y| (x >= CORNER[0] && y >= CORNER[1]).then_some([red, 0, 0]));
+        drop((executor, overlay, swapchain));
         assert_eq!(device.memory_in_use(), before);
     });
 }
 
 #[test]
-fn overlays_that_cannot_be_drawn_are_refused_and_the_one_before_stays() {
-    in_windows(|device: &Device, window, surface| {
+fn overlays_that_cannot_be_drawn_are_refused_before_the_frame_is_drawn() {
+    in_windows(|device, window, surface| {
         let mut swapchain = Swapchain::new(surface, &options(EXTENT)).expect("a swapchain");
         let mut executor = executor_for(device, &swapchain);
-        let texels = filled([2, 2], [7, 8, 9, 255]);
-        swapchain.set_overlay(Some(&Overlay { extent: [2, 2], offset: [0, 0], texels: &texels })).expect("an overlay");
-        for (extent, expected) in [
-            ([0, 2], "overlay of 0 × 2: both must be from 1 to "),
-            ([2, 1 << 20], "overlay of 2 × 1048576: both must be from 1 to "),
-            ([2, 3], "overlay of 2 × 3: 16 bytes were given, 24 are needed"),
+        let format = swapchain.format().expect("an area");
+        let right = over(format, EXTENT, [2, 2]);
+        let mut unfound = right.clone();
+        let undefined = State { layout: Layout::Undefined, ..PRESENTED };
+        unfound.images[1].lifetime = Lifetime::Imported { before: undefined, after: Some(PRESENTED) };
+        unfound.passes[0].color[0].clear = Some([0.0; 4]);
+        for (frame, name, expected) in [
+            (over(format, [64, 50], [2, 2]), "screen", "it has 64x50 texels, and those of the window have 64x48"),
+            (unfound, "screen", "the frame doesn't find it as `Present`"),
+            (right, "picture", "the Plan has no such image"),
         ] {
-            let refused = swapchain.set_overlay(Some(&Overlay { extent, offset: [0, 0], texels: &texels }));
-            let refused = refused.expect_err("it can't be drawn").to_string();
-            assert!(refused.starts_with(expected), "{refused}");
+            let mut overlay = overlay_of(device, &frame);
+            let name = if name == "picture" { "another" } else { name };
+            let overlay = Overlay { executor: &mut overlay, source: &mut Nothing, name };
+            let refused = executor.present_with_overlay(&mut Nothing, &mut swapchain, "screen", overlay);
+            let refused = refused.expect_err("it doesn't fit").to_string();
+            assert_eq!(refused, format!("`{name}` can't be shown: {expected}"));
         }
-        present(&mut executor, &mut swapchain);
-        shows(window, EXTENT, |x, y| Some(if x < 2 && y < 2 { [7, 8, 9] } else { frame(1, x) }));
+        let refused = overlay_for(device, &swapchain, [2, 2]).present(&mut Nothing, &mut swapchain, "screen");
+        let refused = refused.expect_err("nothing lies below it").to_string();
+        assert_eq!(refused, "`screen` can't be shown: the frame needs its earlier contents");
+        assert_eq!(present(&mut executor, &mut swapchain), 0, "no frame was drawn");
+        shows(window, EXTENT, |x, _| Some(frame(1, x)));
+    });
+}
+
+/// Draws nothing, or fails.
+struct Failing(bool);
+
+impl DrawSource for Failing {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
+        if self.0 { Err(Error::DrawSource { what: "it gives up".to_owned() }) } else { Ok(0) }
+    }
+}
+
+#[test]
+fn an_image_whose_overlay_failed_is_given_up_and_new_ones_are_shown() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options(EXTENT)).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        let mut frame_over = over(swapchain.format().expect("an area"), EXTENT, [2, 2]);
+        let mut pass = Pass { name: "over by hand".into(), ..draw("over", Draw::Custom) };
+        pass.color.clone_from(&frame_over.passes[0].color);
+        pass.sampled.clone_from(&frame_over.passes[0].sampled);
+        frame_over.passes.push(pass);
+        let mut overlay = overlay_of(device, &frame_over);
+        let mut present = |fails: bool, swapchain: &mut Swapchain| {
+            let overlay = Overlay { executor: &mut overlay, source: &mut Failing(fails), name: "screen" };
+            executor.present_with_overlay(&mut Nothing, swapchain, "screen", overlay)
+        };
+        for _ in 0..5 {
+            let failed = present(true, &mut swapchain).expect_err("it gives up");
+            assert_eq!(failed.to_string(), "it gives up");
+            assert_eq!(present(false, &mut swapchain).expect("no other error"), Presentation::OutOfDate);
+            assert!(swapchain.resize([0, 0]).expect("a swapchain"));
+        }
+        assert_eq!(present(false, &mut swapchain).expect("shown"), Presentation::Shown(5));
+        shows(window, EXTENT, |x, _| Some(frame(6, x)));
     });
 }

@@ -45,7 +45,8 @@ pub(crate) const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-const PRESENTED: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr };
+pub(crate) const PRESENTED: State =
+    State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr };
 
 /// Counts its frames, and draws the count into the output `screen`.
 fn counting(format: Format, [width, height]: [u32; 2], after: Option<State>) -> Frame {

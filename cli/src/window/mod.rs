@@ -247,7 +247,7 @@ impl<'a> App<'a> {
                 "e" => session.turn_eyes()?,
                 "t" => session.turn_screen()?,
                 "r" => session.orbit().reset(),
-                "l" => session.turn_list()?,
+                "l" => session.turn_list(),
                 "p" => session.take_picture(),
                 _ => {}
             },

@@ -37,6 +37,15 @@ pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Hel
     Ok(renderer)
 }
 
+/// What the list of a window is drawn with.
+pub(super) fn list_options(arguments: &WindowArguments, helper: Helper) -> RendererOptions {
+    let mut options = RendererOptions::default();
+    options.helper = Some(helper);
+    options.precompiled = precompiled(&arguments.pipeline);
+    options.executor.frames_in_flight = 2;
+    options
+}
+
 /// A mistake that the command line made.
 fn of_command_line(error: framewright::Error) -> Error {
     match Error::from(error) {

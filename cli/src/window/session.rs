@@ -2,7 +2,7 @@
 
 use super::chosen::Chosen;
 use super::following::Following;
-use super::list::{Contents, List};
+use super::list::{Contents, List, NoObjects};
 use super::orbit::Orbit;
 use super::pace::{Pace, Speed};
 use super::problems::Problems;
@@ -71,7 +71,7 @@ impl<'a> Session<'a> {
         size: [u32; 2],
     ) -> Result<Session<'a>, Error> {
         let scene_read = ReadFiles::default();
-        let mut renderer = opening::renderer(arguments, device, helper)?;
+        let mut renderer = opening::renderer(arguments, device, helper.clone())?;
         let scene = inputs::scene(&arguments.scene, arguments.reading.strict, &scene_read)?;
         renderer.set_scene(&scene);
         let stereo = Stereo::first_fit(&arguments.pipeline.stereo.0, &device.profile());
@@ -94,7 +94,7 @@ impl<'a> Session<'a> {
             following: Following::new(scene_read),
             pace: Pace::new(),
             speed: None,
-            list: List::new(arguments.list),
+            list: List::new(arguments.list, opening::list_options(arguments, helper)),
             scale: 1.0,
             renderer,
         };
@@ -127,7 +127,11 @@ impl<'a> Session<'a> {
         let Some(source) = &mut self.source else { return Ok(Drawn::Nothing) };
         source.set_camera(self.orbit.camera())?;
         before_shown();
-        match self.renderer.present(source, &mut self.swapchain) {
+        let presented = match self.list.renderer() {
+            Some(list) => self.renderer.present_with_overlay(source, &mut self.swapchain, list, &mut NoObjects),
+            None => self.renderer.present(source, &mut self.swapchain),
+        };
+        match presented {
             Ok(Presentation::Shown(frame)) => self.count(frame)?,
             Ok(Presentation::Suboptimal(frame)) => {
                 self.count(frame)?;
@@ -257,15 +261,20 @@ impl<'a> Session<'a> {
         let name = pictures::name(&self.arguments.pipeline.file);
         let (wrong, times) = (self.problems.first(), self.list.times(plan));
         let contents = Contents::of(&name, extent, &self.renderer, &self.chosen, self.speed, wrong, times);
-        self.list.show(&contents, self.scale, &mut self.swapchain)
+        match self.list.show(&contents, self.scale, self.renderer.device(), &self.swapchain) {
+            // Such as that its shaders can't be compiled: the picture needs none of them.
+            Err(error) if error.can_be_mended_in_files() => {
+                text::say(&format!("note: the list can't be shown\n{}", error.shown()));
+                self.list.turn();
+                Ok(())
+            }
+            shown => shown,
+        }
     }
 
     /// Shows the list of settings and times, or takes it away.
-    ///
-    /// # Errors
-    /// Those of [`Session::frame`].
-    pub(super) fn turn_list(&mut self) -> Result<(), Error> {
-        self.list.turn(&mut self.swapchain)
+    pub(super) fn turn_list(&mut self) {
+        self.list.turn();
     }
 
     /// The screen has another scale factor.

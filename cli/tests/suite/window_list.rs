@@ -78,6 +78,39 @@ fn em_4_the_list_is_on_the_screen_follows_keys_and_goes_with_its_key() {
     }
 }
 
+/// The pipeline that draws the list.
+const LIST: &str = include_str!("../../src/window/list/list.ron");
+
+#[test]
+fn em_4_the_list_can_be_drawn_on_every_device_and_over_turned_pictures() {
+    let place = Place::new();
+    place.file("list.ron", LIST);
+    for rotation in ["0", "90", "180", "270"] {
+        let check = ["check", "list.ron", "--device", "all", "--set", "list_width=300", "--rotate", rotation];
+        let checked = place.run(&check).exits(0);
+        assert!(!checked.err.contains("warning"), "{}", checked.err);
+    }
+    let plan = place.run(&["inspect", "list.ron", "--rotate", "90", "--size", "64x32"]).exits(0).out;
+    assert!(plan.contains("`screen` R8G8B8A8_SRGB 32×64, 1 sample, rotated by 90°"), "{plan}");
+}
+
+#[test]
+fn em_4_a_list_whose_shaders_cannot_be_compiled_leaves_the_picture() {
+    let Some(server) = server(false) else { return };
+    let Some(variables) = Vulkan::LAVAPIPE_CURRENT.variables() else { return };
+    let place = Place::new();
+    let words =
+        ["window", "forward", "--size", "192x108", "--set", "msaa=1", "--frames", "3", "--precompiled", "spirv"];
+    let words = [&words[..], &SCENE].concat();
+    run(&place, &server, &variables, &words).exits(0);
+    // A helper that can't start.
+    let variables = [&variables[..], &[("FRAMEWRIGHT_HELPER", "1")]].concat();
+    let listed = [&words[..], &["--no-cache", "--list", "-o", "shown.png"]].concat();
+    run(&place, &server, &variables, &listed).exits(0).mentions("note: the list can't be shown");
+    let shown = image::open(place.path("shown.png")).expect("a picture").to_rgb8();
+    assert!(shown == drawn(&place, &["--size", "192x108"]));
+}
+
 #[test]
 fn em_4_pictures_do_not_hold_the_list() {
     let Some(server) = server(false) else { return };

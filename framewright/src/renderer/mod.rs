@@ -15,10 +15,10 @@ use framewright_graph::language::{Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Presentation, Swapchain, Texels};
-use reading::Reading;
+use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Overlay, Presentation, Swapchain, Texels};
+use reading::{Origin, Reading};
 use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A pipeline that is drawn frame after frame.
@@ -28,7 +28,7 @@ use std::sync::Arc;
 pub struct Renderer {
     device: Device,
     profile: Arc<Profile>,
-    path: PathBuf,
+    origin: Origin,
     options: RendererOptions,
     reading: Reading,
     /// The files that were read last, by a reload that failed too.
@@ -82,13 +82,26 @@ impl Renderer {
     /// # Errors
     /// If there is neither, or it is wrong in itself.
     pub fn open(device: &Device, pipeline: impl AsRef<Path>, options: RendererOptions) -> Result<Renderer, Error> {
-        let (path, read) = (pipeline.as_ref().to_owned(), ReadFiles::default());
+        Renderer::begin(device, Origin::File(pipeline.as_ref().to_owned()), options)
+    }
+
+    /// Does the same with a pipeline that the program carries within itself, which messages call `name`. The files and shaders that it
+    /// names are shipped ones, or of the folders in [`RendererOptions::shaders`].
+    ///
+    /// # Errors
+    /// If it is wrong in itself.
+    pub fn carried(device: &Device, name: &str, text: &str, options: RendererOptions) -> Result<Renderer, Error> {
+        Renderer::begin(device, Origin::Text { name: name.to_owned(), text: text.to_owned() }, options)
+    }
+
+    fn begin(device: &Device, origin: Origin, options: RendererOptions) -> Result<Renderer, Error> {
+        let read = ReadFiles::default();
         Ok(Renderer {
-            reading: Reading::begin(&path, &options, &read)?,
+            reading: Reading::begin(&origin, &options, &read)?,
             read,
             device: device.clone(),
             profile: Arc::new(device.profile()),
-            path,
+            origin,
             options,
             choices: Choices::default(),
             compiler: Compiler::new(),
@@ -210,7 +223,7 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::open`]; [`Error::Mistakes`] if the files no longer have the preset.
     pub fn try_clone(&self) -> Result<Renderer, Error> {
-        let mut other = Renderer::open(&self.device, &self.path, self.options.clone())?;
+        let mut other = Renderer::begin(&self.device, self.origin.clone(), self.options.clone())?;
         other.reading.choose(self.choices.preset.as_deref())?;
         other.choices = self.choices.clone();
         Ok(other)
@@ -278,7 +291,7 @@ impl Renderer {
     /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
     pub fn reload(&mut self) -> Result<Change, Error> {
         self.read = ReadFiles::default();
-        let mut reading = Reading::begin(&self.path, &self.options, &self.read)?;
+        let mut reading = Reading::begin(&self.origin, &self.options, &self.read)?;
         reading.choose(self.choices.preset.as_deref())?;
         let before = std::mem::replace(&mut self.reading, reading);
         self.renew(true).inspect_err(|_| self.reading = before)
@@ -312,8 +325,27 @@ impl Renderer {
     pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
         self.prepare()?;
         let Drawn { plan, executor, .. } = self.drawn()?;
-        let name = plan.outputs.first().map_or("", |output| &output.name);
-        Ok(executor.present(source, window, name)?)
+        Ok(executor.present(source, window, shown(plan))?)
+    }
+
+    /// Does the same, and draws a frame of the renderer `over` over it first, such as text: see [`Overlay`]. What it shows is its first
+    /// output. Its frames are counted by themselves.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::present`], of both renderers.
+    pub fn present_with_overlay(
+        &mut self,
+        source: &mut dyn DrawSource,
+        window: &mut Swapchain,
+        over: &mut Renderer,
+        over_source: &mut dyn DrawSource,
+    ) -> Result<Presentation, Error> {
+        self.prepare()?;
+        over.prepare()?;
+        let Drawn { plan: over, executor: over_executor, .. } = over.drawn()?;
+        let overlay = Overlay { executor: over_executor, source: over_source, name: shown(over) };
+        let Drawn { plan, executor, .. } = self.drawn()?;
+        Ok(executor.present_with_overlay(source, window, shown(plan), overlay)?)
     }
 
     /// Waits until the device is done with a frame. A frame of an earlier executor counts as done.
@@ -403,4 +435,9 @@ impl Drawn {
             Error::UnknownOutput { name: name.to_owned(), known }
         })
     }
+}
+
+/// The name of the output that windows show.
+fn shown(plan: &Plan) -> &str {
+    plan.outputs.first().map_or("", |output| &output.name)
 }

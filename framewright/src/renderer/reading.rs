@@ -13,8 +13,22 @@ use framewright_graph::frame::Frame;
 use framewright_graph::language::{Document, SettingsFile};
 use framewright_graph::plan::Plan;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
+
+/// Where a pipeline comes from.
+#[derive(Debug, Clone)]
+pub(super) enum Origin {
+    /// A file, or a shipped pipeline.
+    File(PathBuf),
+    /// The program itself.
+    Text {
+        /// What messages call it.
+        name: String,
+        /// The pipeline.
+        text: String,
+    },
+}
 
 /// What was read.
 pub(super) struct Reading {
@@ -24,9 +38,12 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Reads the pipeline `path`. All files that are read, now or later, are recorded in `read`.
-    pub(super) fn begin(path: &Path, options: &RendererOptions, read: &ReadFiles) -> Result<Reading, Error> {
-        let file = PipelineFile::find(path, &options.files, read)?;
+    /// Reads the pipeline of `origin`. All files that are read, now or later, are recorded in `read`.
+    pub(super) fn begin(origin: &Origin, options: &RendererOptions, read: &ReadFiles) -> Result<Reading, Error> {
+        let file = match origin {
+            Origin::File(path) => PipelineFile::find(path, &options.files, read)?,
+            Origin::Text { name, text } => PipelineFile::carried(name, text),
+        };
         let shaders = shaders(file.root(), &options.shaders, options.draws.clone(), options.helper.as_ref(), read);
         let shaders = shaders.with_precompiled(options.precompiled.clone());
         let mut pipeline = file.read()?;

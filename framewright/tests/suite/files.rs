@@ -99,3 +99,21 @@ fn extensions_settings_files_and_further_images_are_options() {
     options.settings = vec![PathBuf::from("none.ron")];
     assert!(matches!(Renderer::open(device, "forward", options), Err(Error::Unreadable { what: "settings file", .. })));
 }
+
+/// What a program carries within itself: with shipped fragments, and with mistakes at their places.
+#[test]
+fn a_pipeline_is_read_from_a_text() {
+    let Some(device) = render::device() else { return };
+    let carried = |text: &str| Renderer::carried(device, "within", text, RendererOptions::default());
+    let text = r#"Pipeline(version: 1, extends: "forward.ron", include: ["library/overlay.ron"], changes: [
+        Insert(at: "overlays", passes: [(use: "overlay", name: "show", with: {"shown": "depth", "target": "screen"})])])"#;
+    let mut renderer = carried(text).expect("it is right");
+    renderer.set_extent([64, 36]).expect("allowed");
+    let (_, picture) = draw(&mut renderer, 1);
+    assert!(!renderer.files_changed());
+    renderer.reload().expect("it is there");
+    assert_eq!(draw(&mut renderer, 1).1, picture);
+    assert_eq!(draw(&mut renderer.try_clone().expect("it is there"), 1).1, picture);
+    let error = carried(&text.replace("forward.ron", "mine.ron")).map(drop).expect_err("no such file").to_string();
+    assert!(error.contains("within:1:31") && error.contains("mine.ron"), "{error}");
+}

@@ -246,6 +246,30 @@ fn what_is_handed_in_stays_upright_where_it_is_forwarded_to_the_output() {
     assert_eq!((plan.images.len(), plan.totals.inserted_passes), (2, 1), "{}", plan.tree());
 }
 
+/// What was presented is turned already: a picture over it is turned like it.
+#[test]
+fn what_is_drawn_over_a_presented_image_is_rotated_with_it() {
+    let presented = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr };
+    let over = |reads: bool| {
+        let mut raster = Raster::default();
+        let [list, screen] = ["list", "screen"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+        raster.objects("draw_list").clear(list);
+        if reads {
+            raster.full_screen("blur_below").sample(screen).clear(list);
+        }
+        raster.full_screen("show_list").sample(list).color(screen, Blend::Alpha);
+        let mut frame = raster.rotated(screen, TURN);
+        wide(&mut frame);
+        frame.images[1].lifetime = Lifetime::Imported { before: presented, after: Some(presented) };
+        frame
+    };
+    let plan = compiled(&over(false));
+    assert_eq!(turned(&plan), [("screen", [64, 96])], "{}", plan.tree());
+    assert_eq!((plan.totals.passes, plan.totals.inserted_passes), (2, 0), "{}", plan.tree());
+    let read = refused(&over(true)).message;
+    assert_eq!(read, "`screen` is handed in rotated by 90°, and `blur_below` samples `screen`");
+}
+
 #[test]
 fn depth_contents_from_outside_and_what_is_turned_already_are_refused() {
     let wrong = |change: &dyn Fn(&mut Frame)| {

@@ -96,7 +96,7 @@ pub fn sun_view(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, t
 /// A sphere around everything: middle and radius. Somewhat larger, so that nothing ends up beyond it by rounding.
 fn sphere_around(scene: &Scene) -> (DVec3, f64) {
     let around = scene.bounds().map_or((DVec3::ZERO, 0.0), |bounds| (bounds.center(), bounds.radius()));
-    // Of a scene without size nothing is seen.
+    // Nothing is seen of a scene without size: any radius will do.
     (around.0, if around.1 > 0.0 { around.1 * 1.001 } else { 1.0 })
 }
 

@@ -52,7 +52,7 @@ pub(super) fn peak(scene: &Scene) -> Peak {
 
     let nearest = scene.nearest_to_light();
     let mut candidates = vec![(None, sky)];
-    // Of transparent surfaces: the most that one adds, the most that all triangles add, the least opacity.
+    // What transparent surfaces add at most: one of them, and all triangles together. Then their least opacity.
     let (mut most, mut all, mut opacity) = (DVec3::ZERO, DVec3::ZERO, 1.0_f64);
     for (number, object) in scene.objects.iter().enumerate() {
         let material = &scene.materials[object.material];

@@ -92,8 +92,8 @@ impl Shadows<'_> {
         faded(share + rest, distance_share)
     }
 
-    /// How much the depth of a plane changes from texel to texel. A step in clip space is one in the world; the one that stays
-    /// in the plane has as much depth as cancels what the other two take it away from it.
+    /// How much the depth of a plane changes from texel to texel. A step in clip space is a step in the world. Its depth is
+    /// chosen so that the step stays in the plane.
     fn slope(&self, cascade: &Cascade<'_>, normal: DVec3) -> [f64; 2] {
         let to_world = DMat3::from_mat4(cascade.world_to_clip).inverse();
         let along = to_world.transpose() * normal;

@@ -27,6 +27,7 @@ const DRAWN: &[(&str, Draw)] = &[
     ("casters_masked", MASKED),
     ("color_grade", Draw::FullScreen),
     ("copy", Draw::FullScreen),
+    ("corner", Draw::FullScreen),
     ("deferred_lighting", Draw::FullScreen),
     ("depth_of_field", Draw::FullScreen),
     ("depth_resolve_average", Draw::FullScreen),
@@ -161,7 +162,7 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 38] = [
+    let cases: [(&str, &[&str], &[&str]); 39] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
         ("ambient_occlusion_blur", &["source", "depth"], &[]),
@@ -173,6 +174,7 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("blur_tent", &["source"], &[]),
         ("color_grade", &["source", "table"], &["strength"]),
         ("copy", &["source"], &[]),
+        ("corner", &["shown"], &["width", "height"]),
         ("deferred_lighting", &["base_color", "normal", "emissive", "depth"], &[]),
         ("depth_of_field", &["source", "depth"], &["focus", "spread", "largest"]),
         ("depth_resolve_average", &["source"], &[]),

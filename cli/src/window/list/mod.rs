@@ -8,12 +8,16 @@ pub(super) use contents::Contents;
 
 use crate::drawing::timings::{self, Row};
 use crate::error::Error;
-use framewright::Swapchain;
-use framewright_graph::plan::Plan;
-use framewright_vulkan::{FrameReport, Overlay};
+use framewright::{
+    Change, Device, Draw, DrawSource, FrameReport, Plan, Recorder, Renderer, RendererOptions, Swapchain,
+};
+use framewright_graph::vulkan::Aspects;
 use lines::Line;
-use paint::Grid;
+use paint::{Grid, Painted};
 use std::time::{Duration, Instant};
+
+/// Draws the list over what the window shows.
+const PIPELINE: &str = include_str!("list.ron");
 
 /// The list is made anew this often, and when a key was pressed.
 const ANEW: Duration = Duration::from_millis(250);
@@ -31,21 +35,41 @@ pub(super) struct List {
     times: Vec<Row>,
     /// What is shown.
     shown: Option<(Grid, Vec<Line>)>,
+    /// Its picture; `None`: there is nothing to show.
+    painted: Option<Painted>,
+    /// Draws the picture, where there is one.
+    renderer: Option<Renderer>,
+    /// What that is made with.
+    options: RendererOptions,
+}
+
+/// What the list's pipeline draws beside the full screen: nothing.
+pub(super) struct NoObjects;
+
+impl DrawSource for NoObjects {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, framewright_vulkan::Error> {
+        Ok(0)
+    }
 }
 
 impl List {
-    /// A list that is shown from the beginning, or not.
-    pub(super) fn new(on: bool) -> List {
-        List { on, made: None, reports: Vec::new(), times: Vec::new(), shown: None }
+    /// A list that is shown from the beginning, or not. It is drawn with these options.
+    pub(super) fn new(on: bool, options: RendererOptions) -> List {
+        List {
+            on,
+            made: None,
+            reports: Vec::new(),
+            times: Vec::new(),
+            shown: None,
+            painted: None,
+            renderer: None,
+            options,
+        }
     }
 
     /// Shows it, or takes it away.
-    ///
-    /// # Errors
-    /// Those of [`Swapchain::set_overlay`].
-    pub(super) fn turn(&mut self, swapchain: &mut Swapchain) -> Result<(), Error> {
-        *self = List::new(!self.on);
-        Ok(swapchain.set_overlay(None)?)
+    pub(super) fn turn(&mut self) {
+        *self = List::new(!self.on, self.options.clone());
     }
 
     /// Something that it tells has changed: it is made anew for the next frame.
@@ -81,22 +105,46 @@ impl List {
         &self.times
     }
 
-    /// Lays it over the window, unless it is there. A pixel of the list is that of a screen of this scale factor.
+    /// Has it drawn over the window from the next frame on. A pixel of the list is that of a screen of this scale factor.
     ///
     /// # Errors
-    /// Those of [`Swapchain::set_overlay`].
-    pub(super) fn show(&mut self, contents: &Contents, scale: f64, swapchain: &mut Swapchain) -> Result<(), Error> {
+    /// Those of [`Renderer::prepare`] and of writing its picture.
+    pub(super) fn show(
+        &mut self,
+        contents: &Contents,
+        scale: f64,
+        device: &Device,
+        swapchain: &Swapchain,
+    ) -> Result<(), Error> {
         self.made = Some(Instant::now());
         let Some(extent) = swapchain.extent() else { return Ok(()) };
         let grid = Grid::new(extent, scale);
         let lines = lines::of(contents, grid.columns, grid.rows);
-        if self.shown.as_ref().is_some_and(|shown| shown.0 == grid && shown.1 == lines) {
-            return Ok(());
+        let is_new = self.shown.as_ref().is_none_or(|shown| shown.0 != grid || shown.1 != lines);
+        if is_new {
+            self.painted = paint::painted(&lines, &grid);
         }
-        let painted = paint::painted(&lines, &grid);
-        let overlay = painted.as_ref().map(|it| Overlay { extent: it.extent, offset: [0, 0], texels: &it.texels });
-        swapchain.set_overlay(overlay.as_ref())?;
+        let Some(Painted { extent: [width, height], texels }) = &self.painted else {
+            self.renderer = None;
+            return Ok(());
+        };
+        let renderer = match &mut self.renderer {
+            Some(renderer) => renderer,
+            none => none.insert(Renderer::carried(device, "list.ron", PIPELINE, self.options.clone())?),
+        };
+        renderer.fit(swapchain)?;
+        renderer.set("list_width", width)?;
+        renderer.set("list_height", height)?;
+        let change = renderer.prepare()?.change;
+        if is_new || matches!(change, Change::Executor { .. }) {
+            renderer.executor_mut()?.write_image("list", Aspects::COLOR, 0, texels)?;
+        }
         self.shown = Some((grid, lines));
         Ok(())
+    }
+
+    /// What draws it, if it is shown.
+    pub(super) fn renderer(&mut self) -> Option<&mut Renderer> {
+        self.renderer.as_mut()
     }
 }

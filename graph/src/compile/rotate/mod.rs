@@ -58,6 +58,12 @@ impl Turner {
             Err(Hindrance::Wrong(wrong)) => return self.errors.push(*wrong),
             Err(Hindrance::Upright(because, at)) => (because, at),
         };
+        // Its contents are turned already: no draw can begin upright.
+        if before(declared).is_some_and(|before| before != Layout::Undefined) {
+            let (because, at) = hindrance;
+            let message = format!("`{}` is handed in {}, and {because}", declared.name, degrees(output.rotation));
+            return self.errors.push(Diagnostic::new(output.span, message).label(at, "needs it upright"));
+        }
         if let Some(split) = separate::where_drawn_anew(&self.frame, &self.live, image) {
             match self.together(&split, image, output.rotation, true) {
                 Ok(together) => {
@@ -130,9 +136,18 @@ fn unfit(image: &Image) -> Option<&'static str> {
         _ if image.format.is_depth() => Some("holds depth: only colour can be rotated"),
         _ if image.shape != Shape::D2 => Some("isn't flat: only flat images can be rotated"),
         _ if image.mips > 1 => Some("has several mip levels: only images of one can be rotated"),
-        Lifetime::Imported { before, .. } if before.layout != Layout::Undefined => {
+        // What was presented is turned as the screen wants it.
+        _ if before(image).is_some_and(|it| !matches!(it, Layout::Undefined | Layout::PresentSrcKhr)) => {
             Some("is handed in with contents: nobody could tell how they are turned")
         }
+        _ => None,
+    }
+}
+
+/// The layout in which an image is handed in; `None`: it isn't.
+fn before(image: &Image) -> Option<Layout> {
+    match image.lifetime {
+        Lifetime::Imported { before, .. } => Some(before.layout),
         _ => None,
     }
 }

@@ -120,7 +120,7 @@ impl Elements<'_> {
         Mesh { name, primitives: primitives.collect() }
     }
 
-    /// A node. Of one that can't be read, what is below it is left out too.
+    /// A node. Where it can't be read, what is below it is left out too.
     fn node(&mut self, number: usize, raw: &RawValue) -> Node {
         let node = self.read(&format!("node {number}"), "it and what is below it are", json::value(raw));
         node.unwrap_or_else(|| {
