@@ -1,7 +1,6 @@
 //! `framewright inspect`: the Plan of a pipeline, without a GPU.
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
-use crate::command_line::values::DEFAULT_SIZE;
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
@@ -15,7 +14,6 @@ use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
-use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions};
 use std::path::Path;
 
@@ -29,13 +27,13 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         return inspect_plan(arguments, &read);
     }
     inputs::expect(&arguments.pipeline, &read);
-    arguments.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
-    arguments.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
+    let subject = &arguments.subject;
+    subject.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
+    subject.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
     let mut pipeline = planning::load(&arguments.pipeline, &read)?;
-    let scene =
-        arguments.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, &read)).transpose()?;
+    let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, &read)).transpose()?;
     spare()?;
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
@@ -43,11 +41,9 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let drawn_on = if arguments.capture { Some(open(&pipeline)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
-        None => device::choose(arguments.device.as_deref(), &read)?,
+        None => device::choose(subject.device.as_deref(), &read)?,
     };
-    let facts = scene.as_ref().map(Scene::facts);
-    let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
-    let options = arguments.planning.options();
+    let (view, options) = (View::of(subject, scene.as_ref()), subject.planning.options());
     let planned = match &drawn_on {
         Some(device) => pipeline.plan(view, &profile, &mut device.memory(), &options)?,
         None => pipeline.plan(view, &profile, &mut Estimated(&profile), &options)?,
@@ -75,14 +71,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 
 /// Prints or writes the Plan in a file, as it is.
 fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
-    let InspectArguments { pipeline, scene, device, size, capture, .. } = arguments;
-    let own = [
-        ("--capture", *capture),
-        ("--scene", scene.is_some()),
-        ("--device", device.is_some()),
-        ("--size", *size != DEFAULT_SIZE),
-    ];
-    plan_file::nothing_chosen(pipeline, arguments.planning, &own)?;
+    let InspectArguments { pipeline, subject, capture, .. } = arguments;
+    plan_file::nothing_chosen(pipeline, subject, capture.then_some("--capture"))?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
     spare()?;

@@ -23,10 +23,10 @@ const AT_REST: Duration = Duration::from_millis(50);
 /// If there is no such pipeline or scene, the port or the device can't be had, or the device is lost.
 pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     // A name that leads nowhere is a slip. Files that go missing later are waited for.
-    inputs::are_there(&arguments.pipeline.file, &arguments.scene)?;
+    inputs::are_there(&arguments.pipeline.file, &arguments.drawn.scene)?;
     interrupt::watch();
     let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
-    let choice = device::to_draw_on(arguments.device.as_deref())?;
+    let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let (publish, shown) = watch::channel(serving::Published::default());
     let (send, choices) = mpsc::channel();
     let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;

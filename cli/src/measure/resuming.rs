@@ -29,7 +29,7 @@ const VIEWS_EVERY: Duration = Duration::from_secs(60);
 pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     inputs::expect(&arguments.pipeline, &read);
-    let chosen = device::to_draw_on(arguments.device.as_deref())?;
+    let chosen = device::to_draw_on(arguments.device.name.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline, &read)?;
     let (baseline, choices) = subjects::choices(arguments, &pipeline, &read)?;
     if arguments.reference == Path::new(AUTO) && subjects::reference_settings(&pipeline).is_none() {

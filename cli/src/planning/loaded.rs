@@ -1,21 +1,23 @@
 //! A pipeline that was read: it is expanded to a frame, and compiled to a verified Plan.
 
 use crate::command_line::args;
+use crate::command_line::subject::SubjectArguments;
 use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
-use crate::planning::{Assets, helper};
+use crate::planning::{Assets, device, helper};
 use crate::system::Exit;
 use framewright::Pipeline;
 use framewright_graph::base::{Diagnostic, ReadFiles, Sources};
 use framewright_graph::compile::{self, Options, heap_size, shaders};
-use framewright_graph::device::{MemoryProvider, Profile};
+use framewright_graph::device::{Estimated, MemoryProvider, Profile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::{self, Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
+use framewright_passes::scene::Scene;
 use framewright_vulkan::Helper;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -95,6 +97,23 @@ pub(crate) fn load_with(
     })
 }
 
+/// Reads a pipeline and the scene and profile that are named beside it, and plans it. Nothing is drawn.
+///
+/// # Errors
+/// Those of [`load`], [`device::choose`], [`inputs::scene`] and [`Loaded::plan`].
+pub(crate) fn planned(
+    pipeline: &args::PipelineArguments,
+    subject: &SubjectArguments,
+    read: &ReadFiles,
+) -> Result<(Loaded, Planned), Error> {
+    let profile = device::choose(subject.device.as_deref(), read)?;
+    let mut loaded = load(pipeline, read)?;
+    let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, read)).transpose()?;
+    let view = View::of(subject, scene.as_ref());
+    let planned = loaded.plan(view, &profile, &mut Estimated(&profile), &subject.planning.options())?;
+    Ok((loaded, planned))
+}
+
 /// Applies settings files and a preset.
 fn choose(
     arguments: &args::PipelineArguments,
@@ -124,6 +143,11 @@ impl View<'_> {
     /// One at the default size, without a scene.
     pub(crate) fn without_scene(rotation: Rotation) -> View<'static> {
         View::at(DEFAULT_SIZE, rotation)
+    }
+
+    /// The one that the command line asks for, with a scene that was read.
+    pub(crate) fn of(subject: &SubjectArguments, scene: Option<&Scene>) -> View<'static> {
+        View { facts: scene.map(Scene::facts), ..View::at(subject.size, subject.planning.rotate) }
     }
 
     /// One without a scene.

@@ -11,4 +11,4 @@ pub(crate) mod plan_file;
 pub(crate) mod totals;
 
 pub(crate) use assets::{Assets, draws, precompiled};
-pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with};
+pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with, planned};

@@ -1,7 +1,8 @@
 //! A Plan from a file. It may come from anyone: it is read within bounds, and verified before anything is done with it.
 
 use super::{Assets, helper};
-use crate::command_line::args::{PipelineArguments, PlanningArguments};
+use crate::command_line::args::PipelineArguments;
+use crate::command_line::subject::SubjectArguments;
 use crate::command_line::values::MAX_SIZE;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
@@ -19,17 +20,16 @@ pub(crate) fn is_one(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"))
 }
 
-/// Refuses an option that chooses something, which a Plan leaves nothing of. `others` are the command's own, each with whether it is given.
+/// Refuses an option that chooses something, which a Plan leaves nothing of. `own` is one of the command's own that is given.
 ///
 /// # Errors
 /// [`Error::ChoiceForPlan`].
 pub(crate) fn nothing_chosen(
     pipeline: &PipelineArguments,
-    planning: PlanningArguments,
-    others: &[(&'static str, bool)],
+    subject: &SubjectArguments,
+    own: Option<&'static str>,
 ) -> Result<(), Error> {
-    let others = others.iter().find(|(_, given)| *given).map(|(option, _)| *option);
-    match pipeline.chosen().or(planning.chosen()).or(others) {
+    match pipeline.chosen().or(subject.planning.chosen()).or(own).or(subject.chosen()) {
         Some(option) => Err(Error::ChoiceForPlan { option, path: pipeline.file.clone() }),
         None => Ok(()),
     }

@@ -205,8 +205,8 @@ impl<'a> Session<'a> {
     fn read_scene(&mut self) -> Result<(), Error> {
         if self.scene.value.is_none() || self.scene.read.changed() {
             self.scene = Held::nothing();
-            self.scene.value =
-                Some(inputs::scene(&self.arguments.scene, self.arguments.reading.strict, &self.scene.read)?);
+            let drawn = &self.arguments.drawn;
+            self.scene.value = Some(inputs::scene(&drawn.scene, drawn.reading.strict, &self.scene.read)?);
         }
         Ok(())
     }

@@ -42,12 +42,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Error> {
 fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     Subject::expect(arguments, &read);
-    framewright::expect_scene(&arguments.scene, &read);
+    framewright::expect_scene(&arguments.drawn.scene, &read);
     let spare = || outputs::prepare(arguments.written(), &read);
     spare()?;
-    let choice = device::to_draw_on(arguments.device.as_deref())?;
+    let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let mut subject = Subject::read(arguments, &read)?;
-    let scene = inputs::scene(&arguments.scene, arguments.reading.strict, &read)?;
+    let scene = inputs::scene(&arguments.drawn.scene, arguments.drawn.reading.strict, &read)?;
     spare()?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
@@ -87,7 +87,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         format_version: 2,
         pipeline: (!arguments.plan).then(|| shown(&arguments.pipeline.file)),
         plan: arguments.plan.then(|| shown(&arguments.pipeline.file)),
-        scene: shown(&arguments.scene),
+        scene: shown(&arguments.drawn.scene),
         settings: plan.settings.clone(),
         size: plan.extent,
         frames: arguments.frames,
