@@ -293,8 +293,16 @@ impl From<framewright::Error> for Error {
             Face::TooLarge { what, path, limit } => Error::TooLarge { what, path, limit },
             Face::NotText { what, path, why } => Error::NotText { what, path, why },
             Face::OutsideRoot { pipeline, root } => Error::OutsideRoot { pipeline, root },
-            Face::Mistakes { mistakes } => Error::mistakes(mistakes.sources, mistakes.diagnostics, Exit::Found),
+            Face::Mistakes { mistakes } => {
+                let exit = if mistakes.of_choices { Exit::Usage } else { Exit::Found };
+                Error::mistakes(mistakes.sources, mistakes.diagnostics, exit)
+            }
             Face::Scene(problem) => Error::Scene(problem),
+            Face::Stereo { why } => Error::Stereo { why },
+            Face::CustomPass { pass, name } => Error::CustomPass { pass, name },
+            Face::Vulkan(framewright_vulkan::Error::Violations { violations }) => {
+                Error::Violations { violations: violations.iter().map(|one| text::escape(&one.to_string())).collect() }
+            }
             Face::Vulkan(problem) => Error::Vulkan(problem),
             other => Error::Library(Box::new(other)),
         }

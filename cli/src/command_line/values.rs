@@ -56,6 +56,12 @@ impl std::fmt::Display for Size {
     }
 }
 
+impl From<Size> for [u32; 2] {
+    fn from(size: Size) -> [u32; 2] {
+        [size.width, size.height]
+    }
+}
+
 impl std::str::FromStr for Size {
     type Err = String;
 

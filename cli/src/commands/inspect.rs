@@ -7,14 +7,14 @@ use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
 use crate::picture::FileFormat;
-use crate::planning::{self, Loaded, View, device, plan_file};
+use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
-use framewright_vulkan::{Device, DeviceOptions};
+use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 
 /// Prints or writes a Plan.
@@ -32,21 +32,23 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     subject.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
-    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let helper = helper::of(&arguments.pipeline)?;
+    let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
     let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, &read)).transpose()?;
     spare()?;
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
     }
-    let drawn_on = if arguments.capture { Some(open(&pipeline)?) } else { None };
+    let drawn_on = if arguments.capture { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
         None => device::choose(subject.device.as_deref(), &read)?,
     };
-    let (view, options) = (View::of(subject, scene.as_ref()), subject.planning.options());
+    let choices = planning::undrawn(&arguments.pipeline, subject, scene.as_ref());
+    let options = subject.planning.options();
     let planned = match &drawn_on {
-        Some(device) => pipeline.plan(view, &profile, &mut device.memory(), &options)?,
-        None => pipeline.plan(view, &profile, &mut Estimated(&profile), &options)?,
+        Some(device) => pipeline.planned(&choices, &profile, &mut device.memory(), &options)?,
+        None => pipeline.planned(&choices, &profile, &mut Estimated(&profile), &options)?,
     };
     let plan = &planned.plan;
     let counted = |list| scene.as_ref().map_or(0, |scene| scene.count(list));
@@ -54,7 +56,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let detail = Detail { objects, verbose: arguments.verbose };
     let name = arguments.pipeline.file.to_string_lossy();
     let shown = shown(arguments.format, plan, detail, || {
-        let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
+        let devices = planning::on_other_devices(&mut pipeline, &choices, &options, (&*name, plan))?;
         let captures = match (&drawn_on, &scene, &arguments.output) {
             (Some(device), Some(scene), Some(page)) => {
                 let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
@@ -118,14 +120,10 @@ fn put(arguments: &InspectArguments, shown: &str, read: &ReadFiles) -> Result<Ex
 }
 
 /// The device that captures are drawn on.
-fn open(pipeline: &Loaded) -> Result<Device, Error> {
+fn open(helper: &Helper) -> Result<Device, Error> {
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
-    let helper = Some(pipeline.assets.helper.clone());
-    let choice = device::to_draw_on(None)?;
-    let device = Device::open(&DeviceOptions { choice, validation: false, helper, ..DeviceOptions::default() })?;
-    device.cancel_when(interrupt::asked);
-    Ok(device)
+    device::open(device::to_draw_on(None)?, false, helper)
 }
 
 /// Draws every image after every pass that wrote it, and writes the pictures to a folder beside the page.

@@ -1,9 +1,8 @@
 //! The frame that a reference is drawn by: that of the tested settings, with nothing rounded between its passes, and with light that
 //! is averaged over all its frames before it is tone-mapped.
 
-use crate::error::Error;
 use crate::picture;
-use crate::planning::{Loaded, Planned};
+use framewright::{Error, Pipeline, Planned};
 use framewright_graph::base::FilePath;
 use framewright_graph::compile::Options;
 use framewright_graph::device::{MemoryProvider, Profile};
@@ -32,7 +31,7 @@ pub(super) struct Converging {
 
 impl Converging {
     /// The frame as it is for a reference of a pipeline on a device.
-    pub(super) fn of(mut frame: Frame, device: &Profile, pipeline: &Loaded) -> Converging {
+    pub(super) fn of(mut frame: Frame, device: &Profile, pipeline: &Pipeline) -> Converging {
         let encoding = frame.outputs.first().and_then(|output| output.encoding);
         let steps = screen(&frame).and_then(|image| picture::steps(frame.images[image.0 as usize].format, encoding));
         frame.make_exact(device);
@@ -64,7 +63,7 @@ impl Converging {
     /// Those of the compiler.
     pub(super) fn planned(
         &self,
-        pipeline: &mut Loaded,
+        pipeline: &mut Pipeline,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         frames: u16,
@@ -88,7 +87,7 @@ fn screen(frame: &Frame) -> Option<ImageIndex> {
 
 /// Whether a pass's shader is a shipped tone mapper. It has that name in a shipped file, and in one of the user's own unless a shader
 /// of that name lies beside it.
-fn tone_maps(shader: &str, pipeline: &Loaded) -> bool {
+fn tone_maps(shader: &str, pipeline: &Pipeline) -> bool {
     let file = FilePath::of_text(shader);
     let is_shipped = || match &file {
         FilePath::Shipped(_) => true,
@@ -99,7 +98,7 @@ fn tone_maps(shader: &str, pipeline: &Loaded) -> bool {
 
 /// The pass that averages the light that the pass `at` tone-maps, and the new image of the mean; `None` if it tone-maps none, or samples
 /// or texels of which several make a pixel.
-fn averaged(frame: &mut Frame, at: usize, pipeline: &Loaded) -> Option<(Pass, ImageIndex)> {
+fn averaged(frame: &mut Frame, at: usize, pipeline: &Pipeline) -> Option<(Pass, ImageIndex)> {
     let pass = &frame.passes[at];
     let (_, shader) = pass.work.draw().filter(|(draw, _)| draw.is_full_screen())?;
     let light = pass.sampled.iter().find(|sampled| *sampled.binding == *LIGHT && sampled.face == Face::Resolved)?;
@@ -155,16 +154,10 @@ fn averaged(frame: &mut Frame, at: usize, pipeline: &Loaded) -> Option<(Pass, Im
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::command_line::args::{self, Command};
     use crate::measure::subjects::reference_settings;
-    use crate::planning::{self, View};
-    use framewright_graph::base::{ReadFiles, Root};
-    use framewright_graph::device::Estimated;
-    use framewright_graph::vulkan::Rotation;
-    use framewright_passes::draw;
+    use framewright::{Choices, ReadFiles, RendererOptions};
+    use framewright_graph::device::{Estimated, SHIPPED_PROFILES};
     use framewright_passes::shipped::SHADERS;
-    use framewright_vulkan::ShaderLibrary;
-    use std::path::Path;
 
     /// Shipped pipelines with a preset `reference`.
     const PIPELINES: [&str; 10] = [
@@ -181,17 +174,12 @@ mod tests {
     ];
 
     fn of(pipeline: &str, set: &str, device: &Profile) -> (Converging, Planned) {
-        let words = ["framewright", "inspect", pipeline, "--set", set];
-        let words = words.into_iter().take(if set.is_empty() { 3 } else { 5 });
-        let line = args::parse(words.map(Into::into)).expect("a command line");
-        let Command::Inspect(arguments) = line.command else { panic!("another command") };
-        let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
-        // Compiled by this program: a test is no helper process.
-        let folder = Path::new(pipeline).parent().filter(|folder| folder.is_absolute());
-        let roots = folder.map(|folder| Root::new(folder.to_owned())).into_iter().collect();
-        loaded.assets.shaders = ShaderLibrary::new(roots, SHADERS, draw::interfaces());
-        loaded.set.extend(reference_settings(&loaded).expect("a preset"));
-        let frame = loaded.frame(View::without_scene(Rotation::Identity), device).expect("a frame");
+        let options = RendererOptions::default();
+        let mut loaded = Pipeline::open(pipeline, &options, &ReadFiles::default()).expect("a pipeline");
+        let of_user = set.split_once('=').map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let of_reference = reference_settings(&loaded).expect("a preset");
+        let choices = Choices { set: of_user.into_iter().chain(of_reference).collect(), ..Choices::default() };
+        let frame = loaded.frame(&choices, device).expect("a frame");
         let converging = Converging::of(frame, device, &loaded);
         let planned = converging.planned(&mut loaded, device, &mut Estimated(device), 64).expect("a Plan");
         (converging, planned)
@@ -199,7 +187,7 @@ mod tests {
 
     #[test]
     fn plans_of_references_round_nothing_between_passes() {
-        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        let device = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a profile");
         for pipeline in PIPELINES {
             let (_, planned) = of(pipeline, "", &device);
             for image in planned.plan.images.iter().filter(|image| !image.format.is_integer()) {
@@ -217,7 +205,7 @@ mod tests {
     /// Light is averaged over frames where the tested pipeline averages light, and not where it averages what is shown.
     #[test]
     fn references_average_before_or_after_tone_mapping_as_the_tested_pipeline_does() {
-        let (_, device) = planning::device::all().expect("profiles").swap_remove(0);
+        let device = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a profile");
         let averages = |pipeline, set| {
             let (converging, planned) = of(pipeline, set, &device);
             let planned = planned.frame.passes.iter().filter(|pass| pass.name.ends_with("averages frames")).count();

@@ -8,13 +8,14 @@ use super::references::{self, Reference, References};
 use super::run::{Bench, kept, settings};
 use super::subjects::{self, Choice};
 use crate::command_line::measuring::MeasureArguments;
-use crate::drawing::{Prepared, pictures};
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::metric::{Changes, Flicker};
 use crate::picture::{FileFormat, Light};
 use crate::system::counted::{Progress, Words};
 use crate::system::{interrupt, text};
+use framewright::SceneRenderer;
 use framewright_graph::base::ReadFiles;
 use framewright_vulkan::ExecutorOptions;
 use std::collections::HashSet;
@@ -171,7 +172,7 @@ impl Bench<'_> {
             summary.driver.clone(),
             choice.scene.digest.clone(),
             frame.to_string(),
-            choice.size.to_string(),
+            subjects::size_name(choice.size),
             planned.plan.stereo.name().to_owned(),
         ];
         Ok(Some(Digest::of(texts.iter().chain(&rest).map(|it| &**it))))
@@ -183,7 +184,7 @@ impl Bench<'_> {
         let planned = self.planned(choice, moving, &[])?;
         let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
         let options = ExecutorOptions::default();
-        let mut drawn = Prepared::new(&self.device, planned.parts(), &mut self.pipeline.assets, moving, &options)?;
+        let mut drawn = SceneRenderer::new(&self.device, planned.parts(), &mut self.pipeline.assets, moving, &options)?;
         let mut changes = Changes::default();
         for frame in 0..frames {
             if interrupt::asked() {

@@ -5,10 +5,11 @@ use super::held_against::light;
 use super::results::Measured;
 use super::run::Bench;
 use super::subjects::Choice;
-use crate::drawing::{Prepared, pictures};
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::outputs;
 use crate::metric::{self, Errors, PIXELS_PER_DEGREE};
+use framewright::SceneRenderer;
 use framewright_vulkan::FrameReport;
 use std::path::PathBuf;
 
@@ -20,7 +21,7 @@ impl Bench<'_> {
     pub(super) fn measured(
         &mut self,
         choice: &Choice,
-        drawn: &mut Prepared<'_>,
+        drawn: &mut SceneRenderer<'_>,
         frames: &[FrameReport],
         of_baseline: &[FrameReport],
     ) -> Result<Measured, Error> {

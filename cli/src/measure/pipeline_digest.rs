@@ -1,8 +1,8 @@
 //! A digest of all files that a pipeline is made of, shaders and pictures of the user's own among them.
 
 use super::digest::Digest;
-use crate::planning::Loaded;
 use crate::variants::mentions::Mentions;
+use framewright::Pipeline;
 use framewright_graph::base::{FilePath, unix_lines};
 use framewright_passes::shipped::SHADERS;
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// The digest. It is that of the whole pipeline, whatever a choice leaves out of it: a shader is part of it if a string of a file
 /// is its name. Shipped shaders are no part of it, nor are files that can't be read, nor are line endings.
-pub(super) fn of(pipeline: &Loaded) -> String {
+pub(super) fn of(pipeline: &Pipeline) -> String {
     let files: Vec<_> = (0..).map_while(|file| pipeline.sources.file(file)).collect();
     let texts = files.iter().map(|file| unix_lines(&file.text).into_owned().into_bytes());
     let own = files.iter().filter(|file| matches!(file.path, FilePath::Own(_)));

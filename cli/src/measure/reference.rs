@@ -2,12 +2,11 @@
 //! another part of a texel, and averaged: before tone mapping what is tone-mapped, all else as it is shown.
 
 use super::converging::Converging;
-use crate::command_line::values::Size;
-use crate::drawing::{Prepared, pictures};
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::picture::Light;
-use crate::planning::{Loaded, Planned};
 use crate::system::interrupt;
+use framewright::{Pipeline, Planned, SceneRenderer};
 use framewright_graph::frame::{Draw, Jitter, LONGEST_JITTER};
 use framewright_graph::plan::Plan;
 use framewright_passes::scene::Scene;
@@ -35,11 +34,11 @@ pub(super) struct Drawn {
 pub(super) fn draw(
     device: &Device,
     converging: &Converging,
-    pipeline: &mut Loaded,
-    (scene, size): (&Scene, Size),
+    pipeline: &mut Pipeline,
+    (scene, size): (&Scene, [u32; 2]),
     progress: &dyn Fn(usize, usize),
 ) -> Result<Option<Drawn>, Error> {
-    let planned = |pipeline: &mut Loaded, frames| {
+    let planned = |pipeline: &mut Pipeline, frames| {
         let mut memory = device.memory();
         converging.planned(pipeline, &device.profile(), &mut memory, frames)
     };
@@ -64,14 +63,14 @@ pub(super) fn draw(
 fn mean(
     device: &Device,
     planned: &Planned,
-    pipeline: &mut Loaded,
+    pipeline: &mut Pipeline,
     scene: &Scene,
     (shifts, (before, frames)): (&Jitter, (u16, u16)),
     (is_light, progress): (bool, &dyn Fn(u16)),
 ) -> Result<Option<Light>, Error> {
     let Some(request) = pictures::of_first_output(&planned.plan) else { return Ok(None) };
     let mut prepared =
-        Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &ExecutorOptions::default())?;
+        SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &ExecutorOptions::default())?;
     prepared.source.set_jitter(shifts)?;
     let mut sum: Option<Sum> = None;
     for frame in 0..before + frames {
@@ -92,18 +91,18 @@ fn mean(
 }
 
 /// Size and samples of the largest target that objects are drawn into.
-fn drawn(plan: &Plan, size: Size) -> ([u32; 2], u32) {
+fn drawn(plan: &Plan, size: [u32; 2]) -> ([u32; 2], u32) {
     let scopes = plan.steps.iter().filter_map(|step| step.work.scope());
     let of_objects = scopes.filter(|scope| {
         !scope.color.is_empty() && scope.passes.iter().any(|pass| pass.draw.is_some_and(Draw::shows_objects))
     });
     let largest = of_objects.max_by_key(|scope| u64::from(scope.extent[0]) * u64::from(scope.extent[1]));
-    largest.map_or(([size.width, size.height], 1), |scope| (scope.extent, scope.samples))
+    largest.map_or((size, 1), |scope| (scope.extent, scope.samples))
 }
 
 /// How often the reference is drawn.
-fn frames([width, height]: [u32; 2], samples: u32, size: Size) -> u16 {
-    let texels = f64::from(width) * f64::from(height) / (f64::from(size.width) * f64::from(size.height));
+fn frames([width, height]: [u32; 2], samples: u32, size: [u32; 2]) -> u16 {
+    let texels = f64::from(width) * f64::from(height) / (f64::from(size[0]) * f64::from(size[1]));
     let frames = f64::from(LEAST_SAMPLES) / (texels * f64::from(samples)).max(f64::MIN_POSITIVE);
     // An even number: half of it is compared with all.
     (frames.ceil().min(LONGEST_JITTER.into()) as u16).max(LEAST_FRAMES).next_multiple_of(2)
@@ -143,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_reference_has_enough_samples_and_an_even_number_of_frames() {
-        let size = Size { width: 100, height: 50 };
+        let size = [100, 50];
         assert_eq!(frames([100, 50], 1, size), 64);
         assert_eq!(frames([100, 50], 4, size), 16);
         assert_eq!(frames([400, 200], 1, size), 16);

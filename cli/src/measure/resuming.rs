@@ -10,11 +10,11 @@ use super::{checks, joining, pipeline_digest, store, sweep};
 use crate::command_line::measuring::MeasureArguments;
 use crate::error::Error;
 use crate::files::{inputs, outputs};
-use crate::planning::{self, device};
+use crate::planning::{self, device, helper};
 use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
-use framewright_vulkan::{Device, DeviceOptions};
+use framewright_graph::vulkan::Rotation;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -30,7 +30,9 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     inputs::expect(&arguments.pipeline, &read);
     let chosen = device::to_draw_on(arguments.device.name.as_deref())?;
-    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let helper = helper::of(&arguments.pipeline)?;
+    let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
+    let of_all = planning::choices(&arguments.pipeline, arguments.size, Rotation::Identity);
     let (baseline, choices) = subjects::choices(arguments, &pipeline, &read)?;
     if arguments.reference == Path::new(AUTO) && subjects::reference_settings(&pipeline).is_none() {
         let what = format!(
@@ -39,9 +41,9 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
         );
         return Err(Error::Sweep { what });
     }
-    checks::values(&pipeline, &choices)?;
+    checks::values(&pipeline, &of_all, &choices)?;
     let given = Given::of(arguments, &read, |extent| {
-        checks::sizes((&arguments.reference, extent), &mut pipeline, &baseline, &choices)
+        checks::sizes((&arguments.reference, extent), (&mut pipeline, &of_all), &baseline, &choices)
     })?;
     if arguments.flicker.is_some() && !matches!(given, Given::Auto) {
         let what =
@@ -51,18 +53,14 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     outputs::make_folder(&arguments.output)?;
     let _held = store::hold(&arguments.output)?;
     interrupt::watch();
-    let helper = Some(pipeline.assets.helper.clone());
-    let device =
-        Device::open(&DeviceOptions { choice: chosen, validation: false, helper, ..DeviceOptions::default() })?;
-    device.cancel_when(interrupt::asked);
-    let set = pipeline.set.clone();
+    let device = device::open(chosen, false, &helper)?;
     let mut references = References::of(arguments.output.clone());
     if let Given::Picture(picture) = &given {
         references.remember(GIVEN, Reference { picture: picture.clone(), errors: None });
     }
     let pipeline_digest = pipeline_digest::of(&pipeline);
     let mut bench =
-        Bench { arguments, pipeline, set, device, read, pipeline_digest, given, references, told_of_light: false };
+        Bench { arguments, pipeline, of_all, device, read, pipeline_digest, given, references, told_of_light: false };
     let mut results = bench.begun(&baseline)?;
     let choices = sweep::shard(choices, arguments.shard.number, arguments.shard.of);
     let ended = bench.missing(&baseline, &choices, &mut results);
@@ -83,7 +81,7 @@ fn of_row(row: &Row) -> Key<'_> {
 }
 
 fn of_choice(choice: &Choice) -> Key<'_> {
-    (&choice.values, &choice.scene.digest, [choice.size.width, choice.size.height])
+    (&choice.values, &choice.scene.digest, choice.size)
 }
 
 impl Bench<'_> {
@@ -137,7 +135,7 @@ impl Bench<'_> {
         let mut of_baseline = settings(&planned.plan);
         of_baseline.extend([
             (subjects::SCENE.to_owned(), baseline.scene.digest.clone()),
-            (subjects::SIZE.to_owned(), baseline.size.to_string()),
+            (subjects::SIZE.to_owned(), subjects::size_name(baseline.size)),
             (subjects::STEREO.to_owned(), planned.plan.stereo.name().to_owned()),
         ]);
         let subject = Subject {

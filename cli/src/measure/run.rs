@@ -5,16 +5,14 @@ use super::references::References;
 use super::results::{Outcome, Row};
 use super::subjects::Choice;
 use crate::command_line::measuring::MeasureArguments;
-use crate::drawing::{Prepared, diagnostics};
 use crate::error::Error;
-use crate::planning::{Loaded, Planned, View};
 use crate::system::counted::Progress;
 use crate::system::{Exit, interrupt};
+use framewright::{Choices, Pipeline, Planned, SceneRenderer};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Pass, Stereo};
 use framewright_graph::plan::{Note, Plan, Stage};
-use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
 use std::collections::BTreeMap;
@@ -27,9 +25,9 @@ pub(super) const WARM_UP: u32 = 2;
 /// A pipeline on a device, and what its choices are held against.
 pub(super) struct Bench<'a> {
     pub(super) arguments: &'a MeasureArguments,
-    pub(super) pipeline: Loaded,
-    /// The settings of the command line.
-    pub(super) set: Vec<(String, String)>,
+    pub(super) pipeline: Pipeline,
+    /// What the command line chooses for all choices.
+    pub(super) of_all: Choices,
     pub(super) device: Device,
     pub(super) read: ReadFiles,
     pub(super) pipeline_digest: String,
@@ -46,13 +44,11 @@ impl Bench<'_> {
         scene: &Scene,
         more: &[(String, String)],
     ) -> Result<Planned, Error> {
-        self.pipeline.set = self.set.iter().cloned().chain(choice.settings()).chain(more.iter().cloned()).collect();
-        self.pipeline.stereo = choice.stereo.clone();
-        let facts = Some(scene.facts());
-        let view = View { facts, size: choice.size, rotation: Rotation::Identity, dump: &[] };
+        let mut choices = choice.of(&self.of_all, scene);
+        choices.set.extend(more.iter().cloned());
         let (profile, mut memory) = (self.device.profile(), self.device.memory());
-        let planned = self.pipeline.plan(view, &profile, &mut memory, &Options::default())?;
-        diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
+        let planned = self.pipeline.planned(&choices, &profile, &mut memory, &Options::default())?;
+        framewright::check_cameras(&planned.plan, Some(&planned.frame), scene)?;
         Ok(planned)
     }
 
@@ -78,10 +74,10 @@ impl Bench<'_> {
         for (choice, planned) in all.iter().zip(&plans) {
             let ready = planned.as_ref().map_err(Clone::clone).map(|planned| {
                 let assets = &mut self.pipeline.assets;
-                Prepared::new(&self.device, planned.parts(), assets, &choice.scene.scene, &options)
+                SceneRenderer::new(&self.device, planned.parts(), assets, &choice.scene.scene, &options)
             });
             prepared.push(match ready {
-                Ok(ready) => kept(ready)?,
+                Ok(ready) => kept(ready.map_err(Error::from))?,
                 Err(why) => Err(why),
             });
         }
@@ -96,7 +92,7 @@ impl Bench<'_> {
                     progress.step();
                 }
                 let Ok(drawn) = ready else { continue };
-                match kept(drawn.draw())? {
+                match kept(drawn.draw().map_err(Error::from))? {
                     Ok(report) if round >= WARM_UP => frames.push(report),
                     Ok(_) => {}
                     Err(why) => *ready = Err(why),
@@ -127,7 +123,7 @@ impl Bench<'_> {
                 settings,
                 scene: choice.scene.file.clone(),
                 scene_digest: choice.scene.digest.clone(),
-                size: [choice.size.width, choice.size.height],
+                size: choice.size,
                 stereo: stereo.name().to_owned(),
                 outcome,
             });
@@ -138,14 +134,14 @@ impl Bench<'_> {
 
     /// The way in which a choice would be drawn for two eyes.
     fn stereo(&self, choice: &Choice) -> Stereo {
-        Stereo::first_fit(&choice.stereo.0, &self.device.profile()).unwrap_or(choice.stereo.0[0])
+        Stereo::first_fit(&choice.stereo, &self.device.profile()).unwrap_or(choice.stereo[0])
     }
 }
 
 /// Why an image that objects are drawn into has fewer samples than were chosen: the device lacks them. What would be drawn is another
 /// choice, so this one isn't measured.
 fn fewer_samples(planned: &Planned) -> Option<String> {
-    let Planned { frame, plan } = planned;
+    let Planned { frame, plan, .. } = planned;
     let draws = |pass: &&Pass| pass.work.draws(Draw::shows_objects);
     let mut targets = frame.passes.iter().filter(draws).flat_map(|pass| &pass.color);
     targets.find_map(|target| {

@@ -3,12 +3,12 @@
 use super::digest::Digest;
 use super::sweep::{self, Combined};
 use crate::command_line::measuring::MeasureArguments;
-use crate::command_line::values::{self, Modes, Size, Sweep};
+use crate::command_line::values::{self, Size, Sweep};
 use crate::error::Error;
 use crate::files::inputs;
-use crate::planning::Loaded;
 use crate::system::text;
 use crate::variants::axes;
+use framewright::{Choices, Pipeline, Stereo};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::expand;
 use framewright_passes::scene::Scene;
@@ -47,8 +47,10 @@ pub(crate) struct Choice {
     /// The values that the sweep chose, by name.
     pub(crate) values: BTreeMap<String, String>,
     pub(crate) scene: Rc<Subject>,
-    pub(crate) size: Size,
-    pub(crate) stereo: Modes,
+    /// Width and height of the output.
+    pub(crate) size: [u32; 2],
+    /// Ways of drawing for two eyes, the first one first.
+    pub(crate) stereo: Vec<Stereo>,
 }
 
 impl Choice {
@@ -58,12 +60,26 @@ impl Choice {
         settings.map(|(name, value)| (name.clone(), value.clone()))
     }
 
+    /// What is chosen for its frame with a scene, on top of what is chosen for all choices.
+    pub(crate) fn of(&self, of_all: &Choices, scene: &Scene) -> Choices {
+        let mut choices = of_all.clone();
+        choices.set.extend(self.settings());
+        (choices.facts, choices.extent) = (Some(scene.facts()), self.size);
+        choices.stereo.clone_from(&self.stereo);
+        choices
+    }
+
     /// A name for its files, other than that of every other choice.
     pub(crate) fn key(&self) -> String {
         let values = self.values.iter().flat_map(|(name, value)| [&**name, &**value]);
-        let rest = [self.scene.digest.clone(), self.size.to_string(), format!("{:?}", self.stereo)];
+        let rest = [self.scene.digest.clone(), size_name(self.size), format!("{:?}", self.stereo)];
         Digest::of(values.chain(rest.iter().map(|it| &**it)))
     }
+}
+
+/// The name of a size, as results and the command line have it.
+pub(crate) fn size_name([width, height]: [u32; 2]) -> String {
+    format!("{width}x{height}")
 }
 
 /// All choices that the command line asks for, and the one without any sweep.
@@ -72,7 +88,7 @@ impl Choice {
 /// Names of no settings, values of no size or way, scenes that can't be read; too many choices.
 pub(crate) fn choices(
     arguments: &MeasureArguments,
-    pipeline: &Loaded,
+    pipeline: &Pipeline,
     read: &ReadFiles,
 ) -> Result<(Choice, Vec<Choice>), Error> {
     let wrong = |what: String| Error::Sweep { what };
@@ -86,7 +102,7 @@ pub(crate) fn choices(
             "the pipeline has no preset `{REFERENCE}`, whose settings are swept: name some by --sweep"
         )));
     }
-    let settings = &pipeline.pipeline.settings;
+    let settings = &pipeline.document.settings;
     let sweeps = sweeps.into_iter().map(|sweep| canonical(pipeline, sweep)).collect::<Result<Vec<_>, Error>>()?;
     for (at, Sweep { name, .. }) in sweeps.iter().enumerate() {
         if sweeps[..at].iter().any(|other| other.name == *name) {
@@ -122,17 +138,18 @@ pub(crate) fn choices(
     let baseline = Choice {
         values: BTreeMap::new(),
         scene: scene(&arguments.scene)?,
-        size: arguments.size,
-        stereo: arguments.pipeline.stereo.clone(),
+        size: arguments.size.into(),
+        stereo: arguments.pipeline.stereo.0.clone(),
     };
     let mut choices = Vec::new();
     for values in sweep::choices(&sweeps, combined) {
         let mut choice = Choice { values, ..baseline.clone() };
         if let Some(size) = choice.values.get(SIZE) {
-            choice.size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;
+            let size: Size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;
+            choice.size = size.into();
         }
         if let Some(stereo) = choice.values.get(STEREO) {
-            choice.stereo = values::stereo(stereo).map_err(|problem| wrong(format!("{STEREO}: {problem}")))?;
+            choice.stereo = values::stereo(stereo).map_err(|problem| wrong(format!("{STEREO}: {problem}")))?.0;
         }
         if let Some(file) = choice.values.get(SCENE) {
             choice.scene = scene(Path::new(file))?;
@@ -144,8 +161,8 @@ pub(crate) fn choices(
 
 /// A sweep with its values in the form that Plans have them in: so `2.0` and `2` are one choice, and a choice that can't be drawn has the
 /// settings of one that can. What is no value stays as it is: it is told of later.
-fn canonical(pipeline: &Loaded, sweep: Sweep) -> Result<Sweep, Error> {
-    let setting = pipeline.pipeline.settings.iter().find(|it| *it.name.text == *sweep.name);
+fn canonical(pipeline: &Pipeline, sweep: Sweep) -> Result<Sweep, Error> {
+    let setting = pipeline.document.settings.iter().find(|it| *it.name.text == *sweep.name);
     let value = |text: &String| match setting {
         Some(setting) => expand::canonical_value(&setting.kind, text),
         None if sweep.name == SIZE => text.parse::<Size>().ok().map(|size| size.to_string()),
@@ -160,17 +177,17 @@ fn canonical(pipeline: &Loaded, sweep: Sweep) -> Result<Sweep, Error> {
 }
 
 /// A sweep over each setting that the preset `reference` names.
-fn of_reference(pipeline: &Loaded) -> Vec<Sweep> {
-    let settings = &pipeline.pipeline.settings;
-    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE);
+fn of_reference(pipeline: &Pipeline) -> Vec<Sweep> {
+    let settings = &pipeline.document.settings;
+    let preset = pipeline.document.presets.iter().find(|preset| *preset.name.text == *REFERENCE);
     let named = preset.into_iter().flat_map(|preset| &preset.set).filter_map(|chosen| settings.get(chosen.setting));
     named.map(|it| Sweep { name: it.name.text.to_string(), values: axes::values(&it.kind) }).collect()
 }
 
 /// The settings of the preset `reference`; `None` if there is no such preset.
-pub(crate) fn reference_settings(pipeline: &Loaded) -> Option<Vec<(String, String)>> {
-    let settings = &pipeline.pipeline.settings;
-    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE)?;
+pub(crate) fn reference_settings(pipeline: &Pipeline) -> Option<Vec<(String, String)>> {
+    let settings = &pipeline.document.settings;
+    let preset = pipeline.document.presets.iter().find(|preset| *preset.name.text == *REFERENCE)?;
     let named = preset.set.iter().filter_map(|chosen| Some((settings.get(chosen.setting)?, &chosen.value)));
     Some(named.map(|(setting, value)| (setting.name.text.to_string(), axes::text(value))).collect())
 }

@@ -137,7 +137,7 @@ impl<'a> App<'a> {
         let attributes = Window::default_attributes().with_title("framewright").with_inner_size(size);
         let window = Arc::new(events.create_window(attributes).map_err(no_window)?);
         let display = events.display_handle().map_err(no_window)?.as_raw();
-        let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
+        let helper = helper::of(&arguments.pipeline)?;
         let device = Device::open(&DeviceOptions {
             choice: device::to_draw_on(arguments.device.name.as_deref())?,
             validation: arguments.validate,

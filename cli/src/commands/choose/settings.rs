@@ -60,5 +60,5 @@ fn document(pipeline: &str, read: &ReadFiles) -> Option<Document> {
         caching: CachingArguments { no_cache: true },
         limits: ShaderLimits { shader_seconds: 10, shader_memory: 1024, shader_stack: 8 },
     };
-    planning::load(&arguments, read).ok().map(|loaded| loaded.pipeline)
+    planning::load(&arguments, read).ok().map(|loaded| loaded.document)
 }

@@ -1,7 +1,6 @@
 //! The settings that can be chosen from, with their worst figures.
 
 use super::limits::Quantity;
-use crate::command_line::values::Size;
 use crate::measure::naming::Group;
 use crate::measure::results::{Measured, Outcome, Results, Row, Spread};
 use crate::measure::subjects;
@@ -143,8 +142,7 @@ fn baselines(results: &Results) -> BTreeMap<Group, f64> {
         settings_of.eq(settings.iter().map(|(name, value)| (*name, *value)))
     };
     let is_own = |row: &Row| {
-        let [width, height] = row.size;
-        let size = Size { width, height }.to_string();
+        let size = subjects::size_name(row.size);
         let of_row = [(subjects::SCENE, &row.scene_digest), (subjects::SIZE, &size), (subjects::STEREO, &row.stereo)];
         of_row.into_iter().all(|(name, value)| surroundings.get(name).is_some_and(|it| *it == value.as_str()))
     };

@@ -1,22 +1,19 @@
 //! A pipeline that is drawn frame after frame, while its settings and files change.
 
-mod choices;
-mod reading;
-
+use crate::choices::Choices;
 use crate::error::Error;
 use crate::options::RendererOptions;
-use choices::Choices;
+use crate::pipeline::Pipeline;
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::Compiler;
 use framewright_graph::device::Profile;
-use framewright_graph::expand;
 use framewright_graph::frame::Stereo;
 use framewright_graph::language::{Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Presentation, Swapchain, Texels};
-use reading::Reading;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -30,10 +27,10 @@ pub struct Renderer {
     profile: Arc<Profile>,
     path: PathBuf,
     options: RendererOptions,
-    reading: Reading,
+    pipeline: Pipeline,
     /// The files that were read last, by a reload that failed too.
     read: ReadFiles,
-    choices: Choices,
+    chosen: Chosen,
     compiler: Compiler,
     /// What is drawn.
     drawn: Option<Drawn>,
@@ -41,11 +38,21 @@ pub struct Renderer {
     changed: bool,
 }
 
+/// What was chosen.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Chosen {
+    /// Values of settings, by name. One that the file doesn't have, or no longer, waits for it.
+    set: BTreeMap<String, String>,
+    preset: Option<String>,
+    /// All else.
+    frame: Choices,
+}
+
 /// The Plan that is drawn, with its executor and the choices that it was made for.
 struct Drawn {
     plan: Plan,
     executor: Executor,
-    choices: Choices,
+    chosen: Chosen,
 }
 
 /// The Plan of the next frame.
@@ -84,13 +91,13 @@ impl Renderer {
     pub fn open(device: &Device, pipeline: impl AsRef<Path>, options: RendererOptions) -> Result<Renderer, Error> {
         let (path, read) = (pipeline.as_ref().to_owned(), ReadFiles::default());
         Ok(Renderer {
-            reading: Reading::begin(&path, &options, &read)?,
+            pipeline: Pipeline::open(&path, &options, &read)?,
             read,
             device: device.clone(),
             profile: Arc::new(device.profile()),
             path,
             options,
-            choices: Choices::default(),
+            chosen: Chosen::default(),
             compiler: Compiler::new(),
             drawn: None,
             changed: true,
@@ -103,18 +110,18 @@ impl Renderer {
     /// # Errors
     /// [`Error::Mistakes`] if the pipeline has no such setting, or it doesn't allow the value. It keeps the one that it had.
     pub fn set(&mut self, setting: &str, value: impl Display) -> Result<(), Error> {
-        let mut set = self.choices.known(self.document());
-        set.push((setting.to_owned(), value.to_string()));
-        self.check(&self.choices, &set)?;
-        let value = set.pop().map(|(_, value)| value).unwrap_or_default();
-        self.changed |= self.choices.set.get(setting) != Some(&value);
-        self.choices.set.insert(setting.to_owned(), value);
+        let mut choices = self.chosen.of(self.document(), &[]);
+        let value = value.to_string();
+        choices.set.push((setting.to_owned(), value.clone()));
+        self.pipeline.check([&choices])?;
+        self.changed |= self.chosen.set.get(setting) != Some(&value);
+        self.chosen.set.insert(setting.to_owned(), value);
         Ok(())
     }
 
     /// Takes back what [`Renderer::set`] gave a setting.
     pub fn unset(&mut self, setting: &str) {
-        self.changed |= self.choices.set.remove(setting).is_some();
+        self.changed |= self.chosen.set.remove(setting).is_some();
     }
 
     /// Puts a preset in force, in place of the one before; `None`: that of the settings files, if they name one.
@@ -122,14 +129,14 @@ impl Renderer {
     /// # Errors
     /// [`Error::Mistakes`] if the pipeline has no such preset. The one before stays in force.
     pub fn preset(&mut self, name: Option<&str>) -> Result<(), Error> {
-        self.reading.choose(name)?;
-        self.take(|choices| choices.preset = name.map(str::to_owned));
+        self.pipeline.choose(name)?;
+        self.take(|chosen| chosen.preset = name.map(str::to_owned));
         Ok(())
     }
 
     /// Tells the facts of the scene, as conditions of the pipeline ask for them; `None`: it may hold everything.
     pub fn set_facts(&mut self, facts: Option<Facts>) {
-        self.take(|choices| choices.facts = facts);
+        self.take(|chosen| chosen.frame.facts = facts);
     }
 
     /// Tells the facts of `scene`.
@@ -142,14 +149,14 @@ impl Renderer {
     /// # Errors
     /// [`Error::Mistakes`] if no frame has that size. It keeps the one that it had.
     pub fn set_extent(&mut self, extent: [u32; 2]) -> Result<(), Error> {
-        self.check(&Choices { extent, ..self.choices.clone() }, &self.choices.known(self.document()))?;
-        self.take(|choices| choices.extent = extent);
+        self.pipeline.check([&Choices { extent, ..self.chosen.of(self.document(), &[]) }])?;
+        self.take(|chosen| chosen.frame.extent = extent);
         Ok(())
     }
 
     /// Says by how much the screen is turned that shows the picture. What is read back is upright.
     pub fn set_rotation(&mut self, rotation: Rotation) {
-        self.take(|choices| choices.rotation = rotation);
+        self.take(|chosen| chosen.frame.rotation = rotation);
     }
 
     /// Says how the frame is drawn for two eyes. [`Stereo::first_fit`] finds a way that the device has.
@@ -157,8 +164,9 @@ impl Renderer {
     /// # Errors
     /// [`Error::Stereo`] if the device can't draw so. The way stays that it was.
     pub fn set_stereo(&mut self, stereo: Stereo) -> Result<(), Error> {
-        Stereo::first_fit(&[stereo], &self.profile).map_err(|why| Error::Stereo { why })?;
-        self.take(|choices| choices.stereo = stereo);
+        let choices = Choices { stereo: vec![stereo], ..self.chosen.frame.clone() };
+        choices.stereo_on(&self.profile)?;
+        self.take(|chosen| chosen.frame = choices);
         Ok(())
     }
 
@@ -169,24 +177,21 @@ impl Renderer {
     /// Those of [`Renderer::set_extent`].
     pub fn fit(&mut self, window: &Swapchain) -> Result<(), Error> {
         let (Some([width, height]), format) = (window.extent(), window.format()) else { return Ok(()) };
-        let eyes = if matches!(self.choices.stereo, Stereo::DoubleWide | Stereo::Instanced) { 2 } else { 1 };
+        let eyes = match self.chosen.frame.stereo_on(&self.profile)? {
+            Stereo::DoubleWide | Stereo::Instanced => 2,
+            Stereo::Off | Stereo::MultiPass | Stereo::Multiview => 1,
+        };
         self.set_extent([(width / eyes).max(1), height])?;
         let rotation = window.rotation();
-        self.take(|choices| (choices.window, choices.rotation) = (format, rotation));
+        self.take(|chosen| (chosen.frame.window, chosen.frame.rotation) = (format, rotation));
         Ok(())
     }
 
-    /// Makes sure that choices are right by themselves.
-    fn check(&self, choices: &Choices, set: &[(String, String)]) -> Result<(), Error> {
-        let wrong = expand::check_inputs(self.document(), &choices.inputs(set, &[], None));
-        if wrong.is_empty() { Ok(()) } else { Err(self.reading.wrong(wrong)) }
-    }
-
-    fn take(&mut self, choose: impl FnOnce(&mut Choices)) {
-        let mut choices = self.choices.clone();
-        choose(&mut choices);
-        self.changed |= self.choices != choices;
-        self.choices = choices;
+    fn take(&mut self, choose: impl FnOnce(&mut Chosen)) {
+        let mut chosen = self.chosen.clone();
+        choose(&mut chosen);
+        self.changed |= self.chosen != chosen;
+        self.chosen = chosen;
     }
 
     /// Plans the next frame if anything changed since the last call; every frame begins with it. A Plan that differs in values alone
@@ -211,8 +216,8 @@ impl Renderer {
     /// Those of [`Renderer::open`]; [`Error::Mistakes`] if the files no longer have the preset.
     pub fn try_clone(&self) -> Result<Renderer, Error> {
         let mut other = Renderer::open(&self.device, &self.path, self.options.clone())?;
-        other.reading.choose(self.choices.preset.as_deref())?;
-        other.choices = self.choices.clone();
+        other.pipeline.choose(self.chosen.preset.as_deref())?;
+        other.chosen = self.chosen.clone();
         Ok(other)
     }
 
@@ -224,35 +229,37 @@ impl Renderer {
     /// # Errors
     /// The mistakes of the pipeline, its shaders and choices, or those of making pipelines. The choices stay.
     pub fn make_pipelines(&mut self) -> Result<(), Error> {
-        let Renderer { device, profile, options, reading, choices, compiler, .. } = self;
-        let plan = reading.plan(compiler, device, profile, choices, options)?;
-        reading.make_pipelines(device, plan)
+        let Renderer { device, profile, options, pipeline, chosen, compiler, .. } = self;
+        let choices = chosen.of(&pipeline.document, &options.dump);
+        let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
+        Ok(device.make_pipelines(plan, &mut pipeline.assets.shaders)?)
     }
 
     /// Goes back to the choices that the last good Plan was made for.
     fn go_back(&mut self) {
         if let Some(drawn) = &self.drawn {
-            self.choices = drawn.choices.clone();
+            self.chosen = drawn.chosen.clone();
             // The pipeline has the preset: it was in force before.
-            self.changed = self.reading.choose(self.choices.preset.as_deref()).is_err();
+            self.changed = self.pipeline.choose(self.chosen.preset.as_deref()).is_err();
         }
     }
 
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
-        let Renderer { device, profile, options, reading, choices, compiler, drawn, .. } = self;
-        let plan = reading.plan(compiler, device, profile, choices, options)?;
+        let Renderer { device, profile, options, pipeline, chosen, compiler, drawn, .. } = self;
+        let choices = chosen.of(&pipeline.document, &options.dump);
+        let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         let stays = |drawn: &&mut Drawn| !anew && drawn.plan.differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
             drawn.executor.change(plan)?;
             drawn.plan.clone_from(plan);
-            drawn.choices.clone_from(choices);
+            drawn.chosen.clone_from(chosen);
             Change::Values
         } else {
-            let mut executor = reading.executor(device, plan, &options.executor)?;
+            let mut executor = pipeline.assets.executor(device, plan, &options.executor)?;
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
-            *drawn = Some(Drawn { plan: plan.clone(), executor, choices: choices.clone() });
+            *drawn = Some(Drawn { plan: plan.clone(), executor, chosen: chosen.clone() });
             Change::Executor { carried_over }
         };
         self.changed = false;
@@ -278,10 +285,10 @@ impl Renderer {
     /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
     pub fn reload(&mut self) -> Result<Change, Error> {
         self.read = ReadFiles::default();
-        let mut reading = Reading::begin(&self.path, &self.options, &self.read)?;
-        reading.choose(self.choices.preset.as_deref())?;
-        let before = std::mem::replace(&mut self.reading, reading);
-        self.renew(true).inspect_err(|_| self.reading = before)
+        let mut pipeline = Pipeline::open(&self.path, &self.options, &self.read)?;
+        pipeline.choose(self.chosen.preset.as_deref())?;
+        let before = std::mem::replace(&mut self.pipeline, pipeline);
+        self.renew(true).inspect_err(|_| self.pipeline = before)
     }
 
     /// Draws a frame, waits until the device is done, and returns the frame's number, from 0. Numbers rise by
@@ -362,7 +369,7 @@ impl Renderer {
     /// The pipeline as it was read last: its settings, presets and changes.
     #[must_use]
     pub fn document(&self) -> &Document {
-        self.reading.document()
+        &self.pipeline.document
     }
 
     /// The Plan that is drawn; `None` before the first one. [`Renderer::prepare`] makes it.
@@ -391,6 +398,16 @@ impl Renderer {
     pub fn executor_mut(&mut self) -> Result<&mut Executor, Error> {
         self.prepare()?;
         Ok(&mut self.drawn()?.executor)
+    }
+}
+
+impl Chosen {
+    /// What it means for a frame of a pipeline.
+    fn of(&self, document: &Document, dump: &[String]) -> Choices {
+        let has = |name: &str| document.settings.iter().any(|setting| *setting.name.text == *name);
+        let known = self.set.iter().filter(|(name, _)| has(name));
+        let set = known.map(|(name, value)| (name.clone(), value.clone())).collect();
+        Choices { set, dump: dump.to_vec(), ..self.frame.clone() }
     }
 }
 
