@@ -2,8 +2,9 @@
 
 use super::args::PipelineArguments;
 use super::scenes::{DrawingDevice, SceneArguments};
-use super::values::{DEFAULT_SIZE, Size, Sweep, sweep};
+use super::values::{DEFAULT_SIZE, Size, sweep};
 use clap::Args;
+use framewright_lab::sweep::Sweep;
 use std::path::PathBuf;
 
 /// `framewright measure`.

@@ -6,7 +6,6 @@ use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
-use crate::picture::FileFormat;
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
@@ -14,6 +13,7 @@ use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
+use framewright_lab::picture::FileFormat;
 use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 

@@ -3,10 +3,8 @@
 //! Captures are drawn by Plans of their own. A Plan holds so many captures as fit a bound of memory;
 //! the frames are drawn anew for each.
 
-use super::pictures::side_by_side;
 use crate::error::Error;
 use crate::inspection::Thumbnail;
-use crate::picture::{FileFormat, Picture};
 use crate::system::{interrupt, text};
 use framewright::{Pipeline, SceneRenderer};
 use framewright_graph::compile::Options;
@@ -14,6 +12,8 @@ use framewright_graph::dataflow::Dataflow;
 use framewright_graph::frame::{Capture, Captures, Frame, capture_name};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::{Aspects, Format};
+use framewright_lab::outputs::side_by_side;
+use framewright_lab::picture::{FileFormat, Picture};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, Texels};
 use std::collections::HashSet;
@@ -88,7 +88,7 @@ impl Captured {
     pub(crate) fn encoded(&self, format: FileFormat) -> Result<Vec<u8>, Error> {
         let picture = Picture { format: self.format, encoding: None, extent: self.extent, bytes: &self.bytes };
         let name = self.capture.image.to_string();
-        format.encode(&picture).map_err(|problem| Error::Picture { image: name, problem })
+        format.encode(&picture).map_err(|problem| framewright_lab::Error::Picture { image: name, problem }.into())
     }
 }
 
@@ -116,7 +116,7 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
     let Captures { of_passes, left_out } = frame.captures(|pass| runs.contains(pass));
     for why in left_out {
-        text::say_once(&format!("note: not captured: {}", text::escape(&why)));
+        text::note_once(&format!("not captured: {}", text::escape(&why)));
     }
     let mut done = 0;
     for batch in batches(&of_passes) {

@@ -2,4 +2,5 @@
 
 pub(crate) mod captures;
 pub(crate) mod pictures;
-pub(crate) mod timings;
+
+pub(crate) use framewright_lab::timings;

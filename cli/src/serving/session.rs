@@ -4,17 +4,17 @@ use super::controls::{Choice, Controls};
 use super::published::{Live, Output, Published, SourceText};
 use crate::command_line::serving::ServeArguments;
 use crate::drawing::captures::{self, Drawing};
-use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::inspection::{self, Page, Shown, Thumbnail};
-use crate::picture::FileFormat;
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
 use framewright::{Choices, Pipeline, Planned, SceneRenderer};
 use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::Detail;
+use framewright_lab::outputs;
+use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
@@ -302,10 +302,10 @@ fn output_pictures(
         }
         prepared.draw()?;
     }
-    let requests = pictures::of_all_outputs(&planned.plan);
+    let requests = outputs::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
-        let picture = request.encode(&mut prepared.executor, &planned.plan)?;
-        Ok((request.name().to_owned(), picture.contents))
+        let picture = request.encode(&mut prepared.executor, &planned.plan, &text::note_once)?;
+        Ok((request.name.to_owned(), picture.contents))
     });
     encoded.collect()
 }

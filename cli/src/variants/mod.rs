@@ -6,15 +6,13 @@
 //!
 //! Variants that agree on all settings and facts that are read share one verdict (`decisions`).
 
-pub(crate) mod axes;
+mod axes;
 mod axis;
 mod causes;
 mod checker;
-pub(crate) mod cover;
 mod decisions;
 mod facts;
 mod identity;
-pub(crate) mod mentions;
 mod minimise;
 mod report;
 mod run;

@@ -1,16 +1,16 @@
 //! The settings file that is written, read back as `run` reads it.
 
+use super::settings_file;
 use crate::command_line::args::{CachingArguments, PipelineArguments, ShaderLimits};
 use crate::command_line::values::Modes;
 use crate::error::Error;
-use crate::measure::results::Results;
-use crate::measure::settings_file;
 use crate::planning;
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::frame::Stereo;
 use framewright_graph::language::Document;
 use framewright_graph::ron::Tree;
+use framewright_lab::results::Results;
 use std::collections::BTreeMap;
 
 /// The text of a settings file.

@@ -6,20 +6,21 @@ mod subject;
 
 use crate::command_line::args::RunArguments;
 use crate::drawing::captures::{self, Drawing};
-use crate::drawing::pictures::{EncodedPicture, PictureRequest};
-use crate::drawing::{pictures, timings};
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
-use crate::picture::FileFormat;
 use crate::planning::{device, helper, layer, notes};
-use crate::system::quantiles::median;
 use crate::system::{Exit, interrupt, progress, text};
 use framewright::{Assets, SceneRenderer};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::plan::{Buffer, Image, Plan, Resource, Role, Stage};
 use framewright_graph::vulkan::{Format, Layout, State, Subresources};
+use framewright_lab::outputs::{EncodedPicture, PictureRequest};
+use framewright_lab::picture::FileFormat;
+use framewright_lab::quantiles::median;
+use framewright_lab::timings;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
 use report::{Report, Validation};
@@ -217,8 +218,9 @@ fn draw(
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, plan));
-    let pictures = pictures.collect::<Result<Vec<_>, _>>().map_err(interrupted(arguments.frames, arguments.frames))?;
+    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, plan, &text::note_once));
+    let pictures = pictures.map(|picture| picture.map_err(Error::from)).collect::<Result<Vec<_>, _>>();
+    let pictures = pictures.map_err(interrupted(arguments.frames, arguments.frames))?;
     if interrupt::asked() {
         return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });
     }
