@@ -1,12 +1,13 @@
 //! The errors that end a command early.
 
 use crate::command_line::options;
-use crate::picture::{DecodingError, EncodingError};
 use crate::system::{Exit, links, text};
 use framewright_graph::base;
 use framewright_graph::base::{Diagnostic, NoText, Sources, for_shell, is_of_machine};
 use framewright_graph::shader::ShaderProblem;
 use framewright_graph::vulkan::Format;
+use framewright_lab::Error as LabError;
+use framewright_lab::results::{JoiningProblem, ResultsProblem};
 use framewright_passes::scene::SceneError;
 use framewright_vulkan::Blame;
 use std::io;
@@ -84,25 +85,9 @@ pub(crate) enum Error {
         packages.join(" ")
     )]
     NoWindowLibrary { packages: &'static [&'static str] },
-    /// A picture can't be encoded.
-    #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
-    Picture { image: String, problem: EncodingError },
-    /// A file that is no picture to compare.
-    #[error("the picture `{}` can't be read: {}", text::path(path), text::escape(&problem.to_string()))]
-    NoLight { path: PathBuf, problem: DecodingError },
-    /// Pictures of different sizes.
-    #[error("`{}` is {}, and `{}` is {}: only pictures of one size are compared", text::path(&reference.0), pixels(reference.1), text::path(&picture.0), pixels(picture.1))]
-    Sizes { reference: (PathBuf, [usize; 2]), picture: (PathBuf, [usize; 2]) },
-    /// Pictures without anything to compare.
-    #[error(
-        "no pixel is finite in both `{}` and `{}`: there is nothing to compare",
-        text::path(reference),
-        text::path(picture)
-    )]
-    NothingFinite { reference: PathBuf, picture: PathBuf },
-    /// A sweep that can't be measured.
-    #[error("{what}")]
-    Sweep { what: String },
+    /// An error of comparing or measuring.
+    #[error("{0}")]
+    Lab(LabError),
     /// A folder holds results of something else.
     #[error(
         "`{}` holds results of another sweep: `{field}` is {} there, and {} here\nhelp: name another folder",
@@ -119,10 +104,10 @@ pub(crate) enum Error {
     Held { folder: PathBuf },
     /// A file of results that is none.
     #[error("`{}` {}", text::path(path), text::escape_lines(&problem.to_string()))]
-    Results { path: PathBuf, problem: Box<dyn std::error::Error> },
+    Results { path: PathBuf, problem: ResultsProblem },
     /// Results that can't be joined.
     #[error("{0}")]
-    Joining(Box<dyn std::error::Error>),
+    Joining(#[from] JoiningProblem),
     /// Results without flicker are asked for it.
     #[error(
         "the results in `{}` have no flicker, which `--max-flicker` limits\nhelp: measure it: `framewright measure … --flicker 16`",
@@ -293,10 +278,33 @@ impl From<framewright::Error> for Error {
             Face::TooLarge { what, path, limit } => Error::TooLarge { what, path, limit },
             Face::NotText { what, path, why } => Error::NotText { what, path, why },
             Face::OutsideRoot { pipeline, root } => Error::OutsideRoot { pipeline, root },
-            Face::Mistakes { mistakes } => Error::mistakes(mistakes.sources, mistakes.diagnostics, Exit::Found),
+            Face::Mistakes { mistakes } => {
+                let exit = if mistakes.of_choices { Exit::Usage } else { Exit::Found };
+                Error::mistakes(mistakes.sources, mistakes.diagnostics, exit)
+            }
             Face::Scene(problem) => Error::Scene(problem),
+            Face::Stereo { why } => Error::Stereo { why },
+            Face::CustomPass { pass, name } => Error::CustomPass { pass, name },
+            Face::Vulkan(framewright_vulkan::Error::Violations { violations }) => {
+                Error::Violations { violations: violations.iter().map(|one| text::escape(&one.to_string())).collect() }
+            }
             Face::Vulkan(problem) => Error::Vulkan(problem),
             other => Error::Library(Box::new(other)),
+        }
+    }
+}
+
+impl From<LabError> for Error {
+    fn from(error: LabError) -> Error {
+        match error {
+            LabError::Framewright(error) => error.into(),
+            LabError::Stopped { drawn, wanted } => Error::Interrupted { frames: drawn, wanted },
+            LabError::Json(error) => Error::Json(error),
+            LabError::Program(error) => match error.downcast::<Error>() {
+                Ok(own) => *own,
+                Err(other) => Error::Lab(LabError::Program(other)),
+            },
+            other => Error::Lab(other),
         }
     }
 }
@@ -356,11 +364,7 @@ impl Error {
             | Error::Read { .. }
             | Error::TooLarge { .. }
             | Error::NotText { .. }
-            | Error::Picture { .. }
             | Error::NotFloats { .. }
-            | Error::NoLight { .. }
-            | Error::Sizes { .. }
-            | Error::NothingFinite { .. }
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::NoFlicker { .. }
@@ -394,7 +398,7 @@ impl Error {
             | Error::OutsideRoot { .. }
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
-            | Error::Sweep { .. }
+            | Error::Lab(LabError::Sweep { .. })
             | Error::CaptureWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
@@ -407,6 +411,7 @@ impl Error {
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
                 Exit::Interrupted
             }
+            Error::Lab(_) => Exit::Found,
             Error::Write { .. }
             | Error::NoFolder { .. }
             | Error::Cache { .. }
@@ -429,10 +434,6 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     let help =
         if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
     format!("there is no output named `{name}`\nhelp: {help}")
-}
-
-fn pixels([width, height]: [usize; 2]) -> String {
-    format!("{width}×{height}")
 }
 
 /// Help for a device that refuses.

@@ -9,8 +9,6 @@ mod files;
 mod findings;
 mod inspection;
 mod measure;
-mod metric;
-mod picture;
 mod planning;
 mod serving;
 mod system;

@@ -75,6 +75,14 @@ pub enum Error {
         /// What it lacks.
         why: String,
     },
+    /// A pass that no scene draws: the program that has its shader records it.
+    #[error("nobody records `{}`, which the custom pass `{}` asks for", escape(name), escape(pass))]
+    CustomPass {
+        /// The pass.
+        pass: String,
+        /// What it asks for.
+        name: String,
+    },
     /// No output has the name.
     #[error("there is no output `{}`: there are {}", escape(name), list(known))]
     UnknownOutput {
@@ -96,6 +104,8 @@ pub struct Mistakes {
     pub sources: Sources,
     /// At least one mistake.
     pub diagnostics: Vec<Diagnostic>,
+    /// Whether nothing is wrong with the files by themselves: what was chosen for the pipeline is wrong.
+    pub of_choices: bool,
 }
 
 impl Mistakes {
@@ -113,9 +123,14 @@ impl fmt::Debug for Error {
 }
 
 impl Error {
+    /// Mistakes in files.
     pub(crate) fn mistakes(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
-        let mistakes = Mistakes { sources: sources.clone(), diagnostics };
-        Error::Mistakes { mistakes: Box::new(mistakes) }
+        Error::Mistakes { mistakes: Box::new(Mistakes { sources: sources.clone(), diagnostics, of_choices: false }) }
+    }
+
+    /// Mistakes in what was chosen.
+    pub(crate) fn of_choices(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
+        Error::Mistakes { mistakes: Box::new(Mistakes { sources: sources.clone(), diagnostics, of_choices: true }) }
     }
 
     /// The mistakes in files as data, with the texts that they point into; `None`: it is another error.

@@ -25,18 +25,24 @@
 //!   in a program with a [`Helper`].
 //!
 //! The layers below are reachable: [`graph`] reads, compiles and verifies, [`vulkan`] executes Plans, [`passes`] has the scene and the
-//! shipped shaders, pipelines and scenes. [`PipelineFile`] and [`Pipeline`] are the way from a name to a document.
+//! shipped shaders, pipelines and scenes. [`PipelineFile`] and [`Pipeline`] are the way from a name to a document, and with [`Choices`] to
+//! a Plan, on any device; a [`SceneRenderer`] draws a scene by that Plan.
 
+mod assets;
+mod choices;
 mod error;
 mod files;
 mod options;
 mod pipeline;
 mod renderer;
+mod scene_renderer;
 
 pub use framewright_graph as graph;
 pub use framewright_passes as passes;
 pub use framewright_vulkan as vulkan;
 
+pub use assets::Assets;
+pub use choices::Choices;
 pub use error::{Error, Mistakes};
 pub use files::{FileOptions, PipelineFile, Reach, expect_scene, find_scene, folder_of, load_scene};
 pub use framewright_graph::base::{Diagnostic, ReadFiles, Root};
@@ -54,5 +60,6 @@ pub use framewright_vulkan::{
     ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
-pub use pipeline::{Pipeline, shaders, textures};
+pub use pipeline::{Pipeline, Planned};
 pub use renderer::{Change, Prepared, Renderer};
+pub use scene_renderer::{SceneRenderer, check_cameras};

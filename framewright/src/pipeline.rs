@@ -1,41 +1,78 @@
-//! A pipeline that was read, and where its shaders and pictures come from.
+//! A pipeline that was read: a frame is made of it, and a Plan of the frame.
 
+use crate::assets::Assets;
+use crate::choices::Choices;
 use crate::error::Error;
 use crate::files::{self, PipelineFile};
-use framewright_graph::base::{FilePath, ReadFiles, Root, Sources};
-use framewright_graph::frame::{TextureFile, TextureInfo, TextureProblem, Textures};
+use crate::options::RendererOptions;
+use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
+use framewright_graph::compile::{self, Compiler, Options, heap_size};
+use framewright_graph::device::{MemoryProvider, Profile};
+use framewright_graph::expand::{self, Inputs};
+use framewright_graph::frame::{Frame, TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, SettingsFile, Unread};
-use framewright_graph::shader::DrawInterfaces;
-use framewright_passes::shipped::SHADERS;
+use framewright_graph::plan::Plan;
+use framewright_graph::verify;
 use framewright_passes::texture_files::TextureFiles;
-use framewright_vulkan::{Helper, ShaderLibrary};
+use framewright_vulkan::Device;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A pipeline that was read.
-#[derive(Debug)]
 #[non_exhaustive]
 pub struct Pipeline {
     /// Its entries, with values not yet chosen.
     pub document: Document,
     /// The texts that it was read from.
     pub sources: Arc<Sources>,
-    /// Pictures of its folder.
-    pub textures: TextureFiles,
-    /// The paths of those that it names.
+    /// Its shaders and pictures.
+    pub assets: Assets,
+    /// The paths of the pictures that it names.
     pub pictures: BTreeSet<Arc<str>>,
+    settings: Vec<SettingsFile>,
+}
+
+/// Where a pipeline comes from.
+#[derive(Debug, Clone)]
+pub(crate) enum Origin {
+    /// A file, or a shipped pipeline.
+    File(PathBuf),
+    /// The program itself.
+    Text {
+        /// What messages call it.
+        name: String,
+        /// The pipeline.
+        text: String,
+    },
+}
+
+/// A frame, and its Plan.
+#[derive(Debug)]
+pub struct Planned {
+    /// The frame.
+    pub frame: Frame,
+    /// Its Plan, verified.
+    pub plan: Plan,
+}
+
+impl Planned {
+    /// The Plan, with the frame that it was made of.
+    #[must_use]
+    pub fn parts(&self) -> (&Plan, Option<&Frame>) {
+        (&self.plan, Some(&self.frame))
+    }
 }
 
 /// The files that a pipeline names: of its language, and pictures.
-struct NamedFiles {
+struct NamedFiles<'t> {
     files: PipelineFiles,
-    textures: TextureFiles,
+    textures: &'t mut TextureFiles,
     /// The paths of pictures that are named.
     pictures: BTreeSet<Arc<str>>,
 }
 
-impl Files for NamedFiles {
+impl Files for NamedFiles<'_> {
     fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
         self.files.read(from, path)
     }
@@ -47,69 +84,159 @@ impl Files for NamedFiles {
 }
 
 impl PipelineFile {
-    /// Reads it, its extensions, and the files that it names.
+    /// Reads it, its extensions, settings files, and the files that it names. No preset is in force yet: see [`Pipeline::choose`].
     ///
     /// # Errors
-    /// [`Error::Mistakes`] with all mistakes that don't depend on settings, scene or device.
-    pub fn read(self) -> Result<Pipeline, Error> {
-        let textures = textures(self.root(), &self.read);
-        let mut named = NamedFiles { files: self.files, textures, pictures: BTreeSet::new() };
+    /// [`Error::Mistakes`] with all mistakes that don't depend on settings, scene or device; settings files that can't be read.
+    pub fn read(self, options: &RendererOptions) -> Result<Pipeline, Error> {
+        let read = self.read.clone();
+        let mut assets = Assets::new(self.root(), options, &read);
+        let mut named = NamedFiles { files: self.files, textures: &mut assets.textures, pictures: BTreeSet::new() };
         let mut sources = Sources::default();
-        let read = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
-        match read {
-            Ok(document) => {
-                let NamedFiles { textures, pictures, .. } = named;
-                Ok(Pipeline { document, sources: Arc::new(sources), textures, pictures })
-            }
-            Err(diagnostics) => {
-                let mistakes = crate::Mistakes { sources, diagnostics };
-                Err(Error::Mistakes { mistakes: Box::new(mistakes) })
-            }
-        }
+        let document = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
+        let pictures = named.pictures;
+        let document = document.map_err(|diagnostics| Error::mistakes(&sources, diagnostics))?;
+        let mut pipeline = Pipeline { document, sources: Arc::new(sources), assets, pictures, settings: Vec::new() };
+        pipeline.read_settings(&options.settings, &read)?;
+        Ok(pipeline)
     }
 }
 
 impl Pipeline {
-    /// Reads settings files for it, one after the other.
-    pub(crate) fn read_settings(&mut self, paths: &[PathBuf], read: &ReadFiles) -> Result<Vec<SettingsFile>, Error> {
-        let mut sources = Sources::clone(&self.sources);
-        let (mut settings, mut mistakes) = (Vec::with_capacity(paths.len()), Vec::new());
+    /// Reads the pipeline in the file `path`; where there is none, the shipped one of that name. All files that are read, now or
+    /// later, are recorded in `read`.
+    ///
+    /// # Errors
+    /// If there is neither, or it is wrong in itself.
+    pub fn open(path: impl AsRef<Path>, options: &RendererOptions, read: &ReadFiles) -> Result<Pipeline, Error> {
+        Pipeline::of(&Origin::File(path.as_ref().to_owned()), options, read)
+    }
+
+    /// Reads the pipeline of `origin`.
+    pub(crate) fn of(origin: &Origin, options: &RendererOptions, read: &ReadFiles) -> Result<Pipeline, Error> {
+        let file = match origin {
+            Origin::File(path) => PipelineFile::find(path, &options.files, read)?,
+            Origin::Text { name, text } => PipelineFile::carried(name, text),
+        };
+        let mut pipeline = file.read(options)?;
+        pipeline.choose(None)?;
+        Ok(pipeline)
+    }
+
+    /// Reads settings files, one after the other.
+    fn read_settings(&mut self, paths: &[PathBuf], read: &ReadFiles) -> Result<(), Error> {
+        let sources = Arc::make_mut(&mut self.sources);
+        let mut mistakes = Vec::new();
         for path in paths {
             let text = files::settings(path, read)?;
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-            match self.document.read_settings(&mut sources, &path.to_string_lossy(), &name, text) {
-                Ok(file) => settings.push(file),
+            match self.document.read_settings(sources, &path.to_string_lossy(), &name, text) {
+                Ok(file) => self.settings.push(file),
                 Err(diagnostics) => mistakes.extend(diagnostics),
             }
         }
-        if !mistakes.is_empty() {
-            return Err(Error::mistakes(&sources, mistakes));
+        if mistakes.is_empty() { Ok(()) } else { Err(self.wrong(mistakes)) }
+    }
+
+    /// Puts settings files and a preset in force; `None`: the preset of the settings files, if they name one.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] if the pipeline has no such preset.
+    pub fn choose(&mut self, preset: Option<&str>) -> Result<(), Error> {
+        let chosen = self.document.choose(preset, &self.settings);
+        chosen.map_err(|unknown| Error::of_choices(&self.sources, vec![unknown]))
+    }
+
+    /// Makes sure that choices are right by themselves.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] with settings that the pipeline doesn't have, values that it doesn't allow, a size that no frame has, and
+    /// names of no image.
+    pub fn check<'c>(&self, choices: impl IntoIterator<Item = &'c Choices>) -> Result<(), Error> {
+        let wrong = |choices: &Choices| expand::check_inputs(&self.document, &choices.on_any_device());
+        let wrong: Vec<Diagnostic> = choices.into_iter().flat_map(wrong).collect();
+        if wrong.is_empty() { Ok(()) } else { Err(Error::of_choices(&self.sources, wrong)) }
+    }
+
+    /// The frame of these choices on a device.
+    ///
+    /// # Errors
+    /// Those of [`Pipeline::check`] and [`Choices::stereo_on`]; the mistakes of the pipeline and its shaders.
+    pub fn frame(&mut self, choices: &Choices, device: &Profile) -> Result<Frame, Error> {
+        self.check([choices])?;
+        self.expand(&choices.inputs(choices.stereo_on(device)?, Some(device)))
+    }
+
+    /// The frame of these inputs.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] with those of the inputs, the pipeline and its shaders.
+    pub fn expand(&mut self, inputs: &Inputs<'_>) -> Result<Frame, Error> {
+        let frame = expand::expand(&self.document, Arc::clone(&self.sources), inputs, &mut self.assets.shaders);
+        frame.map_err(|diagnostics| self.wrong(diagnostics))
+    }
+
+    /// Compiles a frame for a device, has the Plan verified, and its shaders compiled as its passes are drawn.
+    ///
+    /// # Errors
+    /// The mistakes of the frame and its shaders, features that the device lacks, and the violations that `verify` found.
+    pub fn compile(
+        &mut self,
+        frame: &Frame,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Plan, Error> {
+        let plan = compile::compile(frame, device, memory, options).map_err(|wrong| self.wrong(wrong))?;
+        let violations = verify::verify(&plan);
+        if !violations.is_empty() {
+            return Err(framewright_vulkan::Error::Violations { violations }.into());
         }
-        self.sources = Arc::new(sources);
-        Ok(settings)
+        let wrong = compile::shaders::wrong(&plan, frame, &mut self.assets.shaders);
+        if wrong.is_empty() { Ok(plan) } else { Err(self.wrong(wrong)) }
     }
-}
 
-/// Shaders of a pipeline's folder, then of `more` folders, then shipped ones. Files that are read are recorded in `read`.
-#[must_use]
-pub fn shaders(
-    root: Option<&Root>,
-    more: &[Root],
-    draws: DrawInterfaces,
-    helper: Option<&Helper>,
-    read: &ReadFiles,
-) -> ShaderLibrary {
-    let folders = root.into_iter().chain(more).map(|root| root.clone().recorded(read, "the shader itself"));
-    let library = ShaderLibrary::new(folders.collect(), SHADERS, draws);
-    match helper {
-        Some(helper) => library.with_helper(helper),
-        None => library,
+    /// The frame of these choices on a device, and its Plan.
+    ///
+    /// # Errors
+    /// Those of [`Pipeline::frame`] and [`Pipeline::compile`].
+    pub fn planned(
+        &mut self,
+        choices: &Choices,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Planned, Error> {
+        let frame = self.frame(choices, device)?;
+        let plan = self.compile(&frame, device, memory, options)?;
+        Ok(Planned { frame, plan })
     }
-}
 
-/// Pictures of a pipeline's folder. Files that are read are recorded in `read`.
-#[must_use]
-pub fn textures(root: Option<&Root>, read: &ReadFiles) -> TextureFiles {
-    let recorded = root.map(|root| root.clone().recorded(read, "the texture itself"));
-    TextureFiles::new(recorded.unwrap_or_else(|| Root::new(PathBuf::default())))
+    /// Makes sure that a device has the memory that a Plan takes.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] with the memory that it takes, and the images that take most.
+    pub fn fits(&self, plan: &Plan, frame: &Frame, device: &Profile) -> Result<(), Error> {
+        heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(self.wrong(vec![large])))
+    }
+
+    /// The Plan of a frame of these choices, made by `compiler`. Shaders are compiled when it is executed.
+    pub(crate) fn plan<'c>(
+        &mut self,
+        compiler: &'c mut Compiler,
+        device: &Device,
+        profile: &Arc<Profile>,
+        choices: &Choices,
+        options: &Options,
+    ) -> Result<&'c Plan, Error> {
+        let frame = Arc::new(self.expand(&choices.inputs(choices.stereo_on(profile)?, Some(profile)))?);
+        let plan = compiler.compile(&frame, profile, &mut device.memory(), options);
+        let plan = plan.map_err(|diagnostics| self.wrong(diagnostics))?;
+        self.fits(plan, &frame, profile)?;
+        Ok(plan)
+    }
+
+    fn wrong(&self, diagnostics: Vec<Diagnostic>) -> Error {
+        Error::mistakes(&self.sources, diagnostics)
+    }
 }

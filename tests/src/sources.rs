@@ -7,8 +7,15 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// The folders of sources that are no tests.
-pub const FOLDERS: [&str; 6] =
-    ["graph/src", "backend-vulkan/src", "passes/src", "framewright/src", "framewright/c/src", "cli/src"];
+pub const FOLDERS: [&str; 7] = [
+    "graph/src",
+    "backend-vulkan/src",
+    "passes/src",
+    "framewright/src",
+    "framewright/c/src",
+    "framewright/lab/src",
+    "cli/src",
+];
 
 /// A source file.
 #[derive(Debug)]

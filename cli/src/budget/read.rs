@@ -4,8 +4,9 @@ use super::bound::Bound;
 use super::{Budget, Limit};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
-use crate::planning::{Loaded, device};
+use crate::planning::device;
 use crate::system::Exit;
+use framewright::Pipeline;
 use framewright_graph::base::{self, Diagnostic, ReadFiles, Span};
 use framewright_graph::language::Document;
 use ron::Options;
@@ -82,9 +83,9 @@ impl LimitEntry {
 ///
 /// # Errors
 /// If the file can't be read, or is no budget of this pipeline.
-pub(crate) fn read(path: Option<&Path>, pipeline: &mut Loaded) -> Result<Budget, Error> {
+pub(crate) fn read(path: Option<&Path>, pipeline: &mut Pipeline) -> Result<Budget, Error> {
     let Some(path) = path else { return Ok(Budget::default()) };
-    let (pipeline, sources) = (&pipeline.pipeline, Arc::make_mut(&mut pipeline.sources));
+    let (pipeline, sources) = (&pipeline.document, Arc::make_mut(&mut pipeline.sources));
     let text = inputs::text(FileRole::BUDGET, path, LARGEST, &ReadFiles::default())?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let file = sources.add(path.to_string_lossy(), &*name, &*text);

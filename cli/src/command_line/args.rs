@@ -7,8 +7,9 @@ use crate::command_line::explaining::ExplainArguments;
 use crate::command_line::measuring::MeasureArguments;
 use crate::command_line::merging::MergeArguments;
 pub(crate) use crate::command_line::pipeline::{CachingArguments, PipelineArguments, PlanningArguments, ShaderLimits};
-use crate::command_line::scenes::SceneArguments;
+use crate::command_line::scenes::{DrawingDevice, DrawnScene, SceneArguments};
 use crate::command_line::serving::ServeArguments;
+use crate::command_line::subject::SubjectArguments;
 use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE, Dump, OutputFile, Size, dump, output_file};
 use crate::command_line::windows::WindowArguments;
 use crate::system::text;
@@ -132,19 +133,8 @@ pub(crate) enum CheckFormat {
 pub(crate) struct InspectArguments {
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
-    /// Scene whose facts conditions see; without one they see a scene that holds everything.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) scene: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) reading: SceneArguments,
-    /// Size of the output in pixels.
-    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
-    pub(crate) size: Size,
-    /// Device to compile for: the name of a shipped profile, or a profile file.
-    #[arg(long, value_name = "NAME|PROFILE.ron")]
-    pub(crate) device: Option<OsString>,
-    #[command(flatten)]
-    pub(crate) planning: PlanningArguments,
+    pub(crate) subject: SubjectArguments,
     /// Form of the Plan.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: PlanFormat,
@@ -187,11 +177,8 @@ pub(crate) struct RunArguments {
     /// can't be chosen any more. Files that it names are looked for where a pipeline's are.
     #[arg(long, conflicts_with_all = SAID_BY_PLAN)]
     pub(crate) plan: bool,
-    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) scene: PathBuf,
     #[command(flatten)]
-    pub(crate) reading: SceneArguments,
+    pub(crate) drawn: DrawnScene,
     /// Size of the output in pixels.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,
@@ -231,9 +218,8 @@ pub(crate) struct RunArguments {
     pub(crate) bisect: Option<DebugMode>,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
-    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub(crate) device: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) device: DrawingDevice,
 }
 
 /// A way to plan or to execute that may not change a picture.
@@ -376,36 +362,37 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
             return conflict(format!("`{}` would be written twice", text::path(file)));
         }
     }
-    let (drawn, by) = match &line.command {
-        Command::Run(run) => (Some(&run.pipeline), "`run` draws"),
-        Command::Serve(serve) => (Some(&serve.pipeline), "`serve` draws"),
-        Command::Measure(measure) => (Some(&measure.pipeline), "`measure` draws"),
-        Command::Inspect(inspect) if inspect.capture => (Some(&inspect.pipeline), "`--capture` draws"),
-        _ => (None, ""),
-    };
-    if drawn.is_some_and(|pipeline| pipeline.interface.is_some()) {
+    let Some((pipeline, drawn)) = line.command.pipeline() else { return Ok(line) };
+    if let (Some(by), Some(_)) = (drawn, &pipeline.interface) {
         return conflict(format!(
             "{by} scenes of the command's own, which bring along what its shaders know: `--interface` is for `check`, `inspect`, \
              `diff` and `explain`, which draw nothing"
         ));
     }
-    let limits = match &line.command {
-        Command::Check(check) => Some(check.pipeline.limits),
-        Command::Inspect(inspect) => Some(inspect.pipeline.limits),
-        Command::Diff(diff) => Some(diff.pipeline.limits),
-        Command::Run(run) => Some(run.pipeline.limits),
-        Command::Serve(serve) => Some(serve.pipeline.limits),
-        Command::Measure(measure) => Some(measure.pipeline.limits),
-        _ => None,
-    };
-    match limits {
-        Some(ShaderLimits { shader_memory, shader_stack, .. }) if shader_stack + BESIDE_STACK > shader_memory => {
-            conflict(format!(
-                "`--shader-stack` ({shader_stack} MiB) is a part of `--shader-memory` ({shader_memory} MiB), and must leave at \
-                 least {BESIDE_STACK} MiB of it"
-            ))
-        }
-        _ => Ok(line),
+    let ShaderLimits { shader_memory, shader_stack, .. } = pipeline.limits;
+    if shader_stack + BESIDE_STACK > shader_memory {
+        return conflict(format!(
+            "`--shader-stack` ({shader_stack} MiB) is a part of `--shader-memory` ({shader_memory} MiB), and must leave at \
+             least {BESIDE_STACK} MiB of it"
+        ));
+    }
+    Ok(line)
+}
+
+impl Command {
+    /// The pipeline that it reads, if it reads one; and who draws it, in words, if that is this command alone.
+    fn pipeline(&self) -> Option<(&PipelineArguments, Option<&'static str>)> {
+        Some(match self {
+            Command::Check(check) => (&check.pipeline, None),
+            Command::Inspect(inspect) => (&inspect.pipeline, inspect.capture.then_some("`--capture` draws")),
+            Command::Diff(diff) => (&diff.pipeline, None),
+            Command::Explain(explain) => (&explain.pipeline, None),
+            Command::Run(run) => (&run.pipeline, Some("`run` draws")),
+            Command::Serve(serve) => (&serve.pipeline, Some("`serve` draws")),
+            Command::Window(window) => (&window.pipeline, None),
+            Command::Measure(measure) => (&measure.pipeline, Some("`measure` draws")),
+            _ => return None,
+        })
     }
 }
 
@@ -486,7 +473,9 @@ mod tests {
 
     #[test]
     fn the_stack_of_shaders_leaves_some_of_their_memory() {
-        for words in [&["check", "a.ron"][..], &["inspect", "a.ron"], &["run", "a.ron", "--scene", "s.ron"]] {
+        let drawn = ["run", "window"].map(|command| [command, "a.ron", "--scene", "s.ron"]);
+        for words in [&["check", "a.ron"][..], &["inspect", "a.ron"], &["explain", "a.ron", "x"], &drawn[0], &drawn[1]]
+        {
             let stack = |stack: &str| read(&[words, &["--shader-memory", "256", "--shader-stack", stack]].concat());
             for large in ["193", "256", "257"] {
                 let message = stack(large).expect_err("too large");

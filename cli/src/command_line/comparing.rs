@@ -1,8 +1,9 @@
 //! The command line of `framewright compare`.
 
 use super::values::{AnswerFormat, number, png};
-use crate::metric::{Metric, PIXELS_PER_DEGREE};
-use clap::Args;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use framewright_lab::metric::{Metric, PIXELS_PER_DEGREE};
 use std::path::PathBuf;
 
 /// `framewright compare`.
@@ -16,7 +17,7 @@ pub(crate) struct CompareArguments {
     pub(crate) picture: PathBuf,
     /// Metric to print; without this all are. Repeatable.
     #[arg(long, value_name = "METRIC", value_enum)]
-    pub(crate) metric: Vec<Metric>,
+    pub(crate) metric: Vec<NamedMetric>,
     /// File for a picture of FLIP: black where no difference is seen, bright where much is.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     pub(crate) heatmap: Option<PathBuf>,
@@ -33,6 +34,27 @@ pub(crate) struct CompareArguments {
         next_help_heading = "Limits; beyond one, or with one if a pixel isn't finite, the command ends with 1"
     )]
     pub(crate) limits: ErrorLimits,
+}
+
+/// A metric, as the command line names it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NamedMetric(pub(crate) Metric);
+
+impl ValueEnum for NamedMetric {
+    fn value_variants<'a>() -> &'a [NamedMetric] {
+        &[
+            NamedMetric(Metric::Flip),
+            NamedMetric(Metric::Rmse),
+            NamedMetric(Metric::MaxError),
+            NamedMetric(Metric::RelativeMse),
+            NamedMetric(Metric::Psnr),
+            NamedMetric(Metric::Ssim),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()).help(self.0.about()))
+    }
 }
 
 /// Limits of errors.

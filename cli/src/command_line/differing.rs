@@ -1,10 +1,9 @@
 //! The command line of `framewright diff`.
 
-use super::pipeline::{PipelineArguments, PlanningArguments};
-use super::scenes::SceneArguments;
-use super::values::{Assignment, DEFAULT_SIZE, Size, assignment};
+use super::pipeline::PipelineArguments;
+use super::subject::SubjectArguments;
+use super::values::{Assignment, assignment};
 use clap::{Args, ValueEnum};
-use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// `framewright diff`. Both Plans are made in the same way but for what `--a` and `--b` choose.
@@ -21,19 +20,8 @@ pub(crate) struct DiffArguments {
     /// A choice for the second Plan alone. Repeatable.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) b: Vec<Assignment>,
-    /// Scene whose facts conditions see; without one they see a scene that holds everything.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) scene: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) reading: SceneArguments,
-    /// Size of the output in pixels.
-    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
-    pub(crate) size: Size,
-    /// Device to compile for: the name of a shipped profile, or a profile file.
-    #[arg(long, value_name = "NAME|PROFILE.ron")]
-    pub(crate) device: Option<OsString>,
-    #[command(flatten)]
-    pub(crate) planning: PlanningArguments,
+    pub(crate) subject: SubjectArguments,
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: DifferenceFormat,

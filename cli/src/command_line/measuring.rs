@@ -1,10 +1,10 @@
 //! The command line of `framewright measure`.
 
 use super::args::PipelineArguments;
-use super::scenes::SceneArguments;
-use super::values::{DEFAULT_SIZE, Size, Sweep, sweep};
+use super::scenes::{DrawingDevice, SceneArguments};
+use super::values::{DEFAULT_SIZE, Size, sweep};
 use clap::Args;
-use std::ffi::OsString;
+use framewright_lab::sweep::Sweep;
 use std::path::PathBuf;
 
 /// `framewright measure`.
@@ -43,9 +43,8 @@ pub(crate) struct MeasureArguments {
     /// Folder for the results. What is measured there already stays.
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub(crate) device: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) device: DrawingDevice,
 }
 
 /// One part of a sweep.

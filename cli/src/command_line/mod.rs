@@ -11,5 +11,6 @@ pub(crate) mod options;
 mod pipeline;
 pub(crate) mod scenes;
 pub(crate) mod serving;
+pub(crate) mod subject;
 pub(crate) mod values;
 pub(crate) mod windows;

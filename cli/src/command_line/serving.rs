@@ -1,22 +1,17 @@
 //! What `framewright serve` takes.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
-use super::scenes::SceneArguments;
+use super::scenes::{DrawingDevice, DrawnScene};
 use super::values::{DEFAULT_SIZE, Size};
 use clap::Args;
-use std::ffi::OsString;
-use std::path::PathBuf;
 
 /// `framewright serve`.
 #[derive(Debug, Args)]
 pub(crate) struct ServeArguments {
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
-    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) scene: PathBuf,
     #[command(flatten)]
-    pub(crate) reading: SceneArguments,
+    pub(crate) drawn: DrawnScene,
     /// Port of this machine's loopback address, 127.0.0.1; 0 takes any that is free.
     #[arg(long, value_name = "P", default_value_t = 7117)]
     pub(crate) port: u16,
@@ -31,7 +26,6 @@ pub(crate) struct ServeArguments {
     pub(crate) capture: bool,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
-    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub(crate) device: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) device: DrawingDevice,
 }

@@ -1,11 +1,12 @@
 //! Values of single arguments, and how they are read. The error of each reader says what was expected, in words.
 
-use crate::picture::FileFormat;
 use crate::system::text;
 use clap::ValueEnum;
 use framewright_graph::compile::Order;
 use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
+use framewright_lab::picture::FileFormat;
+use framewright_lab::sweep::{Sweep, size_name};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -52,7 +53,13 @@ pub(crate) struct OutputFile {
 
 impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}x{}", self.width, self.height)
+        f.write_str(&size_name((*self).into()))
+    }
+}
+
+impl From<Size> for [u32; 2] {
+    fn from(size: Size) -> [u32; 2] {
+        [size.width, size.height]
     }
 }
 
@@ -161,15 +168,6 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 /// Reads a number above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0, such as 4.5".to_owned())
-}
-
-/// The values that one setting takes.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sweep {
-    /// The setting; or `@size`, `@scene` or `@stereo`.
-    pub(crate) name: String,
-    /// As the command line has them.
-    pub(crate) values: Vec<String>,
 }
 
 /// Reads `NAME=A,B,C` or `NAME=LO..HI:STEPS`. Blanks around names, values and numbers are no part of them.

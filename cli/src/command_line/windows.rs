@@ -1,10 +1,9 @@
 //! What `framewright window` takes.
 
 use super::pipeline::{PipelineArguments, PlanningArguments};
-use super::scenes::SceneArguments;
+use super::scenes::{DrawingDevice, DrawnScene};
 use super::values::{DEFAULT_SIZE, Size};
 use clap::Args;
-use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// `framewright window`.
@@ -12,11 +11,8 @@ use std::path::PathBuf;
 pub(crate) struct WindowArguments {
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
-    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) scene: PathBuf,
     #[command(flatten)]
-    pub(crate) reading: SceneArguments,
+    pub(crate) drawn: DrawnScene,
     /// Size of the window in pixels, when it opens.
     #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
     pub(crate) size: Size,
@@ -34,9 +30,8 @@ pub(crate) struct WindowArguments {
     pub(crate) validate: bool,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
-    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub(crate) device: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) device: DrawingDevice,
 }
 
 /// The name of a PNG file.

@@ -4,10 +4,11 @@ use crate::command_line::comparing::CompareArguments;
 use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::files::{inputs, outputs};
-use crate::metric::{self, Errors, Metric};
-use crate::picture::Light;
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::ReadFiles;
+use framewright_lab::Error as LabError;
+use framewright_lab::metric::{self, Errors, Metric};
+use framewright_lab::picture::Light;
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
@@ -41,10 +42,8 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     let test = inputs::picture(&arguments.picture, &read)?;
     // Before anything is decoded: a few bytes may stand for any size.
     if reference.extent != test.extent {
-        return Err(Error::Sizes {
-            reference: (arguments.reference.clone(), reference.extent),
-            picture: (arguments.picture.clone(), test.extent),
-        });
+        let reference = (arguments.reference.clone(), reference.extent);
+        return Err(LabError::Sizes { reference, picture: (arguments.picture.clone(), test.extent) }.into());
     }
     let (reference, test) = (reference.decoded()?, test.decoded()?);
     for (path, picture) in [(&arguments.reference, &reference), (&arguments.picture, &test)] {
@@ -57,15 +56,13 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);
     drop(busy);
     if errors.of_nothing {
-        return Err(Error::NothingFinite {
-            reference: arguments.reference.clone(),
-            picture: arguments.picture.clone(),
-        });
+        let (reference, picture) = (arguments.reference.clone(), arguments.picture.clone());
+        return Err(LabError::NothingFinite { reference, picture }.into());
     }
     if let Some(file) = heat_map {
         let size = reference.extent.map(|size| u32::try_from(size).unwrap_or(u32::MAX));
         let picture = metric::heat_map(errors.flip_map(), size);
-        let picture = picture.map_err(|problem| Error::Picture { image: "flip".to_owned(), problem })?;
+        let picture = picture.map_err(|problem| LabError::Picture { image: "flip".to_owned(), problem })?;
         outputs::write(&[(file, &picture)], &read)?;
     }
     let limits: Vec<Limit> = Metric::ALL.iter().filter_map(|metric| limit(arguments, &errors, *metric)).collect();
@@ -99,7 +96,7 @@ fn limit(arguments: &CompareArguments, errors: &Errors, metric: Metric) -> Optio
 fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> String {
     let wanted = |metric: &&Metric| {
         let is_limited = arguments.limits.of(**metric).is_some();
-        arguments.metric.is_empty() || is_limited || arguments.metric.contains(metric)
+        arguments.metric.is_empty() || is_limited || arguments.metric.iter().any(|named| named.0 == **metric)
     };
     let [before, after] = errors.non_finite;
     let is_finite = [before, after] == [0, 0];

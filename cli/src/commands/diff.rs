@@ -1,21 +1,17 @@
 //! `framewright diff`: the differences between two Plans, without a GPU.
 
-use crate::command_line::args::PipelineArguments;
 use crate::command_line::differing::{DiffArguments, DifferenceFormat};
-use crate::command_line::values::{self, Assignment, DEFAULT_SIZE, Modes, Size};
+use crate::command_line::values::{self, Assignment};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
 use crate::inspection::{self, Page, Shown};
-use crate::planning::{self, View, device, plan_file};
+use crate::planning::{self, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
-use framewright_graph::device::Estimated;
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::{Detail, Plan};
-use framewright_passes::scene::Scene;
-use std::ffi::{OsStr, OsString};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Prints or writes the differences.
@@ -30,9 +26,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
     let first = &arguments.pipeline.file;
     let second = arguments.other.as_ref().unwrap_or(first);
     if plan_file::is_one(first) && plan_file::is_one(second) {
-        let DiffArguments { scene, device, size, .. } = arguments;
-        let own = [("--scene", scene.is_some()), ("--device", device.is_some()), ("--size", *size != DEFAULT_SIZE)];
-        plan_file::nothing_chosen(&arguments.pipeline, arguments.planning, &own)?;
+        plan_file::nothing_chosen(&arguments.pipeline, &arguments.subject, None)?;
     }
     let [name_a, name_b] = [first, second].map(|file| file.to_string_lossy().into_owned());
     let (a, sources_a) = plan(arguments, first, "--a", &arguments.a, &read)?;
@@ -73,58 +67,21 @@ fn plan(
             false => Err(Error::ChoiceForPlan { option, path: file.to_owned() }),
         };
     }
-    let chosen = Choice::of(arguments, option, own)?;
-    let pipeline = PipelineArguments {
-        file: file.to_owned(),
-        set: chosen.settings,
-        stereo: chosen.stereo,
-        ..arguments.pipeline.clone()
-    };
-    let profile = device::choose(chosen.device.as_deref(), read)?;
-    let mut loaded = planning::load(&pipeline, read)?;
-    let scene = chosen.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, read)).transpose()?;
-    let view = View {
-        facts: scene.as_ref().map(Scene::facts),
-        size: chosen.size,
-        rotation: arguments.planning.rotate,
-        dump: &[],
-    };
-    let planned = loaded.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?;
-    Ok((planned.plan, Some(Arc::clone(&loaded.sources))))
-}
-
-/// The choices for one of the Plans.
-struct Choice {
-    settings: Vec<Assignment>,
-    device: Option<OsString>,
-    scene: Option<PathBuf>,
-    size: Size,
-    stereo: Modes,
-}
-
-impl Choice {
-    /// Those for both Plans, and on top of them its own.
-    fn of(arguments: &DiffArguments, option: &'static str, own: &[Assignment]) -> Result<Choice, Error> {
-        let mut choice = Choice {
-            settings: arguments.pipeline.set.clone(),
-            device: arguments.device.clone(),
-            scene: arguments.scene.clone(),
-            size: arguments.size,
-            stereo: arguments.pipeline.stereo.clone(),
-        };
-        for Assignment { name, value } in own {
-            let wrong = |problem: String| Error::OwnChoice { option, name: name.clone(), problem };
-            match &**name {
-                "@device" => choice.device = Some(OsStr::new(value).to_owned()),
-                "@scene" => choice.scene = Some(value.into()),
-                "@size" => choice.size = value.parse().map_err(wrong)?,
-                "@stereo" => choice.stereo = values::stereo(value).map_err(wrong)?,
-                other if other.starts_with('@') => {
-                    return Err(wrong("expected a setting, @device, @scene, @size or @stereo".to_owned()));
-                }
-                _ => choice.settings.push(Assignment { name: name.clone(), value: value.clone() }),
+    let (mut pipeline, mut subject) = (arguments.pipeline.clone(), arguments.subject.clone());
+    pipeline.file = file.to_owned();
+    for Assignment { name, value } in own {
+        let wrong = |problem: String| Error::OwnChoice { option, name: name.clone(), problem };
+        match &**name {
+            "@device" => subject.device = Some(value.into()),
+            "@scene" => subject.scene = Some(value.into()),
+            "@size" => subject.size = value.parse().map_err(wrong)?,
+            "@stereo" => pipeline.stereo = values::stereo(value).map_err(wrong)?,
+            other if other.starts_with('@') => {
+                return Err(wrong("expected a setting, @device, @scene, @size or @stereo".to_owned()));
             }
+            _ => pipeline.set.push(Assignment { name: name.clone(), value: value.clone() }),
         }
-        Ok(choice)
     }
+    let (loaded, planned) = planning::planned(&pipeline, &subject, read)?;
+    Ok((planned.plan, Some(Arc::clone(&loaded.sources))))
 }

@@ -1,22 +1,20 @@
 //! `framewright inspect`: the Plan of a pipeline, without a GPU.
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
-use crate::command_line::values::DEFAULT_SIZE;
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
-use crate::picture::FileFormat;
-use crate::planning::{self, Loaded, View, device, plan_file};
+use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
-use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DeviceOptions};
+use framewright_lab::picture::FileFormat;
+use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 
 /// Prints or writes a Plan.
@@ -29,28 +27,28 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         return inspect_plan(arguments, &read);
     }
     inputs::expect(&arguments.pipeline, &read);
-    arguments.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
-    arguments.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
+    let subject = &arguments.subject;
+    subject.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
+    subject.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
-    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
-    let scene =
-        arguments.scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, &read)).transpose()?;
+    let helper = helper::of(&arguments.pipeline)?;
+    let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
+    let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, &read)).transpose()?;
     spare()?;
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
     }
-    let drawn_on = if arguments.capture { Some(open(&pipeline)?) } else { None };
+    let drawn_on = if arguments.capture { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
-        None => device::choose(arguments.device.as_deref(), &read)?,
+        None => device::choose(subject.device.as_deref(), &read)?,
     };
-    let facts = scene.as_ref().map(Scene::facts);
-    let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
-    let options = arguments.planning.options();
+    let choices = planning::undrawn(&arguments.pipeline, subject, scene.as_ref());
+    let options = subject.planning.options();
     let planned = match &drawn_on {
-        Some(device) => pipeline.plan(view, &profile, &mut device.memory(), &options)?,
-        None => pipeline.plan(view, &profile, &mut Estimated(&profile), &options)?,
+        Some(device) => pipeline.planned(&choices, &profile, &mut device.memory(), &options)?,
+        None => pipeline.planned(&choices, &profile, &mut Estimated(&profile), &options)?,
     };
     let plan = &planned.plan;
     let counted = |list| scene.as_ref().map_or(0, |scene| scene.count(list));
@@ -58,7 +56,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let detail = Detail { objects, verbose: arguments.verbose };
     let name = arguments.pipeline.file.to_string_lossy();
     let shown = shown(arguments.format, plan, detail, || {
-        let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
+        let devices = planning::on_other_devices(&mut pipeline, &choices, &options, (&*name, plan))?;
         let captures = match (&drawn_on, &scene, &arguments.output) {
             (Some(device), Some(scene), Some(page)) => {
                 let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
@@ -75,14 +73,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 
 /// Prints or writes the Plan in a file, as it is.
 fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
-    let InspectArguments { pipeline, scene, device, size, capture, .. } = arguments;
-    let own = [
-        ("--capture", *capture),
-        ("--scene", scene.is_some()),
-        ("--device", device.is_some()),
-        ("--size", *size != DEFAULT_SIZE),
-    ];
-    plan_file::nothing_chosen(pipeline, arguments.planning, &own)?;
+    let InspectArguments { pipeline, subject, capture, .. } = arguments;
+    plan_file::nothing_chosen(pipeline, subject, capture.then_some("--capture"))?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
     spare()?;
@@ -128,14 +120,10 @@ fn put(arguments: &InspectArguments, shown: &str, read: &ReadFiles) -> Result<Ex
 }
 
 /// The device that captures are drawn on.
-fn open(pipeline: &Loaded) -> Result<Device, Error> {
+fn open(helper: &Helper) -> Result<Device, Error> {
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
-    let helper = Some(pipeline.assets.helper.clone());
-    let choice = device::to_draw_on(None)?;
-    let device = Device::open(&DeviceOptions { choice, validation: false, helper, ..DeviceOptions::default() })?;
-    device.cancel_when(interrupt::asked);
-    Ok(device)
+    device::open(device::to_draw_on(None)?, false, helper)
 }
 
 /// Draws every image after every pass that wrote it, and writes the pictures to a folder beside the page.

@@ -4,10 +4,10 @@ use crate::command_line::merging::MergeArguments;
 use crate::error::Error;
 use crate::files::outputs;
 use crate::measure::pictures::Pictures;
-use crate::measure::results::Results;
-use crate::measure::{Part, joined, store};
+use crate::measure::store;
 use crate::system::{Exit, text};
 use framewright_graph::base::ReadFiles;
+use framewright_lab::results::{Part, Results, joined};
 use std::path::Path;
 
 /// Joins results, and copies their pictures. `results.json` is written last: while it is absent, the folder is incomplete.
@@ -24,7 +24,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Error> {
         parts.push(Part { folder: folder.clone(), results });
     }
     // The command line asks for at least one.
-    let Some(results) = joined(parts).map_err(|problem| Error::Joining(problem.into()))? else { return Ok(Exit::Fine) };
+    let Some(results) = joined(parts)? else { return Ok(Exit::Fine) };
     outputs::make_folder(to)?;
     let file = to.join(store::FILE);
     outputs::prepare(std::iter::once(&*file), &read)?;

@@ -7,7 +7,6 @@ use crate::inspection;
 use crate::planning::{device, helper};
 use crate::serving::{self, Session};
 use crate::system::{Exit, interrupt, text};
-use framewright_vulkan::{Device, DeviceOptions};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 use tokio::sync::watch;
@@ -23,20 +22,14 @@ const AT_REST: Duration = Duration::from_millis(50);
 /// If there is no such pipeline or scene, the port or the device can't be had, or the device is lost.
 pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     // A name that leads nowhere is a slip. Files that go missing later are waited for.
-    inputs::are_there(&arguments.pipeline.file, &arguments.scene)?;
+    inputs::are_there(&arguments.pipeline.file, &arguments.drawn.scene)?;
     interrupt::watch();
-    let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
-    let choice = device::to_draw_on(arguments.device.as_deref())?;
+    let helper = helper::of(&arguments.pipeline)?;
+    let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let (publish, shown) = watch::channel(serving::Published::default());
     let (send, choices) = mpsc::channel();
     let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
-    let device = Device::open(&DeviceOptions {
-        choice,
-        validation: false,
-        helper: Some(helper.clone()),
-        ..DeviceOptions::default()
-    })?;
-    device.cancel_when(interrupt::asked);
+    let device = device::open(choice, false, &helper)?;
     let mut session = Session::new(arguments, &device, helper);
     text::print(&format!("http://{address}/ shows the page; Ctrl-C ends it\n")).map_err(Error::Print)?;
     loop {

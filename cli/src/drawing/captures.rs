@@ -3,18 +3,17 @@
 //! Captures are drawn by Plans of their own. A Plan holds so many captures as fit a bound of memory;
 //! the frames are drawn anew for each.
 
-use super::Prepared;
-use super::pictures::side_by_side;
 use crate::error::Error;
 use crate::inspection::Thumbnail;
-use crate::picture::{FileFormat, Picture};
-use crate::planning::Loaded;
 use crate::system::{interrupt, text};
+use framewright::{Pipeline, SceneRenderer};
 use framewright_graph::compile::Options;
 use framewright_graph::dataflow::Dataflow;
 use framewright_graph::frame::{Capture, Captures, Frame, capture_name};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::{Aspects, Format};
+use framewright_lab::outputs::side_by_side;
+use framewright_lab::picture::{FileFormat, Picture};
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, ExecutorOptions, Texels};
 use std::collections::HashSet;
@@ -27,7 +26,7 @@ const MOST: usize = 64;
 /// What captures are drawn with.
 pub(crate) struct Drawing<'a> {
     pub(crate) device: &'a Device,
-    pub(crate) pipeline: &'a mut Loaded,
+    pub(crate) pipeline: &'a mut Pipeline,
     /// The Plan whose images are captured, and the frame that it was made of.
     pub(crate) made: (&'a Plan, &'a Frame),
     pub(crate) scene: &'a Scene,
@@ -89,7 +88,7 @@ impl Captured {
     pub(crate) fn encoded(&self, format: FileFormat) -> Result<Vec<u8>, Error> {
         let picture = Picture { format: self.format, encoding: None, extent: self.extent, bytes: &self.bytes };
         let name = self.capture.image.to_string();
-        format.encode(&picture).map_err(|problem| Error::Picture { image: name, problem })
+        format.encode(&picture).map_err(|problem| framewright_lab::Error::Picture { image: name, problem }.into())
     }
 }
 
@@ -97,7 +96,7 @@ impl<'a> Drawing<'a> {
     /// Captures of one frame of this Plan, in which nothing shares memory.
     pub(crate) fn new(
         device: &'a Device,
-        pipeline: &'a mut Loaded,
+        pipeline: &'a mut Pipeline,
         made: (&'a Plan, &'a Frame),
         scene: &'a Scene,
         options: Options,
@@ -117,14 +116,14 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
     let Captures { of_passes, left_out } = frame.captures(|pass| runs.contains(pass));
     for why in left_out {
-        text::say_once(&format!("note: not captured: {}", text::escape(&why)));
+        text::note_once(&format!("not captured: {}", text::escape(&why)));
     }
     let mut done = 0;
     for batch in batches(&of_passes) {
         let frame = frame.with_captures(batch);
         let plan = pipeline.compile(&frame, &device.profile(), &mut device.memory(), &options)?;
         let assets = &mut pipeline.assets;
-        let mut prepared = Prepared::new(device, (&plan, Some(&frame)), assets, scene, &executor)?;
+        let mut prepared = SceneRenderer::new(device, (&plan, Some(&frame)), assets, scene, &executor)?;
         for drawn in 0..frames {
             if interrupt::asked() {
                 return Err(Error::Interrupted { frames: drawn, wanted: frames });

@@ -1,9 +1,6 @@
-//! Drawing a planned frame: the executor with its scene, the pictures that come out, and the times of passes.
+//! Drawing a planned frame: the pictures that come out, and the times of passes.
 
 pub(crate) mod captures;
-pub(crate) mod diagnostics;
 pub(crate) mod pictures;
-mod prepared;
-pub(crate) mod timings;
 
-pub(crate) use prepared::Prepared;
+pub(crate) use framewright_lab::timings;

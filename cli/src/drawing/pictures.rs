@@ -1,77 +1,13 @@
-//! The pictures that a run writes: outputs are chosen, read back and encoded.
+//! The pictures that a run writes: outputs are chosen.
 
 use crate::command_line::args::RunArguments;
 use crate::command_line::values::OutputFile;
 use crate::error::Error;
-use crate::picture::{self, FileFormat};
-use crate::system::text;
-use framewright_graph::frame::{Eye, Frame};
+use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Output, Plan, Resource};
-use framewright_vulkan::{Executor, Texels};
-use std::path::{Path, PathBuf};
-
-/// A picture that is ready to be written.
-pub(crate) struct EncodedPicture {
-    pub(crate) path: PathBuf,
-    pub(crate) contents: Vec<u8>,
-}
-
-/// A picture that the command line asks for.
-pub(crate) struct PictureRequest<'a> {
-    /// The output's number, or those of both eyes.
-    outputs: Vec<usize>,
-    /// The image's name.
-    name: &'a str,
-    /// The file to write.
-    path: &'a Path,
-    file_format: FileFormat,
-}
-
-impl PictureRequest<'_> {
-    /// The name of the output, or of the image that is dumped.
-    pub(crate) fn name(&self) -> &str {
-        self.name
-    }
-
-    /// Reads the outputs back and encodes them, and says what the picture leaves out or changes.
-    ///
-    /// # Errors
-    /// Those of the device, and of the encoder.
-    pub(crate) fn encode(&self, executor: &mut Executor, plan: &Plan) -> Result<EncodedPicture, Error> {
-        let (first, texels) = (self.outputs[0], self.outputs.iter().map(|output| executor.read(*output)));
-        let texels = texels.collect::<Result<Vec<_>, _>>()?;
-        let contents = encoded(self.file_format, plan, first, texels)?;
-        Ok(EncodedPicture { path: self.path.to_owned(), contents })
-    }
-}
-
-/// The file of an output that was read back, of both eyes one after the other. Says once what the picture leaves out or changes.
-///
-/// # Errors
-/// [`Error::Picture`].
-pub(crate) fn encoded(
-    file_format: FileFormat,
-    plan: &Plan,
-    output: usize,
-    texels: Vec<Texels>,
-) -> Result<Vec<u8>, Error> {
-    let Output { name, resource, encoding, .. } = &plan.outputs[output];
-    let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(texels);
-    let picture = picture::Picture { format, encoding: *encoding, extent: [width, height], bytes: &bytes };
-    let mut losses: Vec<String> = file_format.losses(&picture).into_iter().map(str::to_owned).collect();
-    let mips = if let Resource::Image(image) = *resource { plan.image(image).mips } else { 1 };
-    if mips > 1 {
-        losses.push(format!("of {mips} mip levels there is the first"));
-    }
-    if !losses.is_empty() {
-        text::say_once(&format!(
-            "note: `{}` is {format}: in its picture {}",
-            text::escape(name),
-            losses.join(", and ")
-        ));
-    }
-    file_format.encode(&picture).map_err(|problem| Error::Picture { image: name.to_string(), problem })
-}
+use framewright_lab::outputs::{self, PictureRequest};
+use framewright_lab::picture::FileFormat;
+use std::path::Path;
 
 /// The pictures that the command line asks for. `frame` is the one that the Plan was made of, if there is one: it knows images
 /// that the Plan does without.
@@ -99,93 +35,17 @@ pub(crate) fn requests<'a>(
     };
     let mut requests = Vec::new();
     for OutputFile { output, file } in &arguments.output {
-        let outputs = output.as_ref().map_or_else(|| of_both_eyes(plan, 0), |name| named(plan, name));
+        let outputs = output.as_ref().map_or_else(|| outputs::of_both_eyes(plan, 0), |name| outputs::named(plan, name));
         if outputs.is_empty() {
             return Err(no_output(output.as_deref().unwrap_or_default()));
         }
         requests.push(request(outputs, file)?);
     }
     for dump in &arguments.dump {
-        let outputs = named(plan, &dump.image);
+        let outputs = outputs::named(plan, &dump.image);
         if !outputs.is_empty() {
             requests.push(request(outputs, &dump.file)?);
         }
     }
     Ok(requests)
-}
-
-/// The picture of the first output, those of both eyes side by side; `None` if it is no image. Floating-point images become OpenEXR
-/// files, all others PNG files.
-pub(crate) fn of_first_output(plan: &Plan) -> Option<PictureRequest<'_>> {
-    let Output { name, resource: Resource::Image(image), .. } = plan.outputs.first()? else { return None };
-    let image = plan.image(*image);
-    let (file_format, path) = match FileFormat::OpenExr.holds(image.format) && !image.format.is_depth() {
-        true => (FileFormat::OpenExr, "picture.exr"),
-        false => (FileFormat::Png, "picture.png"),
-    };
-    Some(PictureRequest { outputs: of_both_eyes(plan, 0), name, path: Path::new(path), file_format })
-}
-
-/// PNG files of all images that leave the frame, those of both eyes side by side.
-pub(crate) fn of_all_outputs(plan: &Plan) -> Vec<PictureRequest<'_>> {
-    let mut requests = Vec::new();
-    let mut next = 0;
-    while next < plan.outputs.len() {
-        let outputs = of_both_eyes(plan, next);
-        let Output { name, resource, .. } = &plan.outputs[next];
-        next += outputs.len();
-        if let Resource::Image(_) = resource {
-            requests.push(PictureRequest { outputs, name, path: Path::new(""), file_format: FileFormat::Png });
-        }
-    }
-    requests
-}
-
-/// The output with the name, or else those of both eyes.
-fn named(plan: &Plan, name: &str) -> Vec<usize> {
-    let find = |name: &str| plan.outputs.iter().position(|output| *output.name == *name);
-    let both = || Eye::BOTH.into_iter().filter_map(|eye| find(&eye.named(name))).collect();
-    alike(plan, find(name).map_or_else(both, |one| vec![one]))
-}
-
-/// An output, with the right eye's behind it if it is the left one's; empty if there is none.
-fn of_both_eyes(plan: &Plan, output: usize) -> Vec<usize> {
-    let eye = |at: usize| plan.outputs.get(at).and_then(|output| output.eye);
-    let both = eye(output) == Some(Eye::Left) && eye(output + 1) == Some(Eye::Right);
-    alike(plan, (output..plan.outputs.len()).take(if both { 2 } else { 1 }).collect())
-}
-
-/// The outputs, or only the first of them, if the others can't stand beside it in one picture.
-fn alike(plan: &Plan, mut outputs: Vec<usize>) -> Vec<usize> {
-    let image = |at: &usize| match plan.outputs[*at].resource {
-        Resource::Image(image) => Some(plan.image(image)),
-        Resource::Buffer(_) => None,
-    };
-    let form = |at: &usize| image(at).map(|it| (it.format, it.extent, it.rotation, it.eyes));
-    let first = outputs.first().map(form);
-    outputs.retain(|at| Some(form(at)) == first);
-    outputs
-}
-
-/// All layers and slices of some images of the same size and format in one row, the first one on the left.
-pub(crate) fn side_by_side(images: Vec<Texels>) -> Texels {
-    let parts = |it: &Texels| it.layers.max(1) as usize * it.extent[2].max(1) as usize;
-    let count = images.iter().map(parts).sum::<usize>();
-    let rows = images[0].extent[1].max(1) as usize;
-    let mut all = Texels { bytes: Vec::new(), ..images[0] };
-    if count == 1 {
-        all.bytes.clone_from(&images[0].bytes);
-        return all;
-    }
-    let flat = images.iter().flat_map(|it| it.bytes.chunks((it.bytes.len() / parts(it)).max(1)));
-    let flat: Vec<&[u8]> = flat.collect();
-    for row in 0..rows {
-        for part in &flat {
-            let bytes = part.len() / rows;
-            all.bytes.extend_from_slice(&part[row * bytes..(row + 1) * bytes]);
-        }
-    }
-    let count = u32::try_from(count).unwrap_or(u32::MAX);
-    (all.extent, all.layers) = ([all.extent[0].saturating_mul(count), all.extent[1], 1], 1);
-    all
 }

@@ -2,11 +2,12 @@
 
 use crate::command_line::args;
 use crate::error::Error;
-use crate::picture::Light;
 use crate::system::text;
 use framewright::{FileOptions, PipelineFile, Reach};
 use framewright_graph::base::{ReadFiles, text_of};
 use framewright_graph::language::Shipped;
+use framewright_lab::Error as LabError;
+use framewright_lab::picture::Light;
 use framewright_passes::scene::Scene;
 use framewright_passes::shipped;
 use std::io::Read;
@@ -113,7 +114,7 @@ pub(crate) struct PictureFile<'p> {
 /// If it can't be read, or is no picture.
 pub(crate) fn picture<'p>(path: &'p Path, read: &ReadFiles) -> Result<PictureFile<'p>, Error> {
     let bytes = bytes(FileRole::PICTURE, path, LARGEST_PICTURE, read)?;
-    let extent = Light::extent_of(&bytes).map_err(|problem| Error::NoLight { path: path.to_owned(), problem })?;
+    let extent = Light::extent_of(&bytes).map_err(|problem| LabError::NoLight { path: path.to_owned(), problem })?;
     Ok(PictureFile { path, bytes, extent })
 }
 
@@ -123,8 +124,8 @@ impl PictureFile<'_> {
     /// # Errors
     /// If it is damaged.
     pub(crate) fn decoded(self) -> Result<Light, Error> {
-        let no_light = |problem| Error::NoLight { path: self.path.to_owned(), problem };
-        Light::decode(&self.bytes).map_err(no_light)
+        let no_light = |problem| LabError::NoLight { path: self.path.to_owned(), problem };
+        Ok(Light::decode(&self.bytes).map_err(no_light)?)
     }
 }
 

@@ -1,9 +1,9 @@
 //! Small pictures of captured images, with the numbers of their texels: the page draws them with any exposure.
 
-use crate::picture::values::{components, is_light, srgb_byte, texel_bytes, values};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use framewright_graph::vulkan::{Format, Numeric};
+use framewright_lab::picture::values::{components, is_light, srgb_byte, texel_bytes, values};
 use half::f16;
 use serde::Serialize;
 

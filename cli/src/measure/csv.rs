@@ -1,8 +1,8 @@
 //! Results as a table of comma-separated values (RFC 4180): a row a line.
 
-use super::results::{Cost, Measured, Outcome, Results, Row, Spread};
 use crate::error::Error;
-use crate::metric::{Errors, Flicker};
+use framewright_lab::metric::{Errors, Flicker};
+use framewright_lab::results::{Cost, Measured, Outcome, Results, Row, Spread};
 
 /// The columns after the swept settings.
 const FIGURES: [&str; 33] = [

@@ -1,11 +1,11 @@
 //! Pictures of results that are joined. Each gets a name by its contents: so no folder's pictures take the place of another's,
 //! and the same picture has the same name wherever it comes from.
 
-use super::digest::Digest;
-use super::results::{Measured, Outcome, Results};
 use crate::error::Error;
 use crate::files::{inputs, outputs};
 use framewright_graph::base::ReadFiles;
+use framewright_lab::Digest;
+use framewright_lab::results::{Measured, Outcome, Results};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,8 @@
 //! A plot of time against FLIP with the Pareto front, as SVG.
 
-use super::front;
-use super::naming::Group;
-use super::results::{Outcome, Results};
 use crate::system::xml::escaped;
+use framewright_lab::choosing;
+use framewright_lab::results::{Group, Outcome, Results};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -95,7 +94,7 @@ fn diagram(svg: &mut String, title: &str, points: &[Point]) {
         "<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">FLIP, mean</text>",
         top + inner[1] / 2.0
     );
-    let front = front::front(&points.iter().map(|point| point.figures).collect::<Vec<_>>());
+    let front = choosing::front(&points.iter().map(|point| point.figures).collect::<Vec<_>>());
     for (at, point) in points.iter().enumerate() {
         if !front.contains(&at) {
             circle(svg, point, place(point.figures));

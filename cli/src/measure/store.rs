@@ -1,12 +1,11 @@
 //! Reads and writes the folder of a sweep: `results.json`, and what is made of it for people.
 
-use super::results::{FORMAT_VERSION, Results};
-use super::{csv, page, plausible, plot};
+use super::{csv, page, plot};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
 use framewright_graph::base::ReadFiles;
-use serde::Deserialize;
+use framewright_lab::results::Results;
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -20,30 +19,6 @@ const LOCK: &str = "results.lock";
 /// The file has at most this many bytes: more than a hundred thousand rows.
 const LARGEST: usize = 512 << 20;
 
-/// A file of results that is none. Sentences go on after the file's name.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum StoreProblem {
-    /// Another program wrote it.
-    #[error(
-        "is of format version {found}, and this program reads version {FORMAT_VERSION}\nhelp: take the program that wrote it, or measure anew into another folder"
-    )]
-    Version { found: u64 },
-    /// It is no JSON, or not that of results.
-    #[error(
-        "is damaged at line {line}, column {column}: {message}\nhelp: restore it, or measure anew into another folder"
-    )]
-    Damaged { line: usize, column: usize, message: String },
-    /// Its figures can't be those of a measurement.
-    #[error("holds what no measurement gives: {what}\nhelp: restore it, or measure anew into another folder")]
-    Impossible { what: String },
-}
-
-/// The only thing that all versions of the form have in common.
-#[derive(Deserialize)]
-struct Version {
-    format_version: u64,
-}
-
 /// Reads the results in a folder.
 ///
 /// # Errors
@@ -51,31 +26,7 @@ struct Version {
 pub(crate) fn read(folder: &Path, read: &ReadFiles) -> Result<Results, Error> {
     let path = folder.join(FILE);
     let text = inputs::text(FileRole::RESULTS, &path, LARGEST, read)?;
-    parsed(&text).map_err(|problem| Error::Results { path, problem: problem.into() })
-}
-
-fn parsed(text: &str) -> Result<Results, StoreProblem> {
-    match serde_json::from_str(text) {
-        Ok(Version { format_version: found }) if found != u64::from(FORMAT_VERSION) => {
-            return Err(StoreProblem::Version { found });
-        }
-        // What is wrong is said of the whole.
-        _ => {}
-    }
-    let results = serde_json::from_str(text).map_err(damaged)?;
-    possible(&results)?;
-    Ok(results)
-}
-
-fn damaged(error: serde_json::Error) -> StoreProblem {
-    let (line, column) = (error.line(), error.column());
-    let whole = error.to_string();
-    let message = whole.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&whole).to_owned();
-    StoreProblem::Damaged { line, column, message }
-}
-
-fn possible(results: &Results) -> Result<(), StoreProblem> {
-    plausible::problem(results).map_or(Ok(()), |what| Err(StoreProblem::Impossible { what }))
+    Results::from_json(&text).map_err(|problem| Error::Results { path, problem })
 }
 
 /// Writes `results.json` in a folder, whole or not at all: what [`read`] takes.
@@ -88,7 +39,7 @@ pub(crate) fn write(folder: &Path, results: &Results) -> Result<(), Error> {
 
 fn file(folder: &Path, results: &Results) -> Result<(PathBuf, String), Error> {
     let path = folder.join(FILE);
-    possible(results).map_err(|problem| Error::Results { path: path.clone(), problem: problem.into() })?;
+    results.possible().map_err(|problem| Error::Results { path: path.clone(), problem })?;
     Ok((path, serde_json::to_string_pretty(results)? + "\n"))
 }
 

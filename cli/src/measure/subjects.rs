@@ -1,70 +1,18 @@
 //! The choices of a sweep, put into words that the pipeline, the scene and the output understand.
 
-use super::digest::Digest;
-use super::sweep::{self, Combined};
 use crate::command_line::measuring::MeasureArguments;
-use crate::command_line::values::{self, Modes, Size, Sweep};
+use crate::command_line::values::{self, Size};
 use crate::error::Error;
 use crate::files::inputs;
-use crate::planning::Loaded;
 use crate::system::text;
-use crate::variants::axes;
+use framewright::Pipeline;
 use framewright_graph::base::ReadFiles;
 use framewright_graph::expand;
-use framewright_passes::scene::Scene;
+use framewright_lab::bench::{Choice, MeasuredScene, REFERENCE, of_reference};
+use framewright_lab::sweep::{self, Combined, SCENE, SIZE, STEREO, Sweep};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-
-/// The preset whose settings decide how right a picture is. All other settings decide how it looks.
-pub(crate) const REFERENCE: &str = "reference";
-/// Sweeps of things that are no settings.
-pub(crate) const SIZE: &str = "@size";
-pub(crate) const SCENE: &str = "@scene";
-pub(crate) const STEREO: &str = "@stereo";
-
-/// A scene that choices are drawn with.
-#[derive(Debug)]
-pub(crate) struct Subject {
-    pub(crate) file: String,
-    pub(crate) digest: String,
-    /// As it stands at its first frame.
-    pub(crate) scene: Scene,
-    /// As it moves.
-    pub(crate) moving: Scene,
-}
-
-impl Subject {
-    /// The scene as it stands at a frame.
-    pub(crate) fn still_at(&self, frame: u32) -> Scene {
-        self.moving.still_at(frame.into())
-    }
-}
-
-/// A choice of a sweep.
-#[derive(Debug, Clone)]
-pub(crate) struct Choice {
-    /// The values that the sweep chose, by name.
-    pub(crate) values: BTreeMap<String, String>,
-    pub(crate) scene: Rc<Subject>,
-    pub(crate) size: Size,
-    pub(crate) stereo: Modes,
-}
-
-impl Choice {
-    /// The settings among its values.
-    pub(crate) fn settings(&self) -> impl Iterator<Item = (String, String)> + '_ {
-        let settings = self.values.iter().filter(|(name, _)| !name.starts_with('@'));
-        settings.map(|(name, value)| (name.clone(), value.clone()))
-    }
-
-    /// A name for its files, other than that of every other choice.
-    pub(crate) fn key(&self) -> String {
-        let values = self.values.iter().flat_map(|(name, value)| [&**name, &**value]);
-        let rest = [self.scene.digest.clone(), self.size.to_string(), format!("{:?}", self.stereo)];
-        Digest::of(values.chain(rest.iter().map(|it| &**it)))
-    }
-}
 
 /// All choices that the command line asks for, and the one without any sweep.
 ///
@@ -72,10 +20,10 @@ impl Choice {
 /// Names of no settings, values of no size or way, scenes that can't be read; too many choices.
 pub(crate) fn choices(
     arguments: &MeasureArguments,
-    pipeline: &Loaded,
+    pipeline: &Pipeline,
     read: &ReadFiles,
 ) -> Result<(Choice, Vec<Choice>), Error> {
-    let wrong = |what: String| Error::Sweep { what };
+    let wrong = |what: String| Error::from(framewright_lab::Error::Sweep { what });
     let (sweeps, combined) = match (arguments.sweep.is_empty(), arguments.pairwise) {
         (true, _) => (of_reference(pipeline), Combined::OneByOne),
         (false, true) => (arguments.sweep.clone(), Combined::Pairwise),
@@ -86,7 +34,7 @@ pub(crate) fn choices(
             "the pipeline has no preset `{REFERENCE}`, whose settings are swept: name some by --sweep"
         )));
     }
-    let settings = &pipeline.pipeline.settings;
+    let settings = &pipeline.document.settings;
     let sweeps = sweeps.into_iter().map(|sweep| canonical(pipeline, sweep)).collect::<Result<Vec<_>, Error>>()?;
     for (at, Sweep { name, .. }) in sweeps.iter().enumerate() {
         if sweeps[..at].iter().any(|other| other.name == *name) {
@@ -108,31 +56,31 @@ pub(crate) fn choices(
             "the sweep has {count} choices, and at most {most} are measured: sweep fewer values{or_pairs}"
         )));
     }
-    let mut scenes: BTreeMap<PathBuf, Rc<Subject>> = BTreeMap::new();
-    let mut scene = |path: &Path| -> Result<Rc<Subject>, Error> {
+    let mut scenes: BTreeMap<PathBuf, Rc<MeasuredScene>> = BTreeMap::new();
+    let mut scene = |path: &Path| -> Result<Rc<MeasuredScene>, Error> {
         if let Some(known) = scenes.get(path) {
             return Ok(Rc::clone(known));
         }
         let moving = inputs::scene(path, arguments.reading.strict, read)?;
-        let (file, digest) = (path.to_string_lossy().into_owned(), Digest::of_value(&moving));
-        let subject = Rc::new(Subject { file, digest, scene: moving.still_at(0), moving });
-        scenes.insert(path.to_owned(), Rc::clone(&subject));
-        Ok(subject)
+        let scene = Rc::new(MeasuredScene::new(path.to_string_lossy().into_owned(), moving));
+        scenes.insert(path.to_owned(), Rc::clone(&scene));
+        Ok(scene)
     };
     let baseline = Choice {
         values: BTreeMap::new(),
         scene: scene(&arguments.scene)?,
-        size: arguments.size,
-        stereo: arguments.pipeline.stereo.clone(),
+        size: arguments.size.into(),
+        stereo: arguments.pipeline.stereo.0.clone(),
     };
     let mut choices = Vec::new();
     for values in sweep::choices(&sweeps, combined) {
         let mut choice = Choice { values, ..baseline.clone() };
         if let Some(size) = choice.values.get(SIZE) {
-            choice.size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;
+            let size: Size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;
+            choice.size = size.into();
         }
         if let Some(stereo) = choice.values.get(STEREO) {
-            choice.stereo = values::stereo(stereo).map_err(|problem| wrong(format!("{STEREO}: {problem}")))?;
+            choice.stereo = values::stereo(stereo).map_err(|problem| wrong(format!("{STEREO}: {problem}")))?.0;
         }
         if let Some(file) = choice.values.get(SCENE) {
             choice.scene = scene(Path::new(file))?;
@@ -144,8 +92,8 @@ pub(crate) fn choices(
 
 /// A sweep with its values in the form that Plans have them in: so `2.0` and `2` are one choice, and a choice that can't be drawn has the
 /// settings of one that can. What is no value stays as it is: it is told of later.
-fn canonical(pipeline: &Loaded, sweep: Sweep) -> Result<Sweep, Error> {
-    let setting = pipeline.pipeline.settings.iter().find(|it| *it.name.text == *sweep.name);
+fn canonical(pipeline: &Pipeline, sweep: Sweep) -> Result<Sweep, Error> {
+    let setting = pipeline.document.settings.iter().find(|it| *it.name.text == *sweep.name);
     let value = |text: &String| match setting {
         Some(setting) => expand::canonical_value(&setting.kind, text),
         None if sweep.name == SIZE => text.parse::<Size>().ok().map(|size| size.to_string()),
@@ -154,23 +102,7 @@ fn canonical(pipeline: &Loaded, sweep: Sweep) -> Result<Sweep, Error> {
     let values: Vec<String> = sweep.values.iter().map(|text| value(text).unwrap_or_else(|| text.clone())).collect();
     if let Some(at) = (1..values.len()).find(|at| values[..*at].contains(&values[*at])) {
         let [name, value] = [&sweep.name, &values[at]].map(|text| text::escape(text));
-        return Err(Error::Sweep { what: format!("`{name}` is swept over `{value}` twice") });
+        return Err(framewright_lab::Error::Sweep { what: format!("`{name}` is swept over `{value}` twice") }.into());
     }
     Ok(Sweep { name: sweep.name, values })
-}
-
-/// A sweep over each setting that the preset `reference` names.
-fn of_reference(pipeline: &Loaded) -> Vec<Sweep> {
-    let settings = &pipeline.pipeline.settings;
-    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE);
-    let named = preset.into_iter().flat_map(|preset| &preset.set).filter_map(|chosen| settings.get(chosen.setting));
-    named.map(|it| Sweep { name: it.name.text.to_string(), values: axes::values(&it.kind) }).collect()
-}
-
-/// The settings of the preset `reference`; `None` if there is no such preset.
-pub(crate) fn reference_settings(pipeline: &Loaded) -> Option<Vec<(String, String)>> {
-    let settings = &pipeline.pipeline.settings;
-    let preset = pipeline.pipeline.presets.iter().find(|preset| *preset.name.text == *REFERENCE)?;
-    let named = preset.set.iter().filter_map(|chosen| Some((settings.get(chosen.setting)?, &chosen.value)));
-    Some(named.map(|(setting, value)| (setting.name.text.to_string(), axes::text(value))).collect())
 }

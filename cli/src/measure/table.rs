@@ -1,8 +1,8 @@
 //! Results as a table for people, a line for each row.
 
-use super::results::{Cost, Outcome, Results};
-use crate::metric::Errors;
 use crate::system::text::cell;
+use framewright_lab::metric::Errors;
+use framewright_lab::results::{Cost, Outcome, Results};
 
 /// The table.
 #[must_use]

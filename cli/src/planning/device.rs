@@ -2,9 +2,10 @@
 
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
+use crate::system::interrupt;
 use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
-use framewright_vulkan::DeviceChoice;
+use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Helper};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -61,4 +62,15 @@ pub(crate) fn to_draw_on(device: Option<&OsStr>) -> Result<DeviceChoice, Error> 
         }
         Err(_) => Ok(DeviceChoice::Name(name)),
     }
+}
+
+/// Opens a device to draw on. Ctrl-C ends waits for it.
+///
+/// # Errors
+/// If there is none, or it lacks what drawing takes.
+pub(crate) fn open(choice: DeviceChoice, validation: bool, helper: &Helper) -> Result<Device, Error> {
+    let helper = Some(helper.clone());
+    let device = Device::open(&DeviceOptions { choice, validation, helper, ..DeviceOptions::default() })?;
+    device.cancel_when(interrupt::asked);
+    Ok(device)
 }

@@ -1,6 +1,6 @@
 //! The helper process: this program, started again, compiles shaders and tests drivers. It may crash without harm.
 
-use crate::command_line::args::{CachingArguments, ShaderLimits};
+use crate::command_line::args::{CachingArguments, PipelineArguments, ShaderLimits};
 use crate::error::Error;
 use crate::system::{interrupt, text};
 use framewright_vulkan::Helper;
@@ -8,25 +8,26 @@ use framewright_vulkan::helper::{Limits, LongTest};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// A helper whose compiler of shaders keeps to these limits.
+/// A helper whose compiler of shaders keeps to the limits of the command line.
 ///
 /// # Errors
 /// If the system doesn't tell where this program lies.
-pub(crate) fn with(limits: &ShaderLimits, caching: CachingArguments) -> Result<Helper, Error> {
+pub(crate) fn of(arguments: &PipelineArguments) -> Result<Helper, Error> {
     let mebibytes = |number: u32| u64::from(number) << 20;
+    let ShaderLimits { shader_seconds, shader_memory, shader_stack } = arguments.limits;
     let limits = Limits {
-        time: Duration::from_secs(limits.shader_seconds.into()),
-        memory: Some(mebibytes(limits.shader_memory)),
-        stack: usize::try_from(mebibytes(limits.shader_stack)).unwrap_or(usize::MAX),
+        time: Duration::from_secs(shader_seconds.into()),
+        memory: Some(mebibytes(shader_memory)),
+        stack: usize::try_from(mebibytes(shader_stack)).unwrap_or(usize::MAX),
         ..Limits::default()
     };
-    within(limits, caching)
+    within(limits, arguments.caching)
 }
 
 /// A helper with the usual limits.
 ///
 /// # Errors
-/// Those of [`with`].
+/// Those of [`of`].
 pub(crate) fn usual(caching: CachingArguments) -> Result<Helper, Error> {
     within(Limits::default(), caching)
 }

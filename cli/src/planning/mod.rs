@@ -1,14 +1,13 @@
 //! From a pipeline file to its verified Plan: what `check`, `inspect` and `run` share.
 
-mod assets;
 pub(crate) mod device;
 pub(crate) mod helper;
 pub(crate) mod layer;
-mod loaded;
 pub(crate) mod notes;
 mod other_devices;
+mod pipeline;
 pub(crate) mod plan_file;
 pub(crate) mod totals;
 
-pub(crate) use assets::{Assets, draws, precompiled};
-pub(crate) use loaded::{Loaded, Planned, View, inputs, load, load_with};
+pub(crate) use other_devices::on_other_devices;
+pub(crate) use pipeline::{choices, load, load_with, options, planned, precompiled, undrawn};

@@ -1,36 +1,34 @@
 //! The differences that other devices make.
 
 use super::device;
-use super::loaded::{Loaded, View};
 use crate::error::Error;
 use crate::inspection::{MOST_NODES, OnDevice};
+use framewright::{Choices, Pipeline};
 use framewright_graph::compile::Options;
 use framewright_graph::device::Estimated;
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::Plan;
 
-impl Loaded {
-    /// The differences that every other shipped profile makes to the Plan, which has a name for people.
-    ///
-    /// # Errors
-    /// If a shipped profile can't be read, which a test rules out.
-    pub(crate) fn on_other_devices(
-        &mut self,
-        view: View<'_>,
-        options: &Options,
-        (name, plan): (&str, &Plan),
-    ) -> Result<Vec<OnDevice>, Error> {
-        // The differences of a Plan that is summarised would be longer than its page.
-        let shown = plan.steps.len() <= MOST_NODES;
-        let others = device::all()?.into_iter().filter(|(_, profile)| shown && profile.name != plan.device.name);
-        Ok(others
-            .map(|(profile, device)| {
-                let differences = match self.plan(view, &device, &mut Estimated(&device), options) {
-                    Ok(other) => Ok(Differences::between((name, plan), (name, &other.plan))),
-                    Err(error) => Err(error.shown()),
-                };
-                OnDevice { profile: profile.to_owned(), differences }
-            })
-            .collect())
-    }
+/// The differences that every other shipped profile makes to a Plan of the pipeline, which has a name for people.
+///
+/// # Errors
+/// If a shipped profile can't be read, which a test rules out.
+pub(crate) fn on_other_devices(
+    pipeline: &mut Pipeline,
+    choices: &Choices,
+    options: &Options,
+    (name, plan): (&str, &Plan),
+) -> Result<Vec<OnDevice>, Error> {
+    // The differences of a Plan that is summarised would be longer than its page.
+    let shown = plan.steps.len() <= MOST_NODES;
+    let others = device::all()?.into_iter().filter(|(_, profile)| shown && profile.name != plan.device.name);
+    Ok(others
+        .map(|(profile, device)| {
+            let differences = match pipeline.planned(choices, &device, &mut Estimated(&device), options) {
+                Ok(other) => Ok(Differences::between((name, plan), (name, &other.plan))),
+                Err(error) => Err(Error::from(error).shown()),
+            };
+            OnDevice { profile: profile.to_owned(), differences }
+        })
+        .collect())
 }

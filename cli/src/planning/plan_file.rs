@@ -1,10 +1,12 @@
 //! A Plan from a file. It may come from anyone: it is read within bounds, and verified before anything is done with it.
 
-use super::{Assets, helper};
-use crate::command_line::args::{PipelineArguments, PlanningArguments};
+use super::options;
+use crate::command_line::args::PipelineArguments;
+use crate::command_line::subject::SubjectArguments;
 use crate::command_line::values::MAX_SIZE;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
+use framewright::{Assets, Helper};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::plan::Plan;
 use framewright_graph::verify;
@@ -19,17 +21,16 @@ pub(crate) fn is_one(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"))
 }
 
-/// Refuses an option that chooses something, which a Plan leaves nothing of. `others` are the command's own, each with whether it is given.
+/// Refuses an option that chooses something, which a Plan leaves nothing of. `own` is one of the command's own that is given.
 ///
 /// # Errors
 /// [`Error::ChoiceForPlan`].
 pub(crate) fn nothing_chosen(
     pipeline: &PipelineArguments,
-    planning: PlanningArguments,
-    others: &[(&'static str, bool)],
+    subject: &SubjectArguments,
+    own: Option<&'static str>,
 ) -> Result<(), Error> {
-    let others = others.iter().find(|(_, given)| *given).map(|(option, _)| *option);
-    match pipeline.chosen().or(planning.chosen()).or(others) {
+    match pipeline.chosen().or(subject.planning.chosen()).or(own).or(subject.chosen()) {
         Some(option) => Err(Error::ChoiceForPlan { option, path: pipeline.file.clone() }),
         None => Ok(()),
     }
@@ -57,13 +58,17 @@ pub(crate) fn read(path: &Path, read: &ReadFiles) -> Result<Plan, Error> {
 ///
 /// # Errors
 /// Those of [`read`]; if the output has no size that a command takes; if the Plan lies outside of the folder that `--root` names.
-pub(crate) fn load(arguments: &PipelineArguments, recorded: &ReadFiles) -> Result<(Plan, Assets), Error> {
+pub(crate) fn load(
+    arguments: &PipelineArguments,
+    helper: Helper,
+    recorded: &ReadFiles,
+) -> Result<(Plan, Assets), Error> {
     let plan = read(&arguments.file, recorded)?;
     if let Some(side) = plan.extent.into_iter().find(|side| !(1..=MAX_SIZE).contains(side)) {
         let problem = format!("`extent`: a side of {side} pixels; a side has 1 to {MAX_SIZE}");
         return Err(Error::NoPlan { path: arguments.file.clone(), problem });
     }
     let root = framewright::folder_of(&arguments.file, &inputs::options(arguments).reach)?;
-    let helper = helper::with(&arguments.limits, arguments.caching)?;
-    Ok((plan, Assets::of(Some(&root), arguments, helper, recorded)?))
+    let options = options(arguments, helper, recorded)?;
+    Ok((plan, Assets::new(Some(&root), &options, recorded)))
 }

@@ -4,16 +4,17 @@ use super::controls::{Choice, Controls};
 use super::published::{Live, Output, Published, SourceText};
 use crate::command_line::serving::ServeArguments;
 use crate::drawing::captures::{self, Drawing};
-use crate::drawing::{Prepared, diagnostics, pictures};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::inspection::{self, Page, Shown, Thumbnail};
-use crate::picture::FileFormat;
-use crate::planning::{self, Loaded, Planned, View, totals};
+use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
+use framewright::{Choices, Pipeline, Planned, SceneRenderer};
 use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::Detail;
+use framewright_lab::outputs;
+use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
@@ -31,7 +32,7 @@ pub(crate) struct Session<'a> {
     device: &'a Device,
     helper: Helper,
     scene: Held<Scene>,
-    pipeline: Held<Loaded>,
+    pipeline: Held<Pipeline>,
     /// Settings that were chosen in the page.
     chosen: BTreeMap<String, String>,
     /// The preset that was chosen in the page.
@@ -194,19 +195,23 @@ impl<'a> Session<'a> {
             return Ok(Good::default());
         };
         // A setting that the file doesn't have, or no longer, can't be chosen.
-        self.chosen.retain(|name, _| pipeline.pipeline.settings.iter().any(|setting| *setting.name.text == **name));
+        self.chosen.retain(|name, _| pipeline.document.settings.iter().any(|setting| *setting.name.text == **name));
         // A preset that was chosen in the page counts more than a setting of the command line.
-        let of_command_line = if self.preset.is_some() { &[][..] } else { &self.arguments.pipeline.set };
-        let of_command_line = of_command_line.iter().map(|one| (one.name.clone(), one.value.clone()));
-        pipeline.set = of_command_line.chain(self.chosen.clone()).collect();
-        drawn(self.arguments, self.device, scene, pipeline, self.version)
+        let arguments = self.arguments;
+        let mut choices = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
+        if self.preset.is_some() {
+            choices.set.clear();
+        }
+        choices.set.extend(self.chosen.clone());
+        choices.facts = Some(scene.facts());
+        drawn(arguments, self.device, scene, (pipeline, &choices), self.version)
     }
 
     fn read_scene(&mut self) -> Result<(), Error> {
         if self.scene.value.is_none() || self.scene.read.changed() {
             self.scene = Held::nothing();
-            self.scene.value =
-                Some(inputs::scene(&self.arguments.scene, self.arguments.reading.strict, &self.scene.read)?);
+            let drawn = &self.arguments.drawn;
+            self.scene.value = Some(inputs::scene(&drawn.scene, drawn.reading.strict, &self.scene.read)?);
         }
         Ok(())
     }
@@ -239,14 +244,12 @@ fn drawn(
     arguments: &ServeArguments,
     device: &Device,
     scene: &Scene,
-    pipeline: &mut Loaded,
+    (pipeline, choices): (&mut Pipeline, &Choices),
     version: u64,
 ) -> Result<Good, Error> {
-    let view =
-        View { facts: Some(scene.facts()), size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let (options, profile) = (arguments.planning.options(), device.profile());
-    let planned = pipeline.plan(view, &profile, &mut device.memory(), &options)?;
-    diagnostics::cameras(&planned.plan, Some(&planned.frame), scene)?;
+    let planned = pipeline.planned(choices, &profile, &mut device.memory(), &options)?;
+    framewright::check_cameras(&planned.plan, Some(&planned.frame), scene)?;
     let mut files = BTreeMap::new();
     let mut kept = |name: String, png: Vec<u8>| {
         files.insert(format!("{version}/{name}"), png.into());
@@ -268,7 +271,7 @@ fn drawn(
     }
     let plan = &planned.plan;
     let name = arguments.pipeline.file.to_string_lossy();
-    let devices = pipeline.on_other_devices(view, &options, (&*name, plan))?;
+    let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
     let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
@@ -276,7 +279,7 @@ fn drawn(
     Ok(Good {
         version,
         page: Some(inspection::page_data(&page)?),
-        controls: Controls::of(&pipeline.pipeline, plan),
+        controls: Controls::of(&pipeline.document, plan),
         outputs,
         pictures: Arc::new(files),
         took: totals::sentence(&plan.totals),
@@ -288,21 +291,21 @@ fn output_pictures(
     arguments: &ServeArguments,
     device: &Device,
     scene: &Scene,
-    pipeline: &mut Loaded,
+    pipeline: &mut Pipeline,
     planned: &Planned,
 ) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
-    let mut prepared = Prepared::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
+    let mut prepared = SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
         prepared.draw()?;
     }
-    let requests = pictures::of_all_outputs(&planned.plan);
+    let requests = outputs::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
-        let picture = request.encode(&mut prepared.executor, &planned.plan)?;
-        Ok((request.name().to_owned(), picture.contents))
+        let picture = request.encode(&mut prepared.executor, &planned.plan, &text::note_once)?;
+        Ok((request.name.to_owned(), picture.contents))
     });
     encoded.collect()
 }

@@ -7,7 +7,6 @@ pub(crate) mod interrupt;
 pub(crate) mod links;
 pub(crate) mod platform;
 pub(crate) mod progress;
-pub(crate) mod quantiles;
 pub(crate) mod text;
 pub(crate) mod xml;
 

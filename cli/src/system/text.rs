@@ -64,11 +64,11 @@ pub(crate) fn print(text: &str) -> std::io::Result<()> {
     }
 }
 
-/// Writes a line to standard error, unless it was written this way before: what is true of each frame is said of the first.
-pub(crate) fn say_once(line: &str) {
+/// Writes a note to standard error, unless it was written this way before: what is true of each frame is said of the first.
+pub(crate) fn note_once(note: &str) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    if SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(line.to_owned()) {
-        say(line);
+    if SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(note.to_owned()) {
+        say(&format!("note: {note}"));
     }
 }
 

@@ -6,9 +6,8 @@ use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
 use crate::budget::Budget;
-use crate::command_line::values::Modes;
-use crate::planning::{self, View};
 use crate::system::interrupt;
+use framewright::Choices;
 use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::compile::{Compiler, Options, heap_size, shaders};
 use framewright_graph::device::{Estimated, Profile};
@@ -25,8 +24,8 @@ pub(crate) struct CheckedPipeline<'a> {
     pub(crate) pipeline: &'a Document,
     /// The texts that it was read from.
     pub(crate) sources: &'a Arc<Sources>,
-    /// The inputs of every frame.
-    pub(crate) view: View<'static>,
+    /// What is chosen for every frame, but for settings and facts that vary.
+    pub(crate) choices: Choices,
     /// The axes that vary.
     pub(crate) axes: Axes,
     /// The devices, in the order of their axis.
@@ -35,8 +34,6 @@ pub(crate) struct CheckedPipeline<'a> {
     pub(crate) options: Options,
     /// The bounds that Plans are held to.
     pub(crate) budget: &'a Budget,
-    /// How frames are drawn for two eyes.
-    pub(crate) stereo: Modes,
 }
 
 /// Checks variants, on one thread.
@@ -127,8 +124,8 @@ impl<'a> VariantChecker<'a> {
 
     fn frame(&mut self, choice: &Choice) -> ExpandedFrame {
         // The device decides whether the images of both eyes are layers or halves.
-        let by_device =
-            self.subject.pipeline.asks_device() || self.subject.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
+        let CheckedPipeline { pipeline, choices, .. } = self.subject;
+        let by_device = pipeline.asks_device() || choices.stereo.iter().any(|it| *it > Stereo::MultiPass);
         let same_for_all = usize::from(!by_device);
         let without_device = &choice[..choice.len().saturating_sub(same_for_all)];
         match &self.last {
@@ -153,12 +150,12 @@ impl<'a> VariantChecker<'a> {
     }
 
     fn expand_reading(&mut self, choice: &Choice, reads: &Reads) -> Result<Frame, Vec<Diagnostic>> {
-        let CheckedPipeline { pipeline, sources, view, axes, .. } = self.subject;
+        let CheckedPipeline { pipeline, sources, choices, axes, .. } = self.subject;
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
-        let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
-        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why)])?;
-        let (set, view) = (axes.settings(choice), View { facts: Some(axes.facts(choice)), ..*view });
-        let inputs = planning::inputs(&set, stereo, view, device);
+        let stereo = device.map_or(Ok(Stereo::Off), |device| choices.stereo_on(device));
+        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why.to_string())])?;
+        let choices = Choices { set: axes.settings(choice), facts: Some(axes.facts(choice)), ..choices.clone() };
+        let inputs = choices.inputs(stereo, device);
         expand::expand_reading(pipeline, Arc::clone(sources), &inputs, &mut self.shaders, Some(reads))
     }
 }
@@ -187,14 +184,13 @@ mod tests {
         let loaded = planning::load(&arguments.pipeline, &ReadFiles::default()).expect("a pipeline");
         let names: Vec<String> = devices.iter().map(|device| device.name.clone()).collect();
         let subject = CheckedPipeline {
-            pipeline: &loaded.pipeline,
+            pipeline: &loaded.document,
             sources: &loaded.sources,
-            view: View::without_scene(arguments.planning.rotate),
-            axes: Axes::of(&loaded.pipeline, &loaded.sources, &[], &names),
+            choices: planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate),
+            axes: Axes::of(&loaded.document, &loaded.sources, &[], &names),
             devices: devices.to_vec(),
             options: arguments.planning.options(),
             budget: &Budget::default(),
-            stereo: loaded.stereo.clone(),
         };
         let space = Space::all(subject.axes.sizes(), subject.axes.variants_of_presets());
         let library = Mutex::new(ShaderLibrary::new(Vec::new(), SHADERS, interfaces()));

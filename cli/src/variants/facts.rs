@@ -1,8 +1,8 @@
 //! Facts of the scene that vary, and the values that are tried.
 
 use super::axis::{Axis, Varied};
-use super::mentions::Mentions;
 use framewright_graph::language::{Fact, FactType, FactValue, Facts};
+use framewright_lab::mentions::Mentions;
 
 /// At most this many values of a fact are tried.
 const MOST: usize = 16;

@@ -6,15 +6,13 @@
 //!
 //! Variants that agree on all settings and facts that are read share one verdict (`decisions`).
 
-pub(crate) mod axes;
+mod axes;
 mod axis;
 mod causes;
 mod checker;
-pub(crate) mod cover;
 mod decisions;
 mod facts;
 mod identity;
-pub(crate) mod mentions;
 mod minimise;
 mod report;
 mod run;
@@ -26,12 +24,13 @@ use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings;
-use crate::planning::{self, Loaded, View, device};
+use crate::planning::{self, device};
 use crate::system::counted::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
 use checker::{CheckedPipeline, VariantChecker};
 use decisions::SharedDecisions;
+use framewright::Pipeline;
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
 use report::Report;
@@ -73,11 +72,11 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let mut loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let budget = budget::read(arguments.budget.as_deref(), &mut loaded)?;
-    let view = View::at(arguments.size, arguments.planning.rotate);
-    loaded.check_command_line(view)?;
-    let Loaded { pipeline, sources, assets, set, stereo, .. } = loaded;
+    let choices = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
+    loaded.check([&choices])?;
+    let Pipeline { document, sources, assets, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
-    let axes = Axes::of(&pipeline, &sources, &set, &names);
+    let axes = Axes::of(&document, &sources, &choices.set, &names);
     let sizes = axes.sizes();
     let presets = axes.variants_of_presets();
     let (space, beyond) = match arguments.pairwise {
@@ -91,14 +90,13 @@ fn report(arguments: &CheckArguments) -> Result<Report, Error> {
         ));
     }
     let subject = CheckedPipeline {
-        pipeline: &pipeline,
+        pipeline: &document,
         sources: &sources,
-        view,
+        choices,
         axes,
         devices,
         options: arguments.planning.options(),
         budget: &budget,
-        stereo,
     };
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();

@@ -1,7 +1,7 @@
 //! The variants that are checked: all combinations of the axes' values, or enough for every pair of values.
 
-use super::cover;
 use crate::error::Error;
+use framewright_lab::sweep::cover;
 use std::collections::HashSet;
 
 /// Of more combinations pairs of values are checked; at two thousand variants a second two minutes pass.

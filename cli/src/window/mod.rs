@@ -47,7 +47,7 @@ const KEYS: &str = "keys: up, down: choose a setting; left, right: change it; E:
 /// # Errors
 /// If a file is wrong, no window can be opened, or the device is missing or lost.
 pub(crate) fn window(arguments: &WindowArguments) -> Result<Exit, Error> {
-    inputs::are_there(&arguments.pipeline.file, &arguments.scene)?;
+    inputs::are_there(&arguments.pipeline.file, &arguments.drawn.scene)?;
     if arguments.validate {
         layer::under_the_current_one()?;
     }
@@ -137,9 +137,9 @@ impl<'a> App<'a> {
         let attributes = Window::default_attributes().with_title("framewright").with_inner_size(size);
         let window = Arc::new(events.create_window(attributes).map_err(no_window)?);
         let display = events.display_handle().map_err(no_window)?.as_raw();
-        let helper = helper::with(&arguments.pipeline.limits, arguments.pipeline.caching)?;
+        let helper = helper::of(&arguments.pipeline)?;
         let device = Device::open(&DeviceOptions {
-            choice: device::to_draw_on(arguments.device.as_deref())?,
+            choice: device::to_draw_on(arguments.device.name.as_deref())?,
             validation: arguments.validate,
             helper: Some(helper.clone()),
             display: Some(display),

@@ -3,8 +3,7 @@
 use crate::command_line::windows::WindowArguments;
 use crate::error::Error;
 use crate::files::inputs;
-use crate::planning::{draws, precompiled};
-use crate::system::Exit;
+use crate::planning;
 use framewright::{ReadFiles, Renderer, RendererOptions};
 use framewright_vulkan::{Device, Helper};
 
@@ -16,12 +15,7 @@ pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Hel
     let read = ReadFiles::default();
     // Says that it is a shipped one.
     drop(inputs::pipeline(&arguments.pipeline, &read)?);
-    let mut options = RendererOptions::default();
-    options.files = inputs::options(&arguments.pipeline);
-    options.settings.clone_from(&arguments.pipeline.settings);
-    options.draws = draws(&arguments.pipeline, &read)?;
-    options.helper = Some(helper);
-    options.precompiled = precompiled(&arguments.pipeline);
+    let mut options = planning::options(&arguments.pipeline, helper, &read)?;
     options.compile = arguments.planning.options();
     options.executor.poison = arguments.planning.poison;
     options.executor.frames_in_flight = 2;
@@ -29,10 +23,10 @@ pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Hel
     options.executor.readback = true;
     let mut renderer = Renderer::open(device, &arguments.pipeline.file, options)?;
     if arguments.pipeline.preset.is_some() {
-        renderer.preset(arguments.pipeline.preset.as_deref()).map_err(of_command_line)?;
+        renderer.preset(arguments.pipeline.preset.as_deref())?;
     }
     for one in &arguments.pipeline.set {
-        renderer.set(&one.name, &one.value).map_err(of_command_line)?;
+        renderer.set(&one.name, &one.value)?;
     }
     Ok(renderer)
 }
@@ -41,18 +35,7 @@ pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Hel
 pub(super) fn list_options(arguments: &WindowArguments, helper: Helper) -> RendererOptions {
     let mut options = RendererOptions::default();
     options.helper = Some(helper);
-    options.precompiled = precompiled(&arguments.pipeline);
+    options.precompiled = planning::precompiled(&arguments.pipeline);
     options.executor.frames_in_flight = 2;
     options
-}
-
-/// A mistake that the command line made.
-fn of_command_line(error: framewright::Error) -> Error {
-    match Error::from(error) {
-        Error::Mistakes { mut mistakes } => {
-            mistakes.exit = Exit::Usage;
-            Error::Mistakes { mistakes }
-        }
-        other => other,
-    }
 }

@@ -1,23 +1,23 @@
 //! Pictures of what a window shows.
 
-use crate::drawing::pictures;
 use crate::error::Error;
-use crate::files::outputs;
-use crate::picture::FileFormat;
+use crate::files;
 use crate::system::text;
 use framewright::Renderer;
+use framewright_lab::outputs;
+use framewright_lab::picture::FileFormat;
 use std::path::{Path, PathBuf};
 
 /// The picture of a frame, as a PNG file, upright.
 ///
 /// # Errors
-/// Those of the device; [`Error::Picture`].
+/// Those of the device; [`framewright_lab::Error::Picture`].
 pub(super) fn encoded(renderer: &mut Renderer, frame: u64) -> Result<Option<Vec<u8>>, Error> {
     let Some(output) = renderer.plan().and_then(|plan| plan.outputs.first()) else { return Ok(None) };
     let name = output.name.to_string();
     let texels = renderer.read_back(frame, &name)?;
     let Some(plan) = renderer.plan() else { return Ok(None) };
-    pictures::encoded(FileFormat::Png, plan, 0, vec![texels]).map(Some)
+    Ok(Some(outputs::encoded(FileFormat::Png, (plan, 0), vec![texels], &text::note_once)?))
 }
 
 /// Writes a picture by a name that is free, beside where the command was called, and says the name or what is wrong with it.
@@ -25,7 +25,7 @@ pub(super) fn write_by_a_free_name(pipeline: &Path, picture: &[u8]) {
     let stem = name(pipeline);
     let mut names = (1..1000).map(|number| PathBuf::from(format!("{stem}-{number:03}.png")));
     let Some(path) = names.find(|path| !path.exists()) else { return };
-    match outputs::write_new(&path, picture) {
+    match files::outputs::write_new(&path, picture) {
         Ok(()) => text::say(&format!("wrote `{}`", text::path(&path))),
         Err(error) => text::say(&error.shown()),
     }

@@ -72,7 +72,7 @@ impl<'a> Session<'a> {
     ) -> Result<Session<'a>, Error> {
         let scene_read = ReadFiles::default();
         let mut renderer = opening::renderer(arguments, device, helper.clone())?;
-        let scene = inputs::scene(&arguments.scene, arguments.reading.strict, &scene_read)?;
+        let scene = inputs::scene(&arguments.drawn.scene, arguments.drawn.reading.strict, &scene_read)?;
         renderer.set_scene(&scene);
         let stereo = Stereo::first_fit(&arguments.pipeline.stereo.0, &device.profile());
         let stereo = stereo.map_err(|why| Error::Stereo { why })?;
@@ -200,7 +200,8 @@ impl<'a> Session<'a> {
                 text::say(&format!("`{}` is drawn as it is now", text::path(&self.arguments.pipeline.file)));
             }
         }
-        if let Some(read) = self.following.scene(&self.arguments.scene, self.arguments.reading.strict) {
+        let drawn = &self.arguments.drawn;
+        if let Some(read) = self.following.scene(&drawn.scene, drawn.reading.strict) {
             let read = read.map(|scene| {
                 self.renderer.set_scene(&scene);
                 self.orbit.follow(&scene);

@@ -4,10 +4,6 @@
 //! The loader takes its drivers from the environment, which a process can't change from within: each test starts itself
 //! anew for each driver.
 
-#[path = "../../src/picture/mod.rs"]
-#[allow(dead_code, unused_imports, reason = "the command asks more of it")]
-mod picture;
-
 use crate::testing::{self, Vulkan};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
@@ -17,13 +13,13 @@ use framewright_graph::frame::{
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{self, *};
 use framewright_graph::vulkan::{Encoding, Stages, Subresources};
+use framewright_lab::picture::{FileFormat, Picture};
 use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
 use framewright_vulkan::{
     Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels,
 };
-use picture::{FileFormat, Picture};
 use std::io::Read;
 
 const WIDTH: u32 = 64;

@@ -5,15 +5,16 @@ use proc_macro2::{Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const CRATES: [&str; 6] = ["graph", "backend-vulkan", "passes", "framewright", "framewright/c", "cli"];
+const CRATES: [&str; 7] =
+    ["graph", "backend-vulkan", "passes", "framewright", "framewright/c", "framewright/lab", "cli"];
 
 /// Files that format by `Debug`, how often, and why.
 const ALLOWED: [(&str, usize, &str); 12] = [
     ("backend-vulkan/src/base/named.rs", 1, "the names of Vulkan and SPIR-V, which their crates have as Debug text"),
     ("backend-vulkan/src/shaders/spirv_cache.rs", 2, "a part of a key"),
-    ("cli/src/measure/digest.rs", 1, "a part of a digest"),
-    ("cli/src/measure/subjects.rs", 1, "a part of a digest"),
-    ("cli/src/variants/axes.rs", 2, "numbers that read as the very same"),
+    ("framewright/lab/src/digest.rs", 1, "a part of a digest"),
+    ("framewright/lab/src/bench/choice.rs", 1, "a part of a digest"),
+    ("framewright/lab/src/sweep/values.rs", 2, "numbers that read as the very same"),
     ("cli/src/variants/facts.rs", 4, "numbers that read as the very same"),
     ("graph/src/base/number.rs", 1, "a number that reads as the very same"),
     ("graph/src/shader/interface_file.rs", 4, "texts of RON"),

@@ -5,7 +5,7 @@ use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings::Case;
-use crate::planning::{self, View, device, notes};
+use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
@@ -65,19 +65,20 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
     let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
     let options = arguments.planning.options();
     // The device decides whether the images of both eyes are layers or halves.
-    let by_device = pipeline.pipeline.asks_device() || pipeline.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
+    let choices = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
+    let by_device = pipeline.document.asks_device() || choices.stereo.iter().any(|it| *it > Stereo::MultiPass);
     let mut same: Option<Frame> = None;
     let mut all = Vec::new();
     for (name, profile) in device::all()? {
         let frame = match same.take() {
             Some(frame) => Ok(frame),
-            None => pipeline.frame(View::at(arguments.size, arguments.planning.rotate), &profile),
+            None => pipeline.frame(&choices, &profile),
         };
         let result = match frame {
             Ok(frame) => {
                 busy.set_message(progress::compiling(&frame, &profile.name));
                 let plan = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
-                let result = plan.and_then(|plan| {
+                let result = plan.map_err(Error::from).and_then(|plan| {
                     pipeline.fits(&plan, &frame, &profile)?;
                     budget.holds(&plan, &pipeline.sources)?;
                     Ok(plan)
@@ -85,8 +86,8 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
                 same = Some(frame).filter(|_| !by_device);
                 result
             }
-            Err(wrong) if by_device => Err(wrong),
-            Err(wrong) => return Err(wrong),
+            Err(wrong) if by_device => Err(wrong.into()),
+            Err(wrong) => return Err(wrong.into()),
         };
         all.push(Checked { profile: name, device: profile.name, result });
     }

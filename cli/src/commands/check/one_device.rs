@@ -5,7 +5,7 @@ use crate::budget;
 use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings::Case;
-use crate::planning::{self, View, device, notes};
+use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Estimated, Profile};
@@ -45,7 +45,8 @@ fn plan(arguments: &CheckArguments, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
-    let frame = pipeline.frame(View::at(arguments.size, arguments.planning.rotate), profile)?;
+    let choices = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
+    let frame = pipeline.frame(&choices, profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
     let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
     pipeline.fits(&plan, &frame, profile)?;

@@ -1,10 +1,9 @@
 //! The answer, in words and as JSON.
 
-use crate::measure::Group;
-use crate::measure::choosing::{Binding, Candidate, Candidates, Chosen, Limit, Quantity, Reason};
-use crate::measure::results::{Results, Spread};
-use crate::metric::Metric;
 use crate::system::text;
+use framewright_lab::choosing::{Binding, Candidate, Candidates, Chosen, Limit, Quantity, Reason};
+use framewright_lab::metric::Metric;
+use framewright_lab::results::{Group, Results, Spread};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -78,7 +77,7 @@ impl Answer<'_> {
         };
         let together = binding.iter().filter(|it| it.limits.len() > 1);
         let limits = self.limits.iter().enumerate().map(|(at, limit)| StatedLimit {
-            option: limit.quantity.option(),
+            option: option(limit.quantity),
             limit: limit.value,
             without: alone(binding, at).map(|it| self.entry(it.without)),
         });
@@ -100,7 +99,7 @@ impl Answer<'_> {
     }
 
     fn entry<'a>(&self, candidate: &'a Candidate) -> Entry<'a> {
-        let missed = self.limits.iter().map(|limit| (limit.quantity.option(), limit.overshoot(candidate)));
+        let missed = self.limits.iter().map(|limit| (option(limit.quantity), limit.overshoot(candidate)));
         Entry {
             settings: &candidate.settings,
             gpu_milliseconds: candidate.milliseconds,
@@ -193,7 +192,7 @@ impl Answer<'_> {
             (None, true) => "binds together with others".to_owned(),
             (None, false) => "doesn't bind".to_owned(),
         };
-        format!("{} {}: {shown}; {binds}", limit.quantity.option(), limit.value)
+        format!("{} {}: {shown}; {binds}", option(limit.quantity), limit.value)
     }
 
     /// Limits that bind only together.
@@ -206,7 +205,7 @@ impl Answer<'_> {
     }
 
     fn options(&self, binding: &Binding<'_>) -> Vec<&'static str> {
-        binding.limits.iter().map(|at| self.limits[*at].quantity.option()).collect()
+        binding.limits.iter().map(|at| option(self.limits[*at].quantity)).collect()
     }
 
     /// How many settings are left out for each reason.
@@ -218,7 +217,7 @@ impl Answer<'_> {
     fn missed(&self, candidate: &Candidate) -> String {
         let missed = self.limits.iter().filter_map(|limit| {
             let overshoot = limit.overshoot(candidate);
-            let (option, value) = (limit.quantity.option(), limit.value);
+            let (option, value) = (option(limit.quantity), limit.value);
             let by = match value {
                 _ if overshoot.is_infinite() => String::new(),
                 0.0 => format!(" by {overshoot:.4}"),
@@ -253,6 +252,23 @@ fn why(reason: Reason) -> &'static str {
         Reason::NonFinite => "with pixels that aren't finite",
         Reason::WithoutErrors => "without a reference",
         Reason::NotEverywhere => "that weren't measured with every scene, size and way of stereo",
+    }
+}
+
+/// The option that limits it.
+fn option(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Milliseconds => "--max-ms",
+        Quantity::Ratio => "--max-ratio",
+        Quantity::Mebibytes => "--max-mib",
+        Quantity::MovedMebibytes => "--max-moved-mib",
+        Quantity::Flicker => "--max-flicker",
+        Quantity::Error(Metric::Flip) => "--max-flip",
+        Quantity::Error(Metric::Rmse) => "--max-rmse",
+        Quantity::Error(Metric::MaxError) => "--max-error",
+        Quantity::Error(Metric::RelativeMse) => "--max-relative-mse",
+        Quantity::Error(Metric::Psnr) => "--min-psnr",
+        Quantity::Error(Metric::Ssim) => "--min-ssim",
     }
 }
 

@@ -2,18 +2,19 @@
 
 mod answer;
 mod settings;
+mod settings_file;
 
 use crate::command_line::choosing::ChooseArguments;
 use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::files::outputs;
-use crate::measure::choosing::{Candidates, Chosen, Limit, Quantity};
-use crate::measure::results::Results;
-use crate::measure::{Part, joined, store};
-use crate::metric::Metric;
+use crate::measure::store;
 use crate::system::{Exit, text};
 use answer::Answer;
 use framewright_graph::base::ReadFiles;
+use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
+use framewright_lab::metric::Metric;
+use framewright_lab::results::{Part, Results, joined};
 use std::path::PathBuf;
 
 /// Prints the best settings, and writes them.
@@ -57,7 +58,7 @@ fn all(folders: &[PathBuf], read: &ReadFiles) -> Result<Option<Results>, Error> 
         results.forget_pictures();
         parts.push(Part { folder: folder.clone(), results });
     }
-    joined(parts).map_err(|problem| Error::Joining(problem.into()))
+    Ok(joined(parts)?)
 }
 
 /// The limits that are stated.

@@ -1,16 +1,16 @@
 //! The settings file that is written, read back as `run` reads it.
 
+use super::settings_file;
 use crate::command_line::args::{CachingArguments, PipelineArguments, ShaderLimits};
 use crate::command_line::values::Modes;
 use crate::error::Error;
-use crate::measure::results::Results;
-use crate::measure::settings_file;
 use crate::planning;
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::frame::Stereo;
 use framewright_graph::language::Document;
 use framewright_graph::ron::Tree;
+use framewright_lab::results::Results;
 use std::collections::BTreeMap;
 
 /// The text of a settings file.
@@ -60,5 +60,5 @@ fn document(pipeline: &str, read: &ReadFiles) -> Option<Document> {
         caching: CachingArguments { no_cache: true },
         limits: ShaderLimits { shader_seconds: 10, shader_memory: 1024, shader_stack: 8 },
     };
-    planning::load(&arguments, read).ok().map(|loaded| loaded.pipeline)
+    planning::load(&arguments, read).ok().map(|loaded| loaded.document)
 }

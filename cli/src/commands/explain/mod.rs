@@ -3,15 +3,12 @@
 mod subject;
 
 use crate::command_line::explaining::ExplainArguments;
-use crate::command_line::values::{AnswerFormat, DEFAULT_SIZE};
+use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
-use crate::files::inputs;
-use crate::planning::{self, View, device, plan_file};
+use crate::planning::{self, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::ReadFiles;
-use framewright_graph::device::Estimated;
 use framewright_graph::plan::{Outline, Plan};
-use framewright_passes::scene::Scene;
 use serde::Serialize;
 use subject::Explained;
 
@@ -53,16 +50,10 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
 
 /// The Plan in a file, or that of a pipeline.
 fn plan(arguments: &ExplainArguments, read: &ReadFiles) -> Result<Plan, Error> {
-    let ExplainArguments { scene, device, size, .. } = arguments;
-    if plan_file::is_one(&arguments.pipeline.file) {
-        let own = [("--scene", scene.is_some()), ("--device", device.is_some()), ("--size", *size != DEFAULT_SIZE)];
-        plan_file::nothing_chosen(&arguments.pipeline, arguments.planning, &own)?;
-        return plan_file::read(&arguments.pipeline.file, read);
+    let ExplainArguments { pipeline, subject, .. } = arguments;
+    if plan_file::is_one(&pipeline.file) {
+        plan_file::nothing_chosen(pipeline, subject, None)?;
+        return plan_file::read(&pipeline.file, read);
     }
-    let profile = device::choose(device.as_deref(), read)?;
-    let mut pipeline = planning::load(&arguments.pipeline, read)?;
-    let scene = scene.as_deref().map(|file| inputs::scene(file, arguments.reading.strict, read)).transpose()?;
-    let facts = scene.as_ref().map(Scene::facts);
-    let view = View { facts, size: *size, rotation: arguments.planning.rotate, dump: &[] };
-    Ok(pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan)
+    Ok(planning::planned(pipeline, subject, read)?.1.plan)
 }

@@ -4,9 +4,9 @@ use crate::command_line::args::{DebugMode, RunArguments};
 use crate::drawing::captures::{self, Captured, Drawing};
 use crate::error::Error;
 use crate::files::outputs;
-use crate::planning::Loaded;
 use crate::system::{Exit, text};
 use clap::ValueEnum;
+use framewright::Pipeline;
 use framewright_graph::base::ReadFiles;
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::frame::Frame;
@@ -46,7 +46,7 @@ pub(super) fn bisect(
     arguments: &RunArguments,
     mode: DebugMode,
     device: &Device,
-    pipeline: &mut Loaded,
+    pipeline: &mut Pipeline,
     made: (&Plan, &Frame),
     scene: &Scene,
     read: &ReadFiles,

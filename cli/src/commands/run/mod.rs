@@ -6,21 +6,23 @@ mod subject;
 
 use crate::command_line::args::RunArguments;
 use crate::drawing::captures::{self, Drawing};
-use crate::drawing::pictures::{EncodedPicture, PictureRequest};
-use crate::drawing::{Prepared, diagnostics, pictures, timings};
+use crate::drawing::pictures;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
-use crate::picture::FileFormat;
-use crate::planning::{Assets, device, layer, notes};
-use crate::system::quantiles::median;
+use crate::planning::{device, helper, layer, notes};
 use crate::system::{Exit, interrupt, progress, text};
+use framewright::{Assets, SceneRenderer};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::plan::{Buffer, Image, Plan, Resource, Role, Stage};
 use framewright_graph::vulkan::{Format, Layout, State, Subresources};
+use framewright_lab::outputs::{EncodedPicture, PictureRequest};
+use framewright_lab::picture::FileFormat;
+use framewright_lab::quantiles::median;
+use framewright_lab::timings;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DeviceOptions, ExecutorOptions, FrameReport};
+use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
 use report::{Report, Validation};
 use serde::Serialize;
 use std::path::Path;
@@ -42,26 +44,24 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Error> {
 fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     Subject::expect(arguments, &read);
-    framewright::expect_scene(&arguments.scene, &read);
+    framewright::expect_scene(&arguments.drawn.scene, &read);
     let spare = || outputs::prepare(arguments.written(), &read);
     spare()?;
-    let choice = device::to_draw_on(arguments.device.as_deref())?;
-    let mut subject = Subject::read(arguments, &read)?;
-    let scene = inputs::scene(&arguments.scene, arguments.reading.strict, &read)?;
+    let choice = device::to_draw_on(arguments.device.name.as_deref())?;
+    let helper = helper::of(&arguments.pipeline)?;
+    let mut subject = Subject::read(arguments, &helper, &read)?;
+    let scene = inputs::scene(&arguments.drawn.scene, arguments.drawn.reading.strict, &read)?;
     spare()?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let helper = Some(subject.assets().helper.clone());
-    let device =
-        Device::open(&DeviceOptions { choice, validation: arguments.validate, helper, ..DeviceOptions::default() })?;
-    device.cancel_when(interrupt::asked);
+    let device = device::open(choice, arguments.validate, &helper)?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let (plan, frame) = subject.planned(arguments, &scene, &device)?;
     if let Some(note) = subject.made_elsewhere(&device.profile().name) {
         text::say(&note);
     }
-    diagnostics::cameras(&plan, frame.as_ref(), &scene)?;
+    framewright::check_cameras(&plan, frame.as_ref(), &scene)?;
     // Now its shaders are known.
     spare()?;
     if let (Some(mode), Subject::Pipeline(pipeline), Some(frame)) = (arguments.bisect, &mut subject, &frame) {
@@ -87,7 +87,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         format_version: 2,
         pipeline: (!arguments.plan).then(|| shown(&arguments.pipeline.file)),
         plan: arguments.plan.then(|| shown(&arguments.pipeline.file)),
-        scene: shown(&arguments.scene),
+        scene: shown(&arguments.drawn.scene),
         settings: plan.settings.clone(),
         size: plan.extent,
         frames: arguments.frames,
@@ -207,19 +207,20 @@ fn draw(
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
     let options = ExecutorOptions { timestamps: true, ..arguments.executor_options() };
-    let mut prepared = Prepared::new(device, (plan, frame), assets, scene, &options)?;
+    let mut prepared = SceneRenderer::new(device, (plan, frame), assets, scene, &options)?;
     let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        frames.push(prepared.draw().map_err(interrupted(drawn, arguments.frames))?);
+        frames.push(prepared.draw().map_err(Error::from).map_err(interrupted(drawn, arguments.frames))?);
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, plan));
-    let pictures = pictures.collect::<Result<Vec<_>, _>>().map_err(interrupted(arguments.frames, arguments.frames))?;
+    let pictures = requests.iter().map(|request| request.encode(&mut prepared.executor, plan, &text::note_once));
+    let pictures = pictures.map(|picture| picture.map_err(Error::from)).collect::<Result<Vec<_>, _>>();
+    let pictures = pictures.map_err(interrupted(arguments.frames, arguments.frames))?;
     if interrupt::asked() {
         return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });
     }

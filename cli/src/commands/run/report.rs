@@ -1,10 +1,10 @@
 //! The report of a run: a table for people, JSON for programs.
 
-use crate::drawing::timings::{Row, WorkKind};
 use crate::system::text;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
 use framewright_graph::plan::{Note, SettingUsed, Totals};
+use framewright_lab::timings::{Row, WorkKind};
 use framewright_vulkan::{Canary, DeviceSummary, Message, MessageKind, Severity};
 use serde::Serialize;
 

@@ -3,8 +3,9 @@
 use crate::command_line::args::RunArguments;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
-use crate::planning::{self, Assets, Loaded, View, plan_file};
+use crate::planning::{self, plan_file};
 use crate::system::{interrupt, text};
+use framewright::{Assets, Choices, Helper, Pipeline};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Totals};
@@ -14,7 +15,7 @@ use framewright_vulkan::Device;
 /// What is drawn.
 pub(super) enum Subject {
     /// A pipeline.
-    Pipeline(Box<Loaded>),
+    Pipeline(Box<Pipeline>),
     /// A Plan, verified, and the files that it names.
     Plan(Box<(Plan, Assets)>),
 }
@@ -33,11 +34,12 @@ impl Subject {
     ///
     /// # Errors
     /// If it can't be read, or is wrong in itself.
-    pub(super) fn read(arguments: &RunArguments, read: &ReadFiles) -> Result<Subject, Error> {
+    pub(super) fn read(arguments: &RunArguments, helper: &Helper, read: &ReadFiles) -> Result<Subject, Error> {
+        let helper = helper.clone();
         Ok(if arguments.plan {
-            Subject::Plan(Box::new(plan_file::load(&arguments.pipeline, read)?))
+            Subject::Plan(Box::new(plan_file::load(&arguments.pipeline, helper, read)?))
         } else {
-            Subject::Pipeline(Box::new(planning::load(&arguments.pipeline, read)?))
+            Subject::Pipeline(Box::new(planning::load_with(&arguments.pipeline, read, helper)?))
         })
     }
 
@@ -73,18 +75,21 @@ impl Subject {
             Subject::Pipeline(pipeline) => pipeline,
             Subject::Plan(plan) => return Ok((plan.0.clone(), None)),
         };
-        let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
-        let rotation = arguments.planning.rotate;
-        let view = View { facts: Some(scene.facts()), size: arguments.size, rotation, dump: &dump };
+        let without = Choices {
+            facts: Some(scene.facts()),
+            ..planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate)
+        };
+        let dump = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
+        let choices = Choices { dump, ..without.clone() };
         let options = arguments.planning.options();
         let (profile, mut memory) = (device.profile(), device.memory());
         if interrupt::asked() {
             // The device may not have been tested.
             return Err(Error::Interrupted { frames: 0, wanted: arguments.frames });
         }
-        let planned = pipeline.plan(view, &profile, &mut memory, &options)?;
-        if !dump.is_empty() {
-            let without = pipeline.plan(View { dump: &[], ..view }, &profile, &mut memory, &options)?;
+        let planned = pipeline.planned(&choices, &profile, &mut memory, &options)?;
+        if !choices.dump.is_empty() {
+            let without = pipeline.planned(&without, &profile, &mut memory, &options)?;
             text::say(&format!("note: dumping {}", difference(&without.plan.totals, &planned.plan.totals)));
         }
         Ok((planned.plan, Some(planned.frame)))

@@ -1,0 +1,144 @@
+//! A pipeline on a device, whose choices are measured.
+//!
+//! ```text
+//! choices ─► batch: drawn in turns with the baseline ─► measured: cost, reference, errors
+//! ```
+
+mod batch;
+mod checks;
+mod choice;
+mod converging;
+mod cost;
+mod held_against;
+mod measured;
+mod pipeline_digest;
+mod program;
+mod reference;
+mod references;
+
+use crate::error::Error;
+use crate::results::Subject;
+use crate::sweep::{SCENE, SIZE, STEREO, size_name};
+use framewright::{Choices, Device, Pipeline, Planned, Scene};
+use framewright_graph::compile;
+use framewright_graph::plan::Plan;
+use references::{GIVEN, Reference, References};
+use std::collections::BTreeMap;
+
+pub use batch::{AT_ONCE, Drawn, WARM_UP};
+pub use checks::{check_sizes, check_values};
+pub use choice::{Choice, MeasuredScene, REFERENCE, of_reference, reference_settings};
+pub use held_against::HeldAgainst;
+pub use program::Program;
+
+/// How choices are measured.
+#[derive(Debug)]
+pub struct BenchOptions {
+    /// Frames of each choice whose times are taken.
+    pub frames: u32,
+    /// Frames of the moving scene over which flicker is measured; `None`: it isn't.
+    pub flicker: Option<u32>,
+    /// The pictures that errors are measured against.
+    pub held_against: HeldAgainst,
+}
+
+/// A pipeline on a device, and what its choices are held against.
+pub struct Bench<'p> {
+    pipeline: Pipeline,
+    /// What is chosen for all choices.
+    of_all: Choices,
+    device: Device,
+    options: BenchOptions,
+    program: &'p dyn Program,
+    pipeline_digest: String,
+    references: References,
+    told_of_light: bool,
+}
+
+impl<'p> Bench<'p> {
+    /// One that has measured nothing. `of_all` is chosen for all choices.
+    #[must_use]
+    pub fn new(
+        device: &Device,
+        pipeline: Pipeline,
+        of_all: Choices,
+        options: BenchOptions,
+        program: &'p dyn Program,
+    ) -> Bench<'p> {
+        let mut references = References::default();
+        if let HeldAgainst::Picture { picture, .. } = &options.held_against {
+            references.remember(GIVEN, Reference { picture: picture.clone(), errors: None });
+        }
+        Bench {
+            pipeline_digest: pipeline_digest::of(&pipeline),
+            references,
+            pipeline,
+            of_all,
+            device: device.clone(),
+            options,
+            program,
+            told_of_light: false,
+        }
+    }
+
+    /// What all rows have in common that are measured beside `baseline`. `name` is the pipeline's, for people.
+    ///
+    /// # Errors
+    /// Those of planning the baseline.
+    pub fn subject(&mut self, name: String, baseline: &Choice) -> Result<Subject, Error> {
+        let plan = self.planned(baseline, &baseline.scene.still, &[])?.plan;
+        let mut of_baseline = settings(&plan);
+        of_baseline.extend([
+            (SCENE.to_owned(), baseline.scene.digest.clone()),
+            (SIZE.to_owned(), size_name(baseline.size)),
+            (STEREO.to_owned(), plan.stereo.name().to_owned()),
+        ]);
+        Ok(Subject {
+            framewright: env!("CARGO_PKG_VERSION").to_owned(),
+            shipped_shaders: pipeline_digest::of_shipped_shaders(),
+            pipeline: name,
+            pipeline_digest: self.pipeline_digest.clone(),
+            device: self.device.summary().name.clone(),
+            driver: self.device.summary().driver.clone(),
+            frames: self.options.frames,
+            flicker_frames: self.options.flicker,
+            reference: self.options.held_against.name(),
+            baseline: of_baseline,
+        })
+    }
+
+    /// The Plan of a choice for a scene, under more settings.
+    fn planned(&mut self, choice: &Choice, scene: &Scene, more: &[(String, String)]) -> Result<Planned, Error> {
+        let mut choices = choice.of(&self.of_all, scene);
+        choices.set.extend(more.iter().cloned());
+        let (profile, mut memory) = (self.device.profile(), self.device.memory());
+        let planned = self.pipeline.planned(&choices, &profile, &mut memory, &compile::Options::default())?;
+        framewright::check_cameras(&planned.plan, Some(&planned.frame), scene)?;
+        Ok(planned)
+    }
+
+    /// A choice's own problem stays with it, in words; one of the whole sweep ends it.
+    fn own<T>(&self, result: Result<T, Error>) -> Result<Result<T, String>, Error> {
+        match result {
+            Ok(value) => Ok(Ok(value)),
+            Err(error) if self.program.stops() || error.ends_a_sweep() => Err(error),
+            Err(error) => Ok(Err(self.program.words(error).trim_end().to_owned())),
+        }
+    }
+
+    /// Keeps a file, and answers with its name.
+    fn written(&self, name: String, contents: &[u8]) -> Result<String, Error> {
+        self.program.keep(&name, contents).map_err(Error::Program)?;
+        Ok(name)
+    }
+
+    /// Makes sure that the program doesn't ask to stop, with so many frames drawn of those that are wanted.
+    fn goes_on(&self, drawn: u32, wanted: u32) -> Result<(), Error> {
+        if self.program.stops() { Err(Error::Stopped { drawn, wanted }) } else { Ok(()) }
+    }
+}
+
+/// All settings of a Plan.
+fn settings(plan: &Plan) -> BTreeMap<String, String> {
+    plan.settings.iter().map(|used| (used.name.to_string(), used.value.clone())).collect()
+}

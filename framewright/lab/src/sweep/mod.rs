@@ -1,0 +1,126 @@
+//! Sweeps: the values that settings take, and the choices that they make together.
+
+pub mod cover;
+mod values;
+
+use std::collections::BTreeMap;
+pub use values::{text, values};
+
+/// Sweeps of things that are no settings: the size of the output.
+pub const SIZE: &str = "@size";
+/// The scene.
+pub const SCENE: &str = "@scene";
+/// The way of drawing for two eyes.
+pub const STEREO: &str = "@stereo";
+
+/// The values that one setting takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// The setting; or [`SIZE`], [`SCENE`] or [`STEREO`].
+    pub name: String,
+    /// As texts.
+    pub values: Vec<String>,
+}
+
+/// A sweep makes at most this many choices.
+pub const MOST_CHOICES: usize = 10_000;
+
+/// How several sweeps make choices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Combined {
+    /// Every value with every other.
+    All,
+    /// Each pair of values of any two settings occurs.
+    Pairwise,
+    /// One setting at a time.
+    OneByOne,
+}
+
+/// The number of choices that sweeps make, even where there are too many to make.
+#[must_use]
+pub fn count(sweeps: &[Sweep], combined: Combined) -> u128 {
+    let sizes = sweeps.iter().map(|sweep| sweep.values.len() as u128);
+    match combined {
+        Combined::OneByOne => sizes.sum::<u128>() + 1,
+        // At most: a pair of values in each.
+        Combined::Pairwise => cover::pairs(&sweeps.iter().map(|sweep| sweep.values.len()).collect::<Vec<_>>()) as u128,
+        Combined::All => sizes.fold(1, u128::saturating_mul),
+    }
+}
+
+/// The choices that sweeps make, each once: values by name. The last sweep varies fastest.
+#[must_use]
+pub fn choices(sweeps: &[Sweep], combined: Combined) -> Vec<BTreeMap<String, String>> {
+    let chosen = |row: &[usize]| -> BTreeMap<String, String> {
+        sweeps.iter().zip(row).map(|(sweep, at)| (sweep.name.clone(), sweep.values[*at].clone())).collect()
+    };
+    match combined {
+        Combined::OneByOne => {
+            let one = |sweep: &Sweep, value: &String| BTreeMap::from([(sweep.name.clone(), value.clone())]);
+            let each = sweeps.iter().flat_map(|sweep| sweep.values.iter().map(move |value| one(sweep, value)));
+            std::iter::once(BTreeMap::new()).chain(each).collect()
+        }
+        Combined::Pairwise if sweeps.len() > 1 => {
+            let sizes: Vec<usize> = sweeps.iter().map(|sweep| sweep.values.len()).collect();
+            cover::rows(&sizes).iter().map(|row| chosen(row)).collect()
+        }
+        Combined::All | Combined::Pairwise => {
+            let mut rows = vec![Vec::new()];
+            for sweep in sweeps {
+                let longer = |row: &Vec<usize>| {
+                    let row = row.clone();
+                    (0..sweep.values.len()).map(move |at| row.iter().copied().chain([at]).collect::<Vec<usize>>())
+                };
+                rows = rows.iter().flat_map(longer).collect();
+            }
+            rows.iter().map(|row| chosen(row)).collect()
+        }
+    }
+}
+
+/// The name of a size, as results have it.
+#[must_use]
+pub fn size_name([width, height]: [u32; 2]) -> String {
+    format!("{width}x{height}")
+}
+
+/// The part `number` of `of` parts of a list, numbered from 1. All parts together are the list.
+#[must_use]
+pub fn shard<T>(list: Vec<T>, number: usize, of: usize) -> Vec<T> {
+    list.into_iter().skip(number - 1).step_by(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choices_are_all_products_or_enough_for_pairs_or_one_by_one() {
+        let sweep = |name: &str, values: &[&str]| Sweep {
+            name: name.to_owned(),
+            values: values.iter().map(|value| (*value).to_owned()).collect(),
+        };
+        let sweeps = [sweep("a", &["1", "2", "3"]), sweep("b", &["x", "y"]), sweep("c", &["p", "q"])];
+        let all = choices(&sweeps, Combined::All);
+        assert_eq!((all.len() as u128, count(&sweeps, Combined::All)), (12, 12));
+        assert_eq!(all[1]["c"], "q");
+        let pairs = choices(&sweeps, Combined::Pairwise);
+        assert!(
+            pairs.len() < 12
+                && all
+                    .iter()
+                    .flat_map(|row| row.iter().zip(row.iter().skip(1)))
+                    .all(|(one, other)| { pairs.iter().any(|row| row[one.0] == *one.1 && row[other.0] == *other.1) })
+        );
+        assert_eq!(choices(&sweeps, Combined::OneByOne).len(), 8);
+        assert_eq!(choices(&sweeps[..1], Combined::Pairwise).len(), 3);
+        assert_eq!(choices(&[], Combined::All), [BTreeMap::new()]);
+    }
+
+    #[test]
+    fn shards_together_are_the_list() {
+        let mut joined: Vec<u32> = (1..=3).flat_map(|number| shard((0..10).collect(), number, 3)).collect();
+        joined.sort_unstable();
+        assert_eq!(joined, (0..10).collect::<Vec<u32>>());
+    }
+}

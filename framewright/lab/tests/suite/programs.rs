@@ -1,0 +1,112 @@
+//! A program measures choices, joins two parts of a sweep, and chooses, without the command.
+
+use framewright::{Choices, Pipeline, ReadFiles, RendererOptions, Stereo, load_scene};
+use framewright_lab::bench::{Bench, BenchOptions, Choice, Drawn, HeldAgainst, MeasuredScene, Program, WARM_UP};
+use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
+use framewright_lab::metric::Metric;
+use framewright_lab::results::{FORMAT_VERSION, Outcome, Part, Results, joined};
+use framewright_lab::sweep::{self, Combined, Sweep};
+use framewright_tests::render;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// Frames whose times are taken.
+const FRAMES: u32 = 2;
+
+/// Keeps files in memory, and may stop.
+#[derive(Default)]
+struct Memory {
+    files: RefCell<BTreeMap<String, Vec<u8>>>,
+    stopped: Cell<bool>,
+}
+
+impl Program for Memory {
+    fn stops(&self) -> bool {
+        self.stopped.get()
+    }
+
+    fn kept(&self, name: &str) -> Option<Vec<u8>> {
+        self.files.borrow().get(name).cloned()
+    }
+
+    fn keep(&self, name: &str, contents: &[u8]) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        self.files.borrow_mut().insert(name.to_owned(), contents.to_owned());
+        Ok(())
+    }
+}
+
+fn bench<'p>(device: &framewright::Device, program: &'p Memory) -> Bench<'p> {
+    let pipeline =
+        Pipeline::open("forward", &RendererOptions::default(), &ReadFiles::default()).expect("it is shipped");
+    let options = BenchOptions { frames: FRAMES, flicker: None, held_against: HeldAgainst::References };
+    Bench::new(device, pipeline, Choices::default(), options, program)
+}
+
+fn choices() -> (Choice, Vec<Choice>) {
+    let name = "spheres_and_cubes";
+    let scene = Rc::new(MeasuredScene::new(name.to_owned(), load_scene(name).expect("it is shipped")));
+    let baseline = Choice { values: BTreeMap::new(), scene, size: [32, 18], stereo: vec![Stereo::Off] };
+    let swept = [Sweep { name: "msaa".to_owned(), values: vec!["1".to_owned(), "4".to_owned()] }];
+    let choices = sweep::choices(&swept, Combined::All);
+    let choices = choices.into_iter().map(|values| Choice { values, ..baseline.clone() }).collect();
+    (baseline, choices)
+}
+
+#[test]
+fn choices_are_measured_joined_and_chosen_from() {
+    let Some(device) = render::device() else { return };
+    let (program, (baseline, choices)) = (Memory::default(), choices());
+    let mut bench = bench(device, &program);
+    let subject = bench.subject("forward".to_owned(), &baseline).expect("planned");
+    let mut parts = Vec::new();
+    for choice in &choices {
+        let (frames, done) = (Cell::new(0), Cell::new(0));
+        let progress = |drawn| match drawn {
+            Drawn::Frame => frames.set(frames.get() + 1),
+            Drawn::Choice => done.set(done.get() + 1),
+        };
+        let mut rows = Vec::new();
+        let choice = std::slice::from_ref(choice);
+        bench.batch((&baseline, &subject), choice, &progress, &mut rows).expect("measured");
+        assert_eq!((frames.get(), done.get()), (WARM_UP + FRAMES, 1));
+        let results = Results { format_version: FORMAT_VERSION, subject: subject.clone(), rows };
+        let read = Results::from_json(&serde_json::to_string(&results).expect("JSON")).expect("it is right");
+        assert_eq!(read.rows.len(), 1);
+        parts.push(Part { folder: choice[0].values["msaa"].clone().into(), results });
+    }
+    let results = joined(parts).expect("of one subject").expect("two parts");
+    let [one, four] = ["1", "4"].map(|msaa| {
+        let row = results.rows.iter().find(|row| row.settings["msaa"] == msaa).expect("measured");
+        let Outcome::Measured(measured) = &row.outcome else { panic!("{row:?}") };
+        assert!(program.kept(measured.picture.as_deref().expect("a picture")).is_some());
+        measured.errors.clone().expect("errors")
+    });
+    assert!(four.of(Metric::Flip) < one.of(Metric::Flip), "more samples are nearer to the reference");
+    let flip = |value| [Limit { quantity: Quantity::Error(Metric::Flip), value }];
+    let candidates = Candidates::of(&results);
+    let between = (four.of(Metric::Flip) + one.of(Metric::Flip)) / 2.0;
+    let Chosen::Best { best, .. } = candidates.choose(&flip(between)) else { panic!("four samples hold it") };
+    assert_eq!(best.settings["msaa"], "4");
+    assert!(matches!(candidates.choose(&flip(0.0)), Chosen::Nearest(Some(_))));
+}
+
+#[test]
+fn references_are_kept_and_a_program_that_stops_is_told_so() {
+    let Some(device) = render::device() else { return };
+    let (program, (baseline, choices)) = (Memory::default(), choices());
+    let mut first = bench(device, &program);
+    let missing = |bench: &mut Bench<'_>| -> BTreeSet<String> {
+        let keys = choices.iter().filter_map(|choice| bench.missing_reference(choice, 0).expect("planned"));
+        keys.collect()
+    };
+    assert_eq!(missing(&mut first).len(), 1, "both choices have one reference");
+    let last = Cell::new((0, 0));
+    first.draw_reference(&choices[0], 0, &|done, of| last.set((done, of))).expect("drawn");
+    assert!(last.get().0 > 0 && last.get().0 == last.get().1, "{last:?}");
+    assert!(missing(&mut bench(device, &program)).is_empty(), "another bench finds it");
+    program.stopped.set(true);
+    let subject = first.subject("forward".to_owned(), &baseline).expect("planned");
+    let stopped = first.batch((&baseline, &subject), &choices, &|_| (), &mut Vec::new());
+    assert!(matches!(stopped, Err(framewright_lab::Error::Stopped { drawn: 0, .. })), "{stopped:?}");
+}
