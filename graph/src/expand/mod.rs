@@ -29,6 +29,7 @@ mod padding;
 mod params;
 mod parts;
 mod passes;
+mod places;
 mod precision;
 mod resources;
 mod rotation;

@@ -2,7 +2,7 @@
 
 use super::resources::Resources;
 use crate::base::{Diagnostic, Span};
-use crate::frame::Image;
+use crate::frame::{Image, check};
 use crate::language::{ImagePart, Selection};
 use crate::ron::Spanned;
 use crate::vulkan::{Aspects, Shape, Subresources};
@@ -95,6 +95,11 @@ fn selected(
         }
         Some((count, _)) => (first, count),
     }
+}
+
+/// Reports a part of several mip levels of `image`, where one is needed.
+pub(super) fn several_levels(resources: &Resources<'_>, part: &ImagePart, image: &Image, what: &str) -> Diagnostic {
+    check::transfers::several_levels(image, [place(part), resources.declared(part.image.index).mips.span], what)
 }
 
 /// Where the file names a part: the mip level or layer if it says one, else the image.

@@ -1,5 +1,6 @@
 //! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
+use super::places::OfFile;
 use super::resources::Resources;
 use super::shader::{self, Checked};
 use super::{
@@ -30,7 +31,7 @@ pub(super) fn lower(
         *shader = found.clone();
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
-    transfers::draw_part(resources, &mut lowered, errors);
+    transfers::draw_part(&OfFile { resources, pass }, &mut lowered, errors);
     supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);

@@ -3,7 +3,7 @@
 use super::parts::Cells;
 use super::resources::Resources;
 use super::shader::{self, PARAMS, shape_words};
-use super::{accesses, arrays, parts, sampled, transfers, work};
+use super::{accesses, arrays, parts, sampled, work};
 use crate::base::{Diagnostic, Span, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
@@ -246,8 +246,8 @@ impl ImageCheck<'_> {
             let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
             errors.push(Diagnostic::new(span, message));
         }
-        if transfers::one_mip(self.resources, image, self.part, &cells, "the shader accesses", errors).is_none() {
-            return;
+        if cells.mips.len() != 1 {
+            return errors.push(parts::several_levels(self.resources, self.part, image, "the shader accesses"));
         }
         let here =
             |message: String| Diagnostic::new(self.part.image.span, message).label(declared.format.span, "its format");

@@ -2,7 +2,7 @@
 
 use super::images::FrameImage;
 use super::resources::Resources;
-use super::{coverage, fills, parts, transfers};
+use super::{coverage, fills, parts};
 use crate::base::Diagnostic;
 use crate::frame::{Blend, Remark, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
@@ -101,7 +101,10 @@ fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec
     if !known.is_empty() {
         return None;
     }
-    transfers::one_mip(resources, image, part, &parts::cells(image, &range), "is drawn into", errors)?;
+    if image.part(range).mips != 1 {
+        errors.push(parts::several_levels(resources, part, image, "is drawn into"));
+        return None;
+    }
     let shape = image.target_shape(range);
     let layers = shape.layers;
     if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {

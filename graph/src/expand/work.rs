@@ -1,9 +1,10 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
+use super::places::OfFile;
 use super::resources::Resources;
 use super::{coverage, fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Draw, Groups, Pass, Work};
+use crate::frame::{Draw, Groups, Pass, Work, check};
 use crate::language::{self, Groups as Described, MOST_GROUPS};
 use crate::ron::{Name, Spanned};
 use crate::shader::ShaderInterface;
@@ -77,9 +78,8 @@ pub(super) fn check(
         language::Work::Dispatch { groups, .. } => {
             dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
-        language::Work::Copy { from, to } => transfers::copy(resources, [from, to], lowered, errors),
-        language::Work::Blit { from, to, filter } => {
-            transfers::blit(resources, [from, to], *filter, lowered, errors);
+        language::Work::Copy { .. } | language::Work::Blit { .. } => {
+            check::transfers::check(&OfFile { resources, pass }, lowered, errors);
         }
         language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
         language::Work::Custom { .. } => {}

@@ -6,6 +6,7 @@
 mod access;
 mod capture;
 pub mod change;
+pub(crate) mod check;
 mod covers;
 mod decided;
 mod draw;

@@ -3,7 +3,7 @@
 mod eyes;
 mod lifetimes;
 mod pass;
-mod transfers;
+mod program;
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View};

@@ -1,8 +1,9 @@
 //! Checks of one pass: its images and buffers, and its work.
 
 use super::lifetimes;
+use super::program::OfProgram;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
+use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -146,6 +147,25 @@ impl Check<'_> {
             return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
         }
         self.transfers();
+    }
+
+    /// Both sides of a transfer fit together.
+    #[inline]
+    pub(super) fn transfers(&mut self) {
+        let is_transfer = self.pass.work.is_transfer();
+        if is_transfer || !self.pass.transfers.is_empty() {
+            self.check_transfers();
+        }
+    }
+
+    fn check_transfers(&mut self) {
+        let (of, before) = (OfProgram { frame: self.frame, pass: self.pass }, self.errors.len());
+        check::transfers::check(&of, self.pass, self.errors);
+        of.name(&mut self.errors[before..]);
+        if let Some(why) = check::transfers::looks_beyond(&of, self.pass) {
+            let message = format!("{why}: texels beyond that part are mixed in");
+            self.errors.push(Diagnostic::new(self.pass.span, message));
+        }
     }
 
     #[cold]

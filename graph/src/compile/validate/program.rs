@@ -1,0 +1,42 @@
+//! Frames of programs as they are checked: a mistake names the pass, since it stands in no file.
+
+use crate::base::{Diagnostic, Span};
+use crate::frame::check::{Checked, Place};
+use crate::frame::{Buffer, BufferIndex, Frame, Image, ImageIndex, Pass};
+
+/// A pass of a program, and its frame.
+pub(super) struct OfProgram<'c> {
+    pub(super) frame: &'c Frame,
+    pub(super) pass: &'c Pass,
+}
+
+impl OfProgram<'_> {
+    /// Names the pass in its mistakes.
+    pub(super) fn name(&self, errors: &mut [Diagnostic]) {
+        for error in errors {
+            error.message = format!("`{}`: {}", self.pass.name, error.message);
+        }
+    }
+}
+
+impl Checked for OfProgram<'_> {
+    const OF_FILE: bool = false;
+
+    fn image(&self, index: ImageIndex) -> Option<&Image> {
+        self.frame.images.get(index.0 as usize)
+    }
+
+    fn buffer(&self, index: BufferIndex) -> Option<&Buffer> {
+        self.frame.buffers.get(index.0 as usize)
+    }
+
+    fn span(&self, place: Place) -> Span {
+        let found = match place {
+            Place::Mips(image) | Place::Samples(image) => self.image(image).map(|image| image.span),
+            Place::Buffer(buffer) => self.buffer(buffer).map(|buffer| buffer.span),
+            Place::Side(at) | Place::PartOfSide(at) => self.pass.transfers.get(at).map(|side| side.span),
+            Place::Filter => None,
+        };
+        found.unwrap_or(self.pass.span)
+    }
+}

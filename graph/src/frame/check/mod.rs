@@ -1,0 +1,40 @@
+//! The rules of a frame, for pipeline files and programs alike. Each is checked, and its mistake put into words, here alone.
+//!
+//! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong.
+
+pub(crate) mod transfers;
+
+use super::{Buffer, BufferIndex, Image, ImageIndex};
+use crate::base::Span;
+
+/// What is checked: images and buffers, as far as they are known, and the places of mistakes.
+pub(crate) trait Checked {
+    /// Whether it comes from a file. A program may do some things that no file may.
+    const OF_FILE: bool;
+
+    /// An image; `None` if it is wrong itself.
+    fn image(&self, index: ImageIndex) -> Option<&Image>;
+
+    /// A buffer; `None` if it is wrong itself.
+    fn buffer(&self, index: BufferIndex) -> Option<&Buffer>;
+
+    /// Where something is said.
+    fn span(&self, place: Place) -> Span;
+}
+
+/// A place that a mistake is about. The sides of a transfer are its source (0) and its target (1).
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place {
+    /// The mip levels of an image, where it is declared.
+    Mips(ImageIndex),
+    /// The samples of an image, where it is declared.
+    Samples(ImageIndex),
+    /// A buffer, where it is declared.
+    Buffer(BufferIndex),
+    /// A side, where the pass names the image or buffer.
+    Side(usize),
+    /// The mip level or layer of a side, where the pass names it.
+    PartOfSide(usize),
+    /// The filter of a blit.
+    Filter,
+}
