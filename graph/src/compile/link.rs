@@ -1,11 +1,10 @@
-//! `link`: follows the contents of each part through the passes. Checks that earlier passes wrote all that is read, and finds
-//! out what is kept and whether all passes are needed.
-//!
-//! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
+//! `link`: follows the contents of each part through the passes. Refuses passes that read what nothing wrote, and finds out what
+//! is kept and whether all passes are needed.
 
 use super::parts::Parts;
 use crate::base::Diagnostic;
-use crate::frame::{Access, BufferIndex, Frame, ImageIndex, Lifetime, Pass, Resource};
+use crate::frame::check::contents::{Contents, NOTHING, Reader, Unwritten};
+use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Resource};
 use std::ops::Range;
 
 /// What a frame leaves, and whether any pass can be culled.
@@ -19,17 +18,11 @@ pub(super) struct Linked {
 
 pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagnostic>> {
     let mut kept: Vec<Range<usize>> = Vec::new();
-    let mut linker = Linker {
-        parts,
-        writers: vec![NOTHING; parts.len()],
-        needed: vec![false; frame.passes.len() + 1],
-        written: Vec::with_capacity(8),
-        errors: Vec::new(),
-    };
-    let mut begin = |resource: Resource, lifetime: &Lifetime| {
-        kept.push(parts.of(resource));
-        if lifetime.has_contents(resource) {
-            linker.writers[parts.of(resource)].fill(BEFORE);
+    let mut contents = Contents::new(parts);
+    let mut begin = |of: Resource, lifetime: &Lifetime| {
+        kept.push(parts.of(of));
+        if lifetime.has_contents(of) {
+            contents.begin(of);
         }
     };
     for (image, number) in frame.images.iter().zip(0..).filter(|(image, _)| image.lifetime.outlives_frame()) {
@@ -38,93 +31,70 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
     for (buffer, number) in frame.buffers.iter().zip(0..).filter(|(buffer, _)| buffer.lifetime.outlives_frame()) {
         begin(Resource::Buffer(BufferIndex(number)), &buffer.lifetime);
     }
+    let mut linker = Linker { frame, pass: 0, needed: vec![false; frame.passes.len() + 1], errors: Vec::new() };
     for (pass, number) in frame.passes.iter().zip(1_u32..) {
-        linker.pass(pass, number);
+        linker.pass = number;
+        contents.pass(pass, number, &mut linker);
     }
     for output in &frame.outputs {
-        let of_output = parts.of(output.resource);
-        if linker.writers[of_output.clone()].contains(&NOTHING) {
-            let name = parts.name(output.resource);
-            linker.errors.push(
-                Diagnostic::new(output.span, format!("output `{name}` is never written"))
-                    .help("let a pass write it, or take it out of `outputs`"),
-            );
-        }
-        kept.push(of_output);
+        contents.output(output.resource, output.span, &mut linker);
+        kept.push(parts.of(output.resource));
     }
-    let Linker { writers, mut needed, errors, .. } = linker;
+    let Linker { mut needed, errors, .. } = linker;
     if !errors.is_empty() {
         return Err(errors);
     }
-    for writer in kept.iter().flat_map(|parts| &writers[parts.clone()]).filter(|writer| **writer != NOTHING) {
-        needed[*writer as usize] = true;
-    }
+    let writers = kept.iter().flat_map(|parts| &contents.writers[parts.clone()]);
+    writers.filter(|writer| **writer != NOTHING).for_each(|writer| needed[*writer as usize] = true);
     // `needed` may mark too many passes, never too few: a read counts even if its pass is culled. `all_are_needed` is exact, because
     // all passes behind the last culled one stay, and none of them reads its writes.
     let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
     Ok(Linked { kept, all_are_needed })
 }
 
-/// A part has no contents.
-const NOTHING: u32 = u32::MAX;
-/// A part has contents from before the first pass.
-const BEFORE: u32 = 0;
-
 struct Linker<'l> {
-    parts: &'l Parts<'l>,
-    /// The last pass that wrote each part, counted from 1; [`NOTHING`], [`BEFORE`].
-    writers: Vec<u32>,
+    frame: &'l Frame,
+    /// The number of the current pass, counted from 1.
+    pass: u32,
     /// Whether each pass, counted from 1, wrote what a later one reads; the entry before them stands for contents from before.
     needed: Vec<bool>,
-    /// The parts that the current pass writes.
-    written: Vec<u32>,
     errors: Vec<Diagnostic>,
 }
 
-impl Linker<'_> {
-    /// Links one pass. Later passes alone can read its writes, so these are noted once all its reads are known.
-    #[inline]
-    fn pass(&mut self, pass: &Pass, number: u32) {
-        let parts = self.parts;
-        parts.for_each_access(pass, |access, part, reads, writes| {
-            if reads {
-                if self.writers[part as usize] == NOTHING {
-                    // Reported once for each part.
-                    self.writers[part as usize] = BEFORE;
-                    self.report_unwritten(pass, access, writes);
-                }
-                self.needed[self.writers[part as usize] as usize] = true;
-            }
-            if writes {
-                self.written.push(part);
-            }
-        });
-        for part in &self.written {
-            if std::mem::replace(&mut self.writers[*part as usize], number) == number {
-                let name = parts.name_of(*part);
-                let message = format!("`{}` writes `{name}` in two ways at once", pass.name);
-                self.errors.push(Diagnostic::new(pass.span, message));
-            }
-        }
-        self.written.clear();
+impl Reader for Linker<'_> {
+    #[inline(always)]
+    fn reads(&mut self, writer: u32) {
+        self.needed[writer as usize] = true;
     }
 
-    /// Reports an access that needs contents where nothing has written any.
     #[cold]
-    fn report_unwritten(&mut self, pass: &Pass, access: &Access<'_>, writes: bool) {
-        let (name, pass, span) = (self.parts.name(access.resource()), &pass.name, access.span());
-        let message = if writes {
-            format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched")
-        } else {
-            format!("`{pass}` reads `{name}` before anything has written it")
+    fn unwritten(&mut self, Unwritten { of, access, writes, span, .. }: Unwritten<'_>) {
+        let name = self.frame.name(of);
+        let pass = || &self.frame.passes[self.pass as usize - 1].name;
+        let (message, help) = match (access, writes) {
+            (None, _) => {
+                (format!("output `{name}` is never written"), "let a pass write it, or take it out of `outputs`")
+            }
+            (Some(_), true) => {
+                let message =
+                    format!("`{}` is the first to write `{name}`, and may leave parts of it untouched", pass());
+                (message, "clear it")
+            }
+            (Some(_), false) => {
+                let message = format!("`{}` reads `{name}` before anything has written it", pass());
+                (message, "a pass reads what passes above it wrote")
+            }
         };
-        let help = if writes { "clear it" } else { "a pass reads what passes above it wrote" };
-        let repeated = self
-            .errors
-            .last()
-            .is_some_and(|last| last.message == message && last.labels.first().is_some_and(|label| label.span == span));
-        if !repeated {
+        let same = |last: &&Diagnostic| last.labels.first().is_some_and(|label| label.span == span);
+        if self.errors.last().filter(same).is_none_or(|last| last.message != message) {
             self.errors.push(Diagnostic::new(span, message).help(help));
         }
+    }
+
+    #[cold]
+    fn writes_twice(&mut self, of: Resource) {
+        let (pass, name) = (&self.frame.passes[self.pass as usize - 1], self.frame.name(of));
+        let message = format!("`{}` writes `{name}` in two ways at once", pass.name);
+        self.errors.push(Diagnostic::new(pass.span, message));
     }
 }

@@ -6,29 +6,6 @@ use crate::frame::{Image, check};
 use crate::language::{ImagePart, Selection};
 use crate::ron::Spanned;
 use crate::vulkan::{Aspects, Shape, Subresources};
-use std::ops::Range;
-
-/// A part of an image, counted out.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Cells {
-    pub(super) mips: Range<u32>,
-    pub(super) layers: Range<u32>,
-    pub(super) planes: Aspects,
-}
-
-/// A part of `image`, counted out.
-pub(super) fn cells(image: &Image, range: &Subresources) -> Cells {
-    let counted = |base: u32, count: u32, all: u32| match count {
-        Subresources::REMAINING => base..all.max(base),
-        count => base..base.saturating_add(count).min(all.max(base)),
-    };
-    let all = image.format.aspects();
-    Cells {
-        mips: counted(range.base_mip, range.mips, image.mips),
-        layers: counted(range.base_layer, range.layers, image.layers),
-        planes: if range.aspects.is_empty() { all } else { range.aspects & all },
-    }
-}
 
 /// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
 pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String {

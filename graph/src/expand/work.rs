@@ -60,9 +60,9 @@ fn groups(resources: &Resources<'_>, groups: &Described) -> Groups {
 /// Width, height, and depth or layers of a part of an image.
 fn texels(resources: &Resources<'_>, part: &language::ImagePart) -> [u32; 3] {
     let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
-    let cells = parts::cells(image, &parts::range(resources, part, &mut Vec::new()));
-    let [width, height, depth] = image.extent_at(cells.mips.start);
-    [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
+    let part = image.part(parts::range(resources, part, &mut Vec::new()));
+    let [width, height, depth] = image.extent_at(part.base_mip);
+    [width, height, depth.saturating_mul(part.layers)]
 }
 
 /// Reports work that the pass can't do.

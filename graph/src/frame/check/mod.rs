@@ -2,6 +2,7 @@
 //!
 //! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong.
 
+pub(crate) mod contents;
 pub(crate) mod transfers;
 
 use super::{Buffer, BufferIndex, Image, ImageIndex};
