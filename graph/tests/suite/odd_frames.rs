@@ -69,13 +69,13 @@ fn what_cannot_be_is_refused_in_words() {
             frame.images[0].layers = u32::MAX;
             frame.images[0].extent = [16384, 16384, 1];
         }),
-        ("has 0 mip levels; its size allows 1 to 7", |frame| noise(frame).mips = 0),
-        ("has 8 mip levels", |frame| noise(frame).mips = 8),
-        ("has 4294967295 mip levels", |frame| noise(frame).mips = u32::MAX),
+        ("`noise` can't have 0 mip levels: 64×64 texels have 7", |frame| noise(frame).mips = 0),
+        ("can't have 8 mip levels", |frame| noise(frame).mips = 8),
+        ("can't have 4294967295 mip levels", |frame| noise(frame).mips = u32::MAX),
         ("has no layers", |frame| noise(frame).layers = 0),
         ("has 0 samples", |frame| noise(frame).samples = 0),
         ("has 3 samples", |frame| noise(frame).samples = 3),
-        ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
+        ("`color` has 4 samples, so it is two-dimensional and has one mip level", |frame| frame.images[0].mips = 2),
         ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
         ("`blend` draws into `screen`, which is three-dimensional", |frame| {
             frame.images[2].extent[2] = 2;

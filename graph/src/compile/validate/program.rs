@@ -32,7 +32,7 @@ impl Checked for OfProgram<'_> {
 
     fn span(&self, place: Place) -> Span {
         let found = match place {
-            Place::Mips(image) | Place::Samples(image) => self.image(image).map(|image| image.span),
+            Place::Image(image, _) => self.image(image).map(|image| image.span),
             Place::Buffer(buffer) => self.buffer(buffer).map(|buffer| buffer.span),
             Place::Side(at) | Place::PartOfSide(at) => self.pass.transfers.get(at).map(|side| side.span),
             Place::Filter => None,

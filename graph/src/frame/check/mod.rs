@@ -3,6 +3,7 @@
 //! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong.
 
 pub(crate) mod contents;
+pub(crate) mod images;
 pub(crate) mod transfers;
 
 use super::{Buffer, BufferIndex, Image, ImageIndex};
@@ -26,10 +27,8 @@ pub(crate) trait Checked {
 /// A place that a mistake is about. The sides of a transfer are its source (0) and its target (1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Place {
-    /// The mip levels of an image, where it is declared.
-    Mips(ImageIndex),
-    /// The samples of an image, where it is declared.
-    Samples(ImageIndex),
+    /// A property of an image, where it is declared.
+    Image(ImageIndex, Property),
     /// A buffer, where it is declared.
     Buffer(BufferIndex),
     /// A side, where the pass names the image or buffer.
@@ -38,4 +37,16 @@ pub(crate) enum Place {
     PartOfSide(usize),
     /// The filter of a blit.
     Filter,
+}
+
+/// A property of an image.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Property {
+    Format,
+    Size,
+    Shape,
+    Mips,
+    Layers,
+    Samples,
+    Lifetime,
 }

@@ -1,6 +1,6 @@
 //! Copies, blits and fills: both sides fit together.
 
-use super::{Checked, Place};
+use super::{Checked, Place, Property};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Resource, TransferUse, Work};
 use crate::vulkan::{Aspects, Filter, Shape, Subresources};
@@ -96,7 +96,8 @@ impl<'c, C: Checked> Check<'c, C> {
         if side.part.mips == 1 {
             return Some(side);
         }
-        let places = [Place::PartOfSide(at), Place::Mips(side.index)].map(|place| self.checked.span(place));
+        let places =
+            [Place::PartOfSide(at), Place::Image(side.index, Property::Mips)].map(|place| self.checked.span(place));
         self.errors.push(several_levels(side.image, places, "is copied"));
         None
     }
@@ -165,7 +166,7 @@ impl<'c, C: Checked> Check<'c, C> {
             self.errors.push(wrong.help("a copy takes bits as they are: a blit or a draw converts"));
         }
         if one.samples != other.samples && (C::OF_FILE || other.samples > 1) {
-            let declared = self.checked.span(Place::Samples(from.index));
+            let declared = self.checked.span(Place::Image(from.index, Property::Samples));
             let wrong = differ("sample counts").remark(format!("{}× a texel", other.samples));
             self.errors.push(wrong.label(declared, format!("{}× a texel", one.samples)));
         }
