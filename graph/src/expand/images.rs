@@ -3,7 +3,7 @@
 use super::follow::follow_all;
 use super::shapes;
 use crate::base::Diagnostic;
-use crate::frame::{self, Image, Lifetime};
+use crate::frame::{self, Image, Lifetime, check};
 use crate::language::{self, Format as Described, ImageRef, Mips, Pipeline, Resolves, Samples};
 use crate::vulkan::{Format, Rotation, Shape};
 use std::sync::Arc;
@@ -137,11 +137,6 @@ fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -
 impl FrameImage {
     /// How many samples, and why: "4 samples (msaa = 4)".
     pub(super) fn samples_words(&self) -> String {
-        let samples = self.image.samples;
-        let count = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
-        match &self.samples_because {
-            Some(because) => format!("{count} ({because})"),
-            None => count,
-        }
+        check::targets::samples_words(self.image.samples, self.samples_because.as_deref())
     }
 }

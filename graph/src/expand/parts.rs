@@ -7,14 +7,6 @@ use crate::language::{ImagePart, Selection};
 use crate::ron::Spanned;
 use crate::vulkan::{Aspects, Shape, Subresources};
 
-/// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
-pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String {
-    match image.allocated {
-        Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
-        None => format!("{width}×{height}"),
-    }
-}
-
 /// The part that a pass names; all of the image if it names no more than the image, or after a mistake was reported.
 pub(super) fn range(resources: &Resources<'_>, part: &ImagePart, errors: &mut Vec<Diagnostic>) -> Subresources {
     let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return Subresources::WHOLE };

@@ -6,6 +6,7 @@ use super::resources::Resources;
 use super::shader::{self, shape_words};
 use super::{arrays, compared, storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
+use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, Sampled};
 use crate::language::{self, Face};
 use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
@@ -400,9 +401,9 @@ impl Check<'_> {
                 image.name, self.pass.name.text
             );
             let levels = self.part.mips;
-            let more = parts::size_words(own, image)
-                + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
-            let targets = format!("`{}` is {}", target.name, parts::size_words(drawn, target));
+            let more =
+                size_words(own, image) + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
+            let targets = format!("`{}` is {}", target.name, size_words(drawn, target));
             errors.push(Diagnostic::new(span, message).remark(more).help(targets));
         }
     }

@@ -65,6 +65,9 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     frame.images.iter().for_each(|image| check::images::check(image, image, &mut errors));
+    for pass in &frame.passes {
+        Check { frame, pass, errors: &mut errors }.targets();
+    }
     let views = || !frame.views.iter().any(has_no_texels);
     errors.is_empty() && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
 }

@@ -3,8 +3,9 @@
 use super::lifetimes;
 use super::program::OfProgram;
 use crate::base::{Diagnostic, Span};
+use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
 use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
-use crate::vulkan::{Shape, Stages, Subresources};
+use crate::vulkan::{Stages, Subresources};
 
 /// The check of a pass.
 pub(super) struct Check<'c> {
@@ -66,10 +67,19 @@ impl Check<'_> {
             self.inside(image, range, span);
         }
         if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
-            self.one_mip(image, range, span);
+            self.named(undrawable(image, range, image, [span, span]));
         }
-        if matches!(access, Access::Depth(_)) && !image.format.is_depth() {
-            self.wrong(span, "tests depth in an image that has none");
+        if let Access::Depth(_) = access {
+            self.named(without_depth(image, image, span));
+        }
+    }
+
+    /// Reports a mistake that doesn't say in which pass it is.
+    #[inline]
+    fn named(&mut self, wrong: Option<Diagnostic>) {
+        if let Some(wrong) = wrong {
+            let message = format!("`{}`: {}", self.pass.name, wrong.message);
+            self.errors.push(Diagnostic { message, ..wrong });
         }
     }
 
@@ -106,15 +116,6 @@ impl Check<'_> {
         }
     }
 
-    /// The target of a draw, and both sides of a forward, are one mip level of a flat image.
-    fn one_mip(&mut self, image: &Image, range: Subresources, span: Span) {
-        if image.shape == Shape::D3 {
-            self.wrong(span, &format!("draws into `{}`, which is three-dimensional", image.name));
-        } else if image.part(range).mips > 1 {
-            self.wrong(span, &format!("draws into `{}`, which has mip levels: it can be only one of them", image.name));
-        }
-    }
-
     pub(super) fn work(&mut self) {
         let pass = self.pass;
         let attached = !pass.color.is_empty() || pass.depth.is_some();
@@ -124,6 +125,7 @@ impl Check<'_> {
             (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
             _ => {}
         }
+        self.targets();
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
         if let Some(sampled) = pass.sampled.iter().find(|sampled| !fits(sampled.stages)) {
             return self.wrong_stages(&sampled.binding);
@@ -149,6 +151,22 @@ impl Check<'_> {
         self.transfers();
     }
 
+    /// The images that it draws into agree.
+    #[inline]
+    pub(super) fn targets(&mut self) {
+        let Check { frame, pass, errors } = self;
+        let several = pass.color.len() + usize::from(pass.depth.is_some()) > 1;
+        if several {
+            let color = pass.color.iter().map(|target| (target.image, target.range, target.span));
+            let depth = pass.depth.iter().map(|target| (target.image, target.range, target.span));
+            let targets = color.chain(depth).map(|(image, range, span)| {
+                let image = &frame.images[image.0 as usize];
+                Target { image, range, span, samples_because: None }
+            });
+            agree(&pass.name, targets, errors);
+        }
+    }
+
     /// Both sides of a transfer fit together.
     #[inline]
     pub(super) fn transfers(&mut self) {
@@ -159,9 +177,10 @@ impl Check<'_> {
     }
 
     fn check_transfers(&mut self) {
-        let (of, before) = (OfProgram { frame: self.frame, pass: self.pass }, self.errors.len());
-        check::transfers::check(&of, self.pass, self.errors);
-        of.name(&mut self.errors[before..]);
+        let of = OfProgram { frame: self.frame, pass: self.pass };
+        let mut wrong = Vec::new();
+        check::transfers::check(&of, self.pass, &mut wrong);
+        wrong.into_iter().for_each(|wrong| self.named(Some(wrong)));
         if let Some(why) = check::transfers::looks_beyond(&of, self.pass) {
             let message = format!("{why}: texels beyond that part are mixed in");
             self.errors.push(Diagnostic::new(self.pass.span, message));

@@ -1,6 +1,6 @@
-//! Frames of programs as they are checked: a mistake names the pass, since it stands in no file.
+//! Frames of programs as they are checked: no file says where a mistake is.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::Span;
 use crate::frame::check::{Checked, Place};
 use crate::frame::{Buffer, BufferIndex, Frame, Image, ImageIndex, Pass};
 
@@ -8,15 +8,6 @@ use crate::frame::{Buffer, BufferIndex, Frame, Image, ImageIndex, Pass};
 pub(super) struct OfProgram<'c> {
     pub(super) frame: &'c Frame,
     pub(super) pass: &'c Pass,
-}
-
-impl OfProgram<'_> {
-    /// Names the pass in its mistakes.
-    pub(super) fn name(&self, errors: &mut [Diagnostic]) {
-        for error in errors {
-            error.message = format!("`{}`: {}", self.pass.name, error.message);
-        }
-    }
 }
 
 impl Checked for OfProgram<'_> {

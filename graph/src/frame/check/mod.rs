@@ -4,6 +4,7 @@
 
 pub(crate) mod contents;
 pub(crate) mod images;
+pub(crate) mod targets;
 pub(crate) mod transfers;
 
 use super::{Buffer, BufferIndex, Image, ImageIndex};
