@@ -164,19 +164,15 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
 /// The mistake in an output's encoding, if the output's format can't hold it.
 fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
     let encoding = output.encoding?;
-    let name = encoding.name();
-    let image = match output.resource {
-        Resource::Image(image) => &frame.images[image.0 as usize],
-        Resource::Buffer(buffer) => {
-            let message =
-                format!("`{}` is a buffer and has no encoding `{name}`", frame.buffers[buffer.0 as usize].name);
-            return Some(Diagnostic::new(output.span, message).help("leave `encoding` out"));
+    match output.resource {
+        Resource::Image(image) => {
+            let image = &frame.images[image.0 as usize];
+            check::images::wrong_encoding(image, encoding, image, output.span)
         }
-    };
-    if encoding.fits(image.format) {
-        return None;
+        Resource::Buffer(_) => {
+            let message =
+                format!("`{}` is a buffer and has no encoding `{}`", frame.name(output.resource), encoding.name());
+            Some(Diagnostic::new(output.span, message).help("leave `encoding` out"))
+        }
     }
-    let message = format!("`{}` can't leave the frame as `{name}`: it is {}", image.name, image.format);
-    let help = encoding.help(&image.name);
-    Some(Diagnostic::new(output.span, message).label(image.span, "declared here").help(help))
 }

@@ -3,7 +3,7 @@
 use super::Property;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Image, Lifetime, SAMPLE_COUNTS};
-use crate::vulkan::Shape;
+use crate::vulkan::{Encoding, Shape};
 
 /// Where an image is declared.
 pub(crate) trait Declaration {
@@ -32,6 +32,23 @@ impl Declaration for Image {
     }
 }
 
+/// What is wrong with an output that is to leave the frame in an encoding, if anything is: its format holds the encoding. `here`: where
+/// the encoding is asked for.
+pub(crate) fn wrong_encoding(
+    image: &Image,
+    encoding: Encoding,
+    declared: &impl Declaration,
+    here: Span,
+) -> Option<Diagnostic> {
+    let Image { name, format, .. } = image;
+    let wrong = || {
+        let message = format!("`{name}` can't leave the frame as `{}`: it is {format}", encoding.name());
+        let wrong = Diagnostic::new(here, message).label(declared.span(Property::Format), "its format");
+        wrong.help(encoding.help(name))
+    };
+    (!encoding.fits(*format)).then(wrong)
+}
+
 /// Mip levels from the largest, which has at least one texel, down to a single texel.
 pub(crate) const fn most_levels([width, height, depth]: [u32; 3]) -> u32 {
     (width | height | depth).ilog2() + 1
@@ -50,8 +67,8 @@ pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec
         let what = format!("is {width}×{height}×{depth}; each side has at least 1 texel");
         return errors.push(wrong(Property::Size, what));
     }
-    let most = most_levels(extent);
-    if mips == 0 || mips > most {
+    if mips != 1 && !(1..=most_levels(extent)).contains(&mips) {
+        let most = most_levels(extent);
         let extent = if depth > 1 { format!("{width}×{height}×{depth}") } else { format!("{width}×{height}") };
         let what = format!("can't have {mips} mip levels: {extent} texels have {most}");
         errors.push(wrong(Property::Mips, what).help("write `Full`: as many as there are"));

@@ -70,7 +70,7 @@ pub(crate) fn undrawable(
     declared: &impl Declaration,
     at: [Span; 2],
 ) -> Option<Diagnostic> {
-    let fits = image.shape != Shape::D3 && image.part(range).mips == 1;
+    let fits = image.shape != Shape::D3 && image.part(range).mips <= 1;
     (!fits).then(|| wrong_part(image, declared, at))
 }
 
