@@ -44,7 +44,7 @@ impl CutImages {
 
 /// The contents before the first pass. Something that is wrong itself counts as written: nothing more is said of it.
 pub(super) fn contents<'p>(resources: &Resources<'_>, parts: &'p Parts<'p>) -> Contents<'p> {
-    let mut contents = Contents::new(parts);
+    let mut contents = Contents::new(parts, resources.pipeline.passes.len());
     let images = (0..).map(|at| Resource::Image(ImageIndex(at))).take(resources.images.len());
     let buffers = (0..).map(|at| Resource::Buffer(BufferIndex(at))).take(resources.buffers.len());
     let holds = |of: &Resource| resources.lifetime(*of).is_none_or(|lifetime| lifetime.has_contents(*of));

@@ -29,7 +29,6 @@ mod padding;
 mod params;
 mod parts;
 mod passes;
-mod places;
 mod precision;
 mod resources;
 mod rotation;

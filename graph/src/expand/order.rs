@@ -6,9 +6,9 @@ use super::state::State;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
 use crate::base::{Diagnostic, Span, keep};
-use crate::frame::check::contents::Unwritten;
+use crate::frame::check::contents::{Demand, Unwritten};
 use crate::frame::tracked::Parts;
-use crate::frame::{Access, Lifetime, Output, Pass, Resource};
+use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
 use crate::vulkan::{Aspects, Subresources};
 use std::fmt::Display;
@@ -40,50 +40,49 @@ pub(super) fn check(
         let name = &described.name.text;
         let before = check.errors.len();
         match state {
-            State::On(pass) => contents.pass(pass, number, &mut |found: Unwritten<'_>| {
-                check.unwritten(position, pass, found, &format_args!("pass `{name}`"));
-            }),
+            State::On(pass) => {
+                for found in contents.pass(pass, number) {
+                    check.unwritten(position, pass, &found, &format_args!("pass `{name}`"));
+                }
+            }
             State::Off { stand_ins, .. } => {
                 for (pass, stand_in) in stand_ins.iter().zip(&described.otherwise) {
-                    contents.pass(pass, number, &mut |found: Unwritten<'_>| {
+                    for found in contents.pass(pass, number) {
                         let span = match stand_in {
                             StandIn::Forward(forward) => forward.from.span,
                             StandIn::Clear { .. } => found.span,
                         };
                         let reader = format_args!("the stand-in of pass `{name}`");
-                        check.unwritten(position, pass, Unwritten { span, ..found }, &reader);
-                    });
+                        check.needs(position, &Unwritten { span, ..found }, &reader);
+                    }
                 }
             }
         }
         super::instances::used_here(resources.pipeline, described.instance, &mut check.errors[before..]);
     }
-    for (position, state) in states.iter().enumerate() {
-        let name = &resources.pipeline.passes[position].name.text;
-        for pass in state.runs() {
-            contents.earlier(pass, &mut |found: Unwritten<'_>| {
-                check.needs(states.len(), &found, &format_args!("pass `{name}`"));
-            });
+    for (state, described) in states.iter().zip(&resources.pipeline.passes) {
+        for found in state.runs().iter().flat_map(|pass| contents.earlier(pass)).collect::<Vec<_>>() {
+            check.needs(states.len(), &found, &format_args!("pass `{}`", described.name.text));
         }
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        contents.output(output.resource, output.span, &mut |found: Unwritten<'_>| {
+        if let Some(found) = contents.output(output.resource, output.span) {
             check.needs(states.len(), &found, &reader);
-        });
+        }
     }
 }
 
 impl Check<'_> {
-    fn unwritten(&mut self, position: usize, pass: &Pass, found: Unwritten<'_>, reader: &dyn Display) {
-        match found.access.filter(|access| access.attaches()) {
-            Some(target) => self.continues(position, pass, &found, target),
-            None => self.needs(position, &found, reader),
+    fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: &dyn Display) {
+        match found.demand {
+            Demand::Color | Demand::Depth => self.continues(position, pass, found),
+            Demand::Read | Demand::Earlier | Demand::Output => self.needs(position, found, reader),
         }
     }
 
     /// `reader` reads a part that nothing has written.
-    fn needs(&mut self, position: usize, found: &Unwritten<'_>, reader: &dyn Display) {
+    fn needs(&mut self, position: usize, found: &Unwritten, reader: &dyn Display) {
         let Unwritten { of, span, .. } = *found;
         let what = self.words(found);
         let declared = self.resources.name(of);
@@ -110,7 +109,7 @@ impl Check<'_> {
                     wrong.help("let another pass fill it then, such as `fill: (to: \"…\", value: 0)`")
                 }
             }
-        } else if found.access.is_some_and(|access| access.frames_ago() > 0) {
+        } else if found.demand == Demand::Earlier {
             let message = format!("{reader} reads what an earlier frame left of {what}, but no pass writes it");
             let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "declared here");
             wrong.help("each frame writes what has history anew")
@@ -138,7 +137,7 @@ impl Check<'_> {
     }
 
     /// A read that stands before the first write.
-    fn too_early(&self, position: usize, found: &Unwritten<'_>, what: &str, writer: Writer) -> Diagnostic {
+    fn too_early(&self, position: usize, found: &Unwritten, what: &str, writer: Writer) -> Diagnostic {
         let Unwritten { of, span, needed, .. } = *found;
         let wrong = Diagnostic::new(span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
@@ -190,7 +189,7 @@ impl Check<'_> {
     }
 
     /// A draw is added to a target of which nothing has written a part.
-    fn continues(&mut self, position: usize, pass: &Pass, found: &Unwritten<'_>, target: &Access<'_>) {
+    fn continues(&mut self, position: usize, pass: &Pass, found: &Unwritten) {
         let Unwritten { of, span, needed, missing, .. } = *found;
         let what = self.words(found);
         let name = &self.resources.name(of).text;
@@ -216,8 +215,8 @@ impl Check<'_> {
             several if several == whole.layers => ", layers: Rest".to_owned(),
             several => format!(", layer: {}, layers: {several}", needed.base_layer),
         };
-        let clear = match target {
-            Access::Color(_) => "clear: (0.0, 0.0, 0.0, 1.0)",
+        let clear = match found.demand {
+            Demand::Color => "clear: (0.0, 0.0, 0.0, 1.0)",
             _ if needed.aspects == Aspects::STENCIL => "stencil: (clear: 0)",
             _ => "clear: 0.0",
         };
@@ -237,7 +236,7 @@ impl Check<'_> {
     }
 
     /// "`color`", or "mip level 2 of `color`" where only a part is missing.
-    fn words(&self, found: &Unwritten<'_>) -> String {
+    fn words(&self, found: &Unwritten) -> String {
         let Unwritten { of, needed, missing, is_blank, .. } = *found;
         let (name, whole) = (&self.resources.name(of).text, self.parts.part(of, Subresources::WHOLE));
         if is_blank && needed == whole {

@@ -1,8 +1,8 @@
 //! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
-use super::places::OfFile;
 use super::resources::Resources;
 use super::shader::{self, Checked};
+use super::transfers::OfFile;
 use super::{
     coverage, fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets,
     transfers, variant, work,

@@ -1,14 +1,45 @@
 //! Copies, blits and fills as the file says them.
 
-use super::fills;
-use super::places::OfFile;
 use super::resources::Resources;
-use crate::base::Diagnostic;
-use crate::frame::check::Checked;
+use super::{fills, parts};
+use crate::base::{Diagnostic, Span};
+use crate::frame::check::images::Declaration;
 use crate::frame::check::transfers::looks_beyond;
-use crate::frame::{Pass, Work};
-use crate::language::{Fill, Part};
+use crate::frame::check::{Checked, Place};
+use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Work};
+use crate::language::{self, Fill, Part};
 use crate::ron::Spanned;
+
+/// A pass of the file, and everything that it names.
+pub(super) struct OfFile<'a> {
+    pub(super) resources: &'a Resources<'a>,
+    pub(super) pass: &'a language::Pass,
+}
+
+impl Checked for OfFile<'_> {
+    const OF_FILE: bool = true;
+
+    fn image(&self, index: ImageIndex) -> Option<&Image> {
+        self.resources.image(index).map(|image| &image.image)
+    }
+
+    fn buffer(&self, index: BufferIndex) -> Option<&Buffer> {
+        self.resources.buffer(index)
+    }
+
+    fn span(&self, place: Place) -> Span {
+        use language::Work::{Blit, Copy};
+        match (place, &self.pass.work) {
+            (Place::Image(image, property), _) => self.resources.declared(image).at(property).0,
+            (Place::PartOfSide(at), Copy { from, to } | Blit { from, to, .. }) => match [from, to][at] {
+                Part::Image(part) => parts::place(part),
+                Part::Buffer(part) => part.buffer.span,
+            },
+            (Place::Filter, Blit { filter: Some(filter), .. }) => filter.span,
+            _ => self.pass.name.span,
+        }
+    }
+}
 
 /// Lets a draw take the place of a blit that would look beyond the part of an image that a frame uses: a blit clamps at the image's
 /// edge, and a draw at the part's.

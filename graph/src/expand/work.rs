@@ -1,7 +1,7 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
-use super::places::OfFile;
 use super::resources::Resources;
+use super::transfers::OfFile;
 use super::{coverage, fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work, check};

@@ -3,7 +3,6 @@
 mod eyes;
 mod lifetimes;
 mod pass;
-mod program;
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, View, check};

@@ -1,7 +1,6 @@
 //! Checks of one pass: its images and buffers, and its work.
 
 use super::lifetimes;
-use super::program::OfProgram;
 use crate::base::{Diagnostic, Span};
 use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
 use crate::frame::{Access, BufferRole, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
@@ -67,20 +66,19 @@ impl Check<'_> {
             self.inside(image, range, span);
         }
         if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
-            self.named(undrawable(image, range, image, [span, span]));
+            self.within(undrawable(image, range, image, [span, span]));
         }
         if let Access::Depth(_) = access {
-            self.named(without_depth(image, image, span));
+            self.within(without_depth(image, image, span));
         }
     }
 
-    /// Reports a mistake that doesn't say in which pass it is.
+    /// Reports a mistake in what the pass uses, with the name of the pass.
     #[inline]
-    fn named(&mut self, wrong: Option<Diagnostic>) {
-        if let Some(wrong) = wrong {
-            let message = format!("`{}`: {}", self.pass.name, wrong.message);
-            self.errors.push(Diagnostic { message, ..wrong });
-        }
+    fn within(&mut self, wrong: impl IntoIterator<Item = Diagnostic>) {
+        let of_pass =
+            |wrong: Diagnostic| Diagnostic { message: format!("`{}`: {}", self.pass.name, wrong.message), ..wrong };
+        self.errors.extend(wrong.into_iter().map(of_pass));
     }
 
     #[cold]
@@ -155,13 +153,10 @@ impl Check<'_> {
     #[inline]
     pub(super) fn targets(&mut self) {
         let Check { frame, pass, errors } = self;
-        let several = pass.color.len() + usize::from(pass.depth.is_some()) > 1;
-        if several {
-            let color = pass.color.iter().map(|target| (target.image, target.range, target.span));
-            let depth = pass.depth.iter().map(|target| (target.image, target.range, target.span));
-            let targets = color.chain(depth).map(|(image, range, span)| {
-                let image = &frame.images[image.0 as usize];
-                Target { image, range, span, samples_because: None }
+        if pass.color.len() + usize::from(pass.depth.is_some()) > 1 {
+            let targets = pass.accesses().filter(Access::attaches).filter_map(|target| {
+                let image = &frame.images[target.image_index()?.0 as usize];
+                Some(Target { image, range: target.range(), span: target.span(), samples_because: None })
             });
             agree(&pass.name, targets, errors);
         }
@@ -177,13 +172,12 @@ impl Check<'_> {
     }
 
     fn check_transfers(&mut self) {
-        let of = OfProgram { frame: self.frame, pass: self.pass };
+        let (frame, pass) = (self.frame, self.pass);
         let mut wrong = Vec::new();
-        check::transfers::check(&of, self.pass, &mut wrong);
-        wrong.into_iter().for_each(|wrong| self.named(Some(wrong)));
-        if let Some(why) = check::transfers::looks_beyond(&of, self.pass) {
-            let message = format!("{why}: texels beyond that part are mixed in");
-            self.errors.push(Diagnostic::new(self.pass.span, message));
+        check::transfers::check(frame, pass, &mut wrong);
+        self.within(wrong);
+        if let Some(why) = check::transfers::looks_beyond(frame, pass) {
+            self.errors.push(Diagnostic::new(pass.span, format!("{why}: texels beyond that part are mixed in")));
         }
     }
 

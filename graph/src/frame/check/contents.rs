@@ -15,15 +15,20 @@ pub(crate) const BEFORE: u32 = 0;
 /// What is written while passes are followed in their order.
 pub(crate) struct Contents<'p> {
     parts: &'p Parts<'p>,
-    /// The last pass that wrote each part, counted from 1; [`NOTHING`], [`BEFORE`]. A part that was reported as unwritten counts as
-    /// written before: one report is enough.
+    /// The last pass that wrote each part, counted from 1; [`NOTHING`], [`BEFORE`]. A part that was found unwritten counts as written
+    /// before: one mistake is enough.
     pub(crate) writers: Vec<u32>,
+    /// Whether each pass, counted from 1, wrote what a later one reads; the entry before them stands for contents from before.
+    pub(crate) needed: Vec<bool>,
+    /// Passes, counted from 1, that write something in two ways at once.
+    pub(crate) twice: Vec<(u32, Resource)>,
     /// The parts that the current pass writes.
     written: Vec<u32>,
 }
 
 /// Contents that are needed, and that nothing has written.
-pub(crate) struct Unwritten<'a> {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Unwritten {
     /// The image or buffer.
     pub(crate) of: Resource,
     /// The part that is needed, with planes named.
@@ -32,36 +37,33 @@ pub(crate) struct Unwritten<'a> {
     pub(crate) missing: Subresources,
     /// Whether nothing of the image or buffer holds anything.
     pub(crate) is_blank: bool,
-    /// Who needs it; `None`: an output.
-    pub(crate) access: Option<&'a Access<'a>>,
+    pub(crate) demand: Demand,
     /// Whether the access writes too: then it may leave parts untouched.
     pub(crate) writes: bool,
     /// Where it is named.
     pub(crate) span: Span,
 }
 
-/// Is told what passes find.
-pub(crate) trait Reader {
-    /// A pass needs what another one wrote; its number, or [`BEFORE`].
-    fn reads(&mut self, _writer: u32) {}
-
-    /// Contents are needed that nothing has written.
-    fn unwritten(&mut self, unwritten: Unwritten<'_>);
-
-    /// A pass writes a part in two ways.
-    fn writes_twice(&mut self, _of: Resource) {}
-}
-
-impl<F: FnMut(Unwritten<'_>)> Reader for F {
-    fn unwritten(&mut self, unwritten: Unwritten<'_>) {
-        self(unwritten);
-    }
+/// Who needs contents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Demand {
+    /// A pass that reads them.
+    Read,
+    /// A pass that reads what an earlier frame left.
+    Earlier,
+    /// A draw that adds to colour, or leaves some of it untouched.
+    Color,
+    /// A draw that tests depth or stencil, or leaves some of it untouched.
+    Depth,
+    /// An output.
+    Output,
 }
 
 impl<'p> Contents<'p> {
-    /// Before the first pass, where nothing has contents.
-    pub(crate) fn new(parts: &'p Parts<'p>) -> Contents<'p> {
-        Contents { parts, writers: vec![NOTHING; parts.len()], written: Vec::with_capacity(8) }
+    /// Before the first of some passes, where nothing has contents.
+    pub(crate) fn new(parts: &'p Parts<'p>, passes: usize) -> Contents<'p> {
+        let (writers, needed) = (vec![NOTHING; parts.len()], vec![false; passes + 1]);
+        Contents { parts, writers, needed, twice: Vec::new(), written: Vec::with_capacity(8) }
     }
 
     /// Lets an image or buffer have contents from before the first pass.
@@ -69,16 +71,17 @@ impl<'p> Contents<'p> {
         self.writers[self.parts.of(of)].fill(BEFORE);
     }
 
-    /// Follows one pass. Later passes alone can read its writes, so these are noted once all its reads are known.
+    /// Follows one pass, and returns what it needs and nothing has written. Later passes alone can read its writes, so these are noted
+    /// once all its reads are known.
     #[inline]
-    pub(crate) fn pass(&mut self, pass: &Pass, number: u32, reader: &mut impl Reader) {
-        let parts = self.parts;
+    pub(crate) fn pass(&mut self, pass: &Pass, number: u32) -> Vec<Unwritten> {
+        let (parts, mut found) = (self.parts, Vec::new());
         parts.for_each_access(pass, |access, part, reads, writes| {
             if reads {
                 if self.writers[part as usize] == NOTHING {
-                    self.report(pass, access, part, reader);
+                    self.unwritten_by(pass, access, part, &mut found);
                 }
-                reader.reads(self.writers[part as usize]);
+                self.needed[self.writers[part as usize] as usize] = true;
             }
             if writes {
                 self.written.push(part);
@@ -86,10 +89,11 @@ impl<'p> Contents<'p> {
         });
         for part in &self.written {
             if std::mem::replace(&mut self.writers[*part as usize], number) == number {
-                reader.writes_twice(parts.owner(*part));
+                self.twice.push((number, parts.owner(*part)));
             }
         }
         self.written.clear();
+        found
     }
 
     /// Notes what a pass writes.
@@ -107,54 +111,50 @@ impl<'p> Contents<'p> {
         parts.into_iter().any(|part| self.writers[part as usize] != NOTHING)
     }
 
-    /// After all passes: what one of them reads of earlier frames, each frame writes anew.
-    pub(crate) fn earlier(&mut self, pass: &Pass, reader: &mut impl Reader) {
+    /// What a pass reads of earlier frames and no pass of this frame writes; after all passes.
+    pub(crate) fn earlier(&mut self, pass: &Pass) -> Vec<Unwritten> {
+        let mut found = Vec::new();
         for access in pass.accesses().filter(|access| access.frames_ago() > 0) {
-            let of = access.resource();
-            access.for_each_effect(pass, self.parts.image(of), |effect| {
-                let unwritten = self.unwritten(of, effect.range);
-                unwritten.into_iter().for_each(|found| {
-                    reader.unwritten(Unwritten { span: access.span(), access: Some(&access), ..found })
-                });
+            access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
+                let unwritten = self.unwritten(access.resource(), effect.range, access.span());
+                found.extend(unwritten.map(|it| Unwritten { demand: Demand::Earlier, ..it }));
             });
         }
+        found
     }
 
-    /// After all passes: an output was written.
-    pub(crate) fn output(&mut self, of: Resource, span: Span, reader: &mut impl Reader) {
-        if let Some(found) = self.unwritten(of, Subresources::WHOLE) {
-            reader.unwritten(Unwritten { span, ..found });
-        }
+    /// What of an output, named at `span`, no pass writes; after all passes.
+    pub(crate) fn output(&mut self, of: Resource, span: Span) -> Option<Unwritten> {
+        self.unwritten(of, Subresources::WHOLE, span).map(|it| Unwritten { demand: Demand::Output, ..it })
     }
 
-    /// Reports that an access of `pass` needs contents of `part` where nothing has written any.
+    /// Finds what an access of `pass` needs of the part number `part` and beside it.
     #[cold]
-    fn report(&mut self, pass: &Pass, access: &Access<'_>, part: u32, reader: &mut impl Reader) {
+    fn unwritten_by(&mut self, pass: &Pass, access: &Access<'_>, part: u32, found: &mut Vec<Unwritten>) {
         let (parts, of) = (self.parts, access.resource());
+        let demand = match access {
+            Access::Color(_) => Demand::Color,
+            Access::Depth(_) => Demand::Depth,
+            _ => Demand::Read,
+        };
         access.for_each_effect(pass, parts.image(of), |effect| {
-            if effect.reads
-                && parts.cover(of, parts.part(of, effect.range)).contains(&part)
-                && let Some(found) = self.unwritten(of, effect.range)
-            {
-                let (span, writes) = (access.span(), effect.writes);
-                reader.unwritten(Unwritten { span, writes, access: Some(access), ..found });
+            if effect.reads && parts.cover(of, parts.part(of, effect.range)).contains(&part) {
+                let unwritten = self.unwritten(of, effect.range, access.span());
+                found.extend(unwritten.map(|it| Unwritten { demand, writes: effect.writes, ..it }));
             }
         });
     }
 
-    /// What of a part of an image, or a buffer, is unwritten, if anything is; from now on it counts as written.
-    fn unwritten(&mut self, of: Resource, range: Subresources) -> Option<Unwritten<'static>> {
+    /// What of a part of an image, or of a buffer, is unwritten, if anything is; from now on it counts as written.
+    fn unwritten(&mut self, of: Resource, range: Subresources, span: Span) -> Option<Unwritten> {
         let needed = self.parts.part(of, range);
-        let covered = self.parts.cover(of, needed);
-        let unwritten = covered.iter().filter(|part| self.writers[**part as usize] == NOTHING);
-        let ranges = unwritten.map(|part| self.parts.range(of, *part));
-        let missing = ranges.min_by_key(|range| (range.base_mip, range.aspects.bits(), range.base_layer))?;
         let is_blank = self.writers[self.parts.of(of)].iter().all(|writer| *writer == NOTHING);
-        for part in covered {
-            let writer = &mut self.writers[part as usize];
-            *writer = if *writer == NOTHING { BEFORE } else { *writer };
-        }
+        let mut covered = self.parts.cover(of, needed);
+        covered.retain(|part| self.writers[*part as usize] == NOTHING);
+        covered.iter().for_each(|part| self.writers[*part as usize] = BEFORE);
+        let missing = covered.into_iter().map(|part| self.parts.range(of, part));
+        let missing = missing.min_by_key(|range| (range.base_mip, range.aspects.bits(), range.base_layer))?;
         let missing = Subresources { mips: 1, layers: 1, ..missing };
-        Some(Unwritten { of, needed, missing, is_blank, access: None, writes: false, span: Span::NONE })
+        Some(Unwritten { of, needed, missing, is_blank, demand: Demand::Read, writes: false, span })
     }
 }

@@ -5,13 +5,10 @@ use crate::base::{Diagnostic, Span};
 use crate::frame::{Image, Lifetime, SAMPLE_COUNTS};
 use crate::vulkan::{Encoding, Shape};
 
-/// Where an image is declared.
+/// The declaration of an image.
 pub(crate) trait Declaration {
-    /// Where one of its properties is.
-    fn span(&self, property: Property) -> Span;
-
-    /// The cause of a property in words: "msaa = 4"; empty if it has none.
-    fn because(&self, property: Property) -> &str;
+    /// Where one of its properties is, and the cause of the property in words: "msaa = 4"; empty if it has none.
+    fn at(&self, property: Property) -> (Span, &str);
 
     /// Whether contents of earlier frames can be found in it.
     fn outlives_frame(&self) -> bool;
@@ -19,12 +16,8 @@ pub(crate) trait Declaration {
 
 /// A program declares an image in no file.
 impl Declaration for Image {
-    fn span(&self, _: Property) -> Span {
-        self.span
-    }
-
-    fn because(&self, _: Property) -> &str {
-        ""
+    fn at(&self, _: Property) -> (Span, &str) {
+        (self.span, "")
     }
 
     fn outlives_frame(&self) -> bool {
@@ -43,7 +36,7 @@ pub(crate) fn wrong_encoding(
     let Image { name, format, .. } = image;
     let wrong = || {
         let message = format!("`{name}` can't leave the frame as `{}`: it is {format}", encoding.name());
-        let wrong = Diagnostic::new(here, message).label(declared.span(Property::Format), "its format");
+        let wrong = Diagnostic::new(here, message).label(declared.at(Property::Format).0, "its format");
         wrong.help(encoding.help(name))
     };
     (!encoding.fits(*format)).then(wrong)
@@ -60,9 +53,10 @@ pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec
     let [width, height, depth] = extent;
     let wrong = |at: Property, what: String| {
         let message = format!("`{}` {what}", image.name);
-        Diagnostic::new(declared.span(at), message).remark(declared.because(at))
+        let (span, because) = declared.at(at);
+        Diagnostic::new(span, message).remark(because)
     };
-    let with = |wrong: Diagnostic, beside: Property, remark: &str| wrong.label(declared.span(beside), remark);
+    let with = |wrong: Diagnostic, beside: Property, remark: &str| wrong.label(declared.at(beside).0, remark);
     if extent.contains(&0) {
         let what = format!("is {width}×{height}×{depth}; each side has at least 1 texel");
         return errors.push(wrong(Property::Size, what));

@@ -7,10 +7,10 @@ pub(crate) mod images;
 pub(crate) mod targets;
 pub(crate) mod transfers;
 
-use super::{Buffer, BufferIndex, Image, ImageIndex};
+use super::{Buffer, BufferIndex, Frame, Image, ImageIndex};
 use crate::base::Span;
 
-/// What is checked: images and buffers, as far as they are known, and the places of mistakes.
+/// What a pass is checked with: images and buffers, as far as they are known, and the places of mistakes.
 pub(crate) trait Checked {
     /// Whether it comes from a file. A program may do some things that no file may.
     const OF_FILE: bool;
@@ -25,15 +25,11 @@ pub(crate) trait Checked {
     fn span(&self, place: Place) -> Span;
 }
 
-/// A place that a mistake is about. The sides of a transfer are its source (0) and its target (1).
+/// A place of a mistake that a frame doesn't know. The sides of a transfer are its source (0) and its target (1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Place {
     /// A property of an image, where it is declared.
     Image(ImageIndex, Property),
-    /// A buffer, where it is declared.
-    Buffer(BufferIndex),
-    /// A side, where the pass names the image or buffer.
-    Side(usize),
     /// The mip level or layer of a side, where the pass names it.
     PartOfSide(usize),
     /// The filter of a blit.
@@ -50,4 +46,21 @@ pub(crate) enum Property {
     Layers,
     Samples,
     Lifetime,
+}
+
+/// A program's frame stands in no file.
+impl Checked for Frame {
+    const OF_FILE: bool = false;
+
+    fn image(&self, index: ImageIndex) -> Option<&Image> {
+        self.images.get(index.0 as usize)
+    }
+
+    fn buffer(&self, index: BufferIndex) -> Option<&Buffer> {
+        self.buffers.get(index.0 as usize)
+    }
+
+    fn span(&self, _: Place) -> Span {
+        Span::NONE
+    }
 }

@@ -68,20 +68,15 @@ pub(crate) fn undrawable(
     image: &Image,
     range: Subresources,
     declared: &impl Declaration,
-    at: [Span; 2],
+    [here, part]: [Span; 2],
 ) -> Option<Diagnostic> {
-    let fits = image.shape != Shape::D3 && image.part(range).mips <= 1;
-    (!fits).then(|| wrong_part(image, declared, at))
-}
-
-#[cold]
-fn wrong_part(image: &Image, declared: &impl Declaration, [here, part]: [Span; 2]) -> Diagnostic {
-    if image.shape != Shape::D3 {
-        return several_levels(image, [part, declared.span(Property::Mips)], "is drawn into");
+    if image.shape == Shape::D3 {
+        let message = format!("`{}` is three-dimensional and can't be drawn into", image.name);
+        let wrong = Diagnostic::new(here, message).label(declared.at(Property::Shape).0, "its shape");
+        return Some(wrong.help("let a dispatch store into it"));
     }
-    let message = format!("`{}` is three-dimensional and can't be drawn into", image.name);
-    let wrong = Diagnostic::new(here, message).label(declared.span(Property::Shape), "its shape");
-    wrong.help("let a dispatch store into it")
+    let several = image.part(range).mips > 1;
+    several.then(|| several_levels(image, [part, declared.at(Property::Mips).0], "is drawn into"))
 }
 
 /// What is wrong with a depth target, if anything is: its image has no depth.
@@ -89,7 +84,7 @@ fn wrong_part(image: &Image, declared: &impl Declaration, [here, part]: [Span; 2
 pub(crate) fn without_depth(image: &Image, declared: &impl Declaration, here: Span) -> Option<Diagnostic> {
     let wrong = || {
         let message = format!("`{}` has no depth ({})", image.name, image.format);
-        Diagnostic::new(here, message).label(declared.span(Property::Format), "its format")
+        Diagnostic::new(here, message).label(declared.at(Property::Format).0, "its format")
     };
     (!image.format.is_depth()).then(wrong)
 }

@@ -13,18 +13,18 @@ pub(crate) fn check(checked: &impl Checked, pass: &Pass, errors: &mut Vec<Diagno
         (Work::Blit { filter }, [source, target]) if !source.write && target.write => {
             check.blit([source, target], *filter);
         }
-        (Work::Copy | Work::Blit { .. }, _) => check.wrong(Place::Side(0), "it needs one source and one target"),
+        (Work::Copy | Work::Blit { .. }, _) => check.wrong(pass.span, "it needs one source and one target"),
         (Work::Fill { value }, [target]) if target.write => {
-            let format = check.side(0, target).map(|side| side.image.format);
+            let format = check.side(target).map(|side| side.image.format);
             if let Some(what) = value.problem(format) {
-                check.wrong(Place::Side(0), format!("it fills with {what}"));
+                check.wrong(target.span, format!("it fills with {what}"));
             }
         }
-        (Work::Fill { .. }, _) => check.wrong(Place::Side(0), "it fills one image or buffer"),
+        (Work::Fill { .. }, _) => check.wrong(pass.span, "it fills one image or buffer"),
         (Work::Custom { .. }, _) => {}
         (Work::Draw { .. } | Work::Dispatch { .. } | Work::Forward { .. }, transfers) => {
             if !transfers.is_empty() {
-                check.wrong(Place::Side(0), "it transfers and is no copy, blit, fill or custom pass");
+                check.wrong(pass.span, "it transfers and is no copy, blit, fill or custom pass");
             }
         }
     }
@@ -77,22 +77,21 @@ struct Check<'c, C> {
 }
 
 impl<'c, C: Checked> Check<'c, C> {
-    fn wrong(&mut self, at: Place, message: impl Into<String>) {
-        self.errors.push(Diagnostic::new(self.checked.span(at), message.into()));
+    fn wrong(&mut self, at: Span, message: impl Into<String>) {
+        self.errors.push(Diagnostic::new(at, message));
     }
 
     /// A side as an image; `None` if it is a buffer, or nothing is known of it.
-    fn side(&self, at: usize, used: &TransferUse) -> Option<Side<'c>> {
+    fn side(&self, used: &TransferUse) -> Option<Side<'c>> {
         let Resource::Image(index) = used.resource else { return None };
         let image = self.checked.image(index)?;
         let part = image.part(used.range);
-        let span = self.checked.span(Place::Side(at));
-        Some(Side { span, index, image, part, extent: image.extent_at(part.base_mip) })
+        Some(Side { span: used.span, index, image, part, extent: image.extent_at(part.base_mip) })
     }
 
     /// A side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
     fn one_level(&mut self, at: usize, used: &TransferUse) -> Option<Side<'c>> {
-        let side = self.side(at, used)?;
+        let side = self.side(used)?;
         if side.part.mips == 1 {
             return Some(side);
         }
@@ -119,12 +118,12 @@ impl<'c, C: Checked> Check<'c, C> {
             }
             (Resource::Image(_), Resource::Buffer(buffer)) => {
                 if let Some(image) = self.one_level(0, source) {
-                    self.rows(&image, (1, buffer), true);
+                    self.rows(&image, (target.span, buffer), true);
                 }
             }
             (Resource::Buffer(buffer), Resource::Image(_)) => {
                 if let Some(image) = self.one_level(1, target) {
-                    self.rows(&image, (0, buffer), false);
+                    self.rows(&image, (source.span, buffer), false);
                 }
             }
         }
@@ -134,14 +133,14 @@ impl<'c, C: Checked> Check<'c, C> {
     fn buffers(&mut self, [source, target]: [&TransferUse; 2], from: &Buffer, to: &Buffer) {
         let fits = if C::OF_FILE { from.bytes == to.bytes } else { from.bytes <= to.bytes };
         if (source.resource, source.frames_ago) == (target.resource, target.frames_ago) {
-            self.wrong(Place::Side(1), "a buffer can't be copied to itself");
+            self.wrong(target.span, "a buffer can't be copied to itself");
         } else if !fits {
             let message = format!(
                 "`{}` has {} bytes and `{}` has {}: a copy fills its target whole",
                 from.name, from.bytes, to.name, to.bytes
             );
             let help = format!("let one follow the other: say `bytes: Like(\"{}\")` of `{}`", from.name, to.name);
-            self.errors.push(Diagnostic::new(self.checked.span(Place::Side(1)), message).help(help));
+            self.errors.push(Diagnostic::new(target.span, message).help(help));
         }
     }
 
@@ -176,7 +175,7 @@ impl<'c, C: Checked> Check<'c, C> {
     }
 
     /// The texels of one plane lie in the buffer; a file's copy fills its target whole. A program's samples may be resolved on the way.
-    fn rows(&mut self, side: &Side<'_>, (at, buffer): (usize, BufferIndex), filled: bool) {
+    fn rows(&mut self, side: &Side<'_>, (here, buffer): (Span, BufferIndex), filled: bool) {
         let Image { name, format, samples, .. } = side.image;
         if *samples > 1 && (C::OF_FILE || !filled) {
             let message = format!("`{name}` has {samples} samples, which a buffer can't take or give");
@@ -195,13 +194,14 @@ impl<'c, C: Checked> Check<'c, C> {
         let bytes = texels.saturating_mul(texel);
         let wanted = bytes.checked_next_multiple_of(4);
         let too_small = bytes > there.bytes;
-        if !too_small && !(C::OF_FILE && filled && wanted != Some(there.bytes)) {
+        let fits = if C::OF_FILE && filled { wanted == Some(there.bytes) } else { !too_small };
+        if fits {
             return;
         }
         let message = format!("`{}` has {} bytes, but the texels of `{name}` take {bytes}", there.name, there.bytes);
-        let wrong = Diagnostic::new(self.checked.span(Place::Side(at)), message);
+        let wrong = Diagnostic::new(here, message);
         let wrong = wrong.remark(if too_small { "too small" } else { "only a part would be filled" });
-        let wrong = wrong.label(self.checked.span(Place::Buffer(buffer)), "declared here");
+        let wrong = wrong.label(there.span, "declared here");
         self.errors.push(match wanted.filter(|_| filled) {
             Some(wanted) => wrong.help(format!("a copy fills its target whole: give it `bytes: {wanted}`")),
             None => wrong,
@@ -212,7 +212,7 @@ impl<'c, C: Checked> Check<'c, C> {
     /// and flat ones.
     fn blit(&mut self, sides: [&TransferUse; 2], filter: Filter) {
         if sides.iter().any(|side| matches!(side.resource, Resource::Buffer(_))) {
-            return self.wrong(Place::Side(0), "a buffer can't be scaled");
+            return self.wrong(sides[0].span, "a buffer can't be scaled");
         }
         let (Some(from), Some(to)) = (self.one_level(0, sides[0]), self.one_level(1, sides[1])) else { return };
         self.apart(sides, &from, &to);
@@ -235,7 +235,7 @@ impl<'c, C: Checked> Check<'c, C> {
         if filter == Filter::Linear && (format.is_integer() || format.is_depth()) {
             let held = if format.is_integer() { "integers" } else { "depth" };
             let why = format!("`{}` holds {held} ({format})", one.name);
-            self.wrong(Place::Filter, format!("a linear filter can't be used: {why}"));
+            self.wrong(self.checked.span(Place::Filter), format!("a linear filter can't be used: {why}"));
         }
         // The last levels of a volume are one texel deep.
         let volumes = [one, other].iter().all(|image| image.shape == Shape::D3);

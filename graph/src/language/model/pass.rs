@@ -333,24 +333,6 @@ impl Work {
             Work::Draw { .. } | Work::Dispatch { .. } => &[],
         }
     }
-
-    /// The source and the target, if it copies or scales.
-    pub(crate) const fn sides(&self) -> Option<[&Part; 2]> {
-        match self {
-            Work::Copy { from, to } | Work::Blit { from, to, .. } => Some([from, to]),
-            Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
-        }
-    }
-
-    /// The filter of a blit, if the file chooses one.
-    pub(crate) const fn filter(&self) -> Option<Spanned<Filter>> {
-        match self {
-            Work::Blit { filter, .. } => *filter,
-            Work::Copy { .. } | Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } | Work::Custom { .. } => {
-                None
-            }
-        }
-    }
 }
 
 impl Pass {
