@@ -18,8 +18,8 @@ pub(super) struct Live {
 /// Validates a frame and culls its passes.
 pub(super) fn live(frame: &Frame) -> Result<(Grids, Live), Vec<Diagnostic>> {
     validate::check(frame)?;
-    let grids = Grids::new(frame);
-    let parts = Parts::new(frame, &grids);
+    let grids = Grids::new(&frame.images, frame.passes.iter());
+    let parts = Parts::new(&frame.images, frame.buffers.len(), &grids);
     let linked = link::link(frame, &parts)?;
     debug_assert_eq!(linked.all_are_needed, cull(frame, &parts, &linked).culled.is_empty());
     let live = match linked.all_are_needed {

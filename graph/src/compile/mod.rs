@@ -10,7 +10,7 @@
 
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
-use crate::frame::Frame;
+use crate::frame::{Frame, tracked as parts};
 use crate::plan::Plan;
 use emit::{StageResults, Subject};
 use structure::Structure;
@@ -26,7 +26,6 @@ mod link;
 mod memory;
 mod model;
 mod options;
-mod parts;
 mod queues;
 mod retain;
 mod rotate;

@@ -1,94 +1,80 @@
 //! The reads and writes of a pass, part by part, as far as its images and buffers are known.
 
-use super::parts::{self, Cells};
 use super::resources::Resources;
 use crate::base::Span;
-use crate::frame::{Access, Effect, Image, Pass, Resource};
-use crate::vulkan::{Aspects, Subresources};
+use crate::frame::check::contents::Contents;
+use crate::frame::tracked::{self, Grids, Parts};
+use crate::frame::{Access, BufferIndex, Effect, Image, ImageIndex, Pass, Resource};
+use crate::vulkan::{Format, Subresources};
 
-/// A read.
-pub(super) struct Read {
+/// An access to a part of an image or a buffer of this frame.
+pub(super) struct Use {
     pub(super) resource: Resource,
-    pub(super) cells: Cells,
-    pub(super) frames_ago: u32,
+    /// The part, with planes named.
+    pub(super) part: Subresources,
     pub(super) span: Span,
+    /// Whether it is a target that the pass draws into.
+    pub(super) attaches: bool,
+    /// Whether it needs what is there.
+    pub(super) reads: bool,
+    /// Whether it writes, or is a target.
+    pub(super) writes: bool,
 }
 
-/// A write.
-pub(super) struct Write {
-    pub(super) resource: Resource,
-    pub(super) cells: Cells,
-    pub(super) span: Span,
-    /// How to clear the target, if the write may leave texels untouched: then it adds to the earlier contents.
-    pub(super) continues: Option<&'static str>,
+/// The images of the frame, and how its passes cut them into parts.
+pub(super) struct CutImages {
+    images: Vec<Image>,
+    buffers: usize,
+    grids: Grids,
 }
 
-/// All of an image or buffer; `None` if nothing is known about it.
-pub(super) fn whole(resources: &Resources<'_>, resource: Resource) -> Option<Cells> {
-    part(resources, resource, &Subresources::WHOLE)
-}
+impl CutImages {
+    pub(super) fn new<'p>(resources: &Resources<'_>, passes: impl Iterator<Item = &'p Pass>) -> CutImages {
+        let unknown = || Image::new("", Format::R8G8B8A8_UNORM, 1, 1);
+        let images = resources.images.iter().map(|image| image.as_ref().map_or_else(unknown, |it| it.image.clone()));
+        let images: Vec<Image> = images.collect();
+        let grids = Grids::new(&images, passes);
+        CutImages { images, buffers: resources.buffers.len(), grids }
+    }
 
-fn image<'r>(resources: &'r Resources<'_>, resource: Resource) -> Option<&'r Image> {
-    match resource {
-        Resource::Image(index) => Some(&resources.image(index)?.image),
-        Resource::Buffer(_) => None,
+    pub(super) fn parts(&self) -> Parts<'_> {
+        Parts::new(&self.images, self.buffers, &self.grids)
     }
 }
 
-/// A part of an image, or a buffer.
-pub(super) fn part(resources: &Resources<'_>, resource: Resource, range: &Subresources) -> Option<Cells> {
-    match resource {
-        Resource::Image(_) => Some(parts::cells(image(resources, resource)?, range)),
-        Resource::Buffer(_) => Some(Cells { mips: 0..1, layers: 0..1, planes: Aspects::COLOR }),
-    }
+/// The contents before the first pass. Something that is wrong itself counts as written: nothing more is said of it.
+pub(super) fn contents<'p>(resources: &Resources<'_>, parts: &'p Parts<'p>) -> Contents<'p> {
+    let mut contents = Contents::new(parts, resources.pipeline.passes.len());
+    let images = (0..).map(|at| Resource::Image(ImageIndex(at))).take(resources.images.len());
+    let buffers = (0..).map(|at| Resource::Buffer(BufferIndex(at))).take(resources.buffers.len());
+    let holds = |of: &Resource| resources.lifetime(*of).is_none_or(|lifetime| lifetime.has_contents(*of));
+    images.chain(buffers).filter(holds).for_each(|of| contents.begin(of));
+    contents
 }
 
-/// Shows the reads of `pass`. A target that the pass only adds to stands among its writes.
-pub(super) fn for_each_read(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Read)) {
-    for access in pass.accesses().filter(|access| !access.attaches()) {
-        let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
-        access.for_each_effect(pass, image(resources, resource), |effect| {
-            if effect.reads
-                && let Some(cells) = part(resources, resource, &effect.range)
-            {
-                see(Read { resource, cells, frames_ago, span });
-            }
+/// Shows what `pass` uses of this frame, as far as it is known.
+pub(super) fn for_each_use(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Use)) {
+    for access in pass.accesses().filter(|access| access.frames_ago() == 0) {
+        let (resource, span, attaches) = (access.resource(), access.span(), access.attaches());
+        let image = match resource {
+            Resource::Image(index) => resources.image(index).map(|image| &image.image),
+            Resource::Buffer(_) => None,
+        };
+        if image.is_none() && access.image_index().is_some() {
+            continue;
+        }
+        access.for_each_effect(pass, image, |Effect { range, reads, writes }| {
+            let part = tracked::part_of(image, range);
+            see(Use { resource, part, span, attaches, reads, writes: writes || attaches });
         });
     }
 }
 
-/// The reads of `pass`, as [`for_each_read`] shows them.
-pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
-    let mut reads = Vec::new();
-    for_each_read(resources, pass, |read| reads.push(read));
-    reads
-}
-
-/// Shows the writes of `pass`, and all targets that it draws into.
-pub(super) fn for_each_write(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Write)) {
-    for access in pass.accesses() {
-        let (resource, span) = (access.resource(), access.span());
-        access.for_each_effect(pass, image(resources, resource), |Effect { range, reads, writes: changes }| {
-            let clear = match access {
-                Access::Color(_) => Some("(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))"),
-                Access::Depth(_) if range.aspects == Aspects::STENCIL => Some("(image: \"…\", stencil: (clear: 0))"),
-                Access::Depth(_) => Some("(image: \"…\", clear: 0.0)"),
-                _ => None,
-            };
-            if (clear.is_some() || changes)
-                && let Some(cells) = part(resources, resource, &range)
-            {
-                see(Write { resource, cells, span, continues: clear.filter(|_| reads) });
-            }
-        });
-    }
-}
-
-/// The writes of `pass`, as [`for_each_write`] shows them.
-pub(super) fn writes(resources: &Resources<'_>, pass: &Pass) -> Vec<Write> {
-    let mut writes = Vec::new();
-    for_each_write(resources, pass, |write| writes.push(write));
-    writes
+/// What `pass` uses of this frame, as [`for_each_use`] shows it.
+pub(super) fn uses(resources: &Resources<'_>, pass: &Pass) -> Vec<Use> {
+    let mut uses = Vec::new();
+    for_each_use(resources, pass, |used| uses.push(used));
+    uses
 }
 
 /// Images and buffers whose contents `pass` would make, were it on.

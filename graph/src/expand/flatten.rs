@@ -1,5 +1,6 @@
 //! A pipeline becomes a frame, stage by stage.
 
+use super::accesses::CutImages;
 use super::inputs::{Inputs, check_extent, surroundings};
 use super::instances::used_here;
 use super::outputs::outputs;
@@ -119,8 +120,10 @@ fn expand_so(
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
     let before = errors.len();
-    let stored = stored::keep(&resources, &mut states, &mut checked);
-    order::check(&resources, &states, &outputs, &mut errors);
+    let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
+    let parts = cut.parts();
+    let stored = stored::keep(&resources, &mut states, &parts, &mut checked);
+    order::check(&resources, &states, &outputs, &parts, &mut errors);
     said.each_once(&mut errors, before);
     if errors.is_empty() {
         history::shorten(&mut resources, &states);

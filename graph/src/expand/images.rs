@@ -2,9 +2,11 @@
 
 use super::follow::follow_all;
 use super::shapes;
-use crate::base::Diagnostic;
-use crate::frame::{self, Image, Lifetime};
-use crate::language::{self, Format as Described, ImageRef, Mips, Pipeline, Resolves, Samples};
+use crate::base::{Diagnostic, Span};
+use crate::frame::check::Property;
+use crate::frame::check::images::Declaration;
+use crate::frame::{self, Image, Lifetime, check};
+use crate::language::{self, Decided, Format as Described, ImageRef, Mips, Pipeline, Resolves, Samples};
 use crate::vulkan::{Format, Rotation, Shape};
 use std::sync::Arc;
 
@@ -137,11 +139,27 @@ fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -
 impl FrameImage {
     /// How many samples, and why: "4 samples (msaa = 4)".
     pub(super) fn samples_words(&self) -> String {
-        let samples = self.image.samples;
-        let count = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
-        match &self.samples_because {
-            Some(because) => format!("{count} ({because})"),
-            None => count,
+        check::targets::samples_words(self.image.samples, self.samples_because.as_deref())
+    }
+}
+
+impl Declaration for language::Image {
+    fn at(&self, property: Property) -> (Span, &str) {
+        fn decided<T>(property: &Decided<T>) -> (Span, &str) {
+            (property.span, property.remark())
         }
+        match property {
+            Property::Format => decided(&self.format),
+            Property::Size => decided(&self.size),
+            Property::Shape => decided(&self.shape),
+            Property::Mips => decided(&self.mips),
+            Property::Layers => decided(&self.layers),
+            Property::Samples => decided(&self.samples),
+            Property::Lifetime => (self.lifetime.span, ""),
+        }
+    }
+
+    fn outlives_frame(&self) -> bool {
+        !matches!(self.lifetime.value, language::Lifetime::Transient)
     }
 }

@@ -49,7 +49,6 @@ mod views;
 mod waits;
 mod work;
 mod writers;
-mod written;
 
 pub use flatten::{expand, expand_reading};
 pub use inputs::{Inputs, check_inputs};

@@ -1,16 +1,16 @@
-//! The order of passes: nothing is read before it is written, and the first writer covers or clears.
+//! The order of passes: what reads or keeps contents that nothing has written, in words of the file.
 
-use super::accesses::{self, Read, Write};
-use super::parts::Cells;
+use super::accesses;
 use super::resources::Resources;
 use super::state::State;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
-use super::written::{Cell, Written};
 use crate::base::{Diagnostic, Span, keep};
+use crate::frame::check::contents::{Demand, Unwritten};
+use crate::frame::tracked::Parts;
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
-use crate::vulkan::Aspects;
+use crate::vulkan::{Aspects, Subresources};
 use std::fmt::Display;
 use std::iter::{once, successors};
 
@@ -20,96 +20,74 @@ const MANY_MISTAKES: usize = 100;
 struct Check<'a> {
     resources: &'a Resources<'a>,
     states: &'a [State],
+    parts: &'a Parts<'a>,
     writers: Writers,
-    /// The parts written so far, by resource. A part that was reported as unwritten counts as written: one report is enough.
-    written: Vec<Written>,
     errors: &'a mut Vec<Diagnostic>,
 }
 
-/// Walks through the passes in their order.
-pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Output], errors: &mut Vec<Diagnostic>) {
-    let writers = Writers::find(resources, states);
-    let written = writers.on.iter().map(|_| Written::default()).collect();
-    let mut check = Check { resources, states, writers, written, errors };
-    for (position, state) in states.iter().enumerate() {
-        let name = &resources.pipeline.passes[position].name.text;
+/// Follows contents through the passes in their order.
+pub(super) fn check(
+    resources: &Resources<'_>,
+    states: &[State],
+    outputs: &[Output],
+    parts: &Parts<'_>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let mut contents = accesses::contents(resources, parts);
+    let mut check = Check { resources, states, parts, writers: Writers::find(resources, states), errors };
+    for ((position, state), number) in states.iter().enumerate().zip(1..) {
+        let described = &resources.pipeline.passes[position];
+        let name = &described.name.text;
         let before = check.errors.len();
         match state {
-            State::On(pass) => check.runs(position, pass, &format_args!("pass `{name}`"), None),
+            State::On(pass) => {
+                for found in contents.pass(pass, number) {
+                    check.unwritten(position, pass, &found, &format_args!("pass `{name}`"));
+                }
+            }
             State::Off { stand_ins, .. } => {
-                for (pass, described) in stand_ins.iter().zip(&resources.pipeline.passes[position].otherwise) {
-                    let named = match described {
-                        StandIn::Forward(forward) => Some(forward.from.span),
-                        StandIn::Clear { .. } => None,
-                    };
-                    check.runs(position, pass, &format_args!("the stand-in of pass `{name}`"), named);
+                for (pass, stand_in) in stand_ins.iter().zip(&described.otherwise) {
+                    for found in contents.pass(pass, number) {
+                        let span = match stand_in {
+                            StandIn::Forward(forward) => forward.from.span,
+                            StandIn::Clear { .. } => found.span,
+                        };
+                        let reader = format_args!("the stand-in of pass `{name}`");
+                        check.needs(position, &Unwritten { span, ..found }, &reader);
+                    }
                 }
             }
         }
-        super::instances::used_here(
-            resources.pipeline,
-            resources.pipeline.passes[position].instance,
-            &mut check.errors[before..],
-        );
+        super::instances::used_here(resources.pipeline, described.instance, &mut check.errors[before..]);
     }
-    for (position, state) in states.iter().enumerate() {
-        let looks_back = |pass: &&Pass| pass.accesses().any(|access| access.frames_ago() > 0);
-        for pass in state.runs().iter().filter(looks_back) {
-            let name = &resources.pipeline.passes[position].name.text;
-            for read in accesses::reads(resources, pass).iter().filter(|read| read.frames_ago > 0) {
-                check.needs(states.len(), read, &format_args!("pass `{name}`"));
-            }
+    for (state, described) in states.iter().zip(&resources.pipeline.passes) {
+        for found in state.runs().iter().flat_map(|pass| contents.earlier(pass)).collect::<Vec<_>>() {
+            check.needs(states.len(), &found, &format_args!("pass `{}`", described.name.text));
         }
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Some(cells) = accesses::whole(resources, output.resource) {
-            let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
-            check.needs(states.len(), &read, &reader);
+        if let Some(found) = contents.output(output.resource, output.span) {
+            check.needs(states.len(), &found, &reader);
         }
     }
 }
 
 impl Check<'_> {
-    /// Reads, then writes. `named` is where a stand-in's source is named.
-    fn runs(&mut self, position: usize, pass: &Pass, reader: &dyn Display, named: Option<Span>) {
-        let resources = self.resources;
-        accesses::for_each_read(resources, pass, |read| {
-            if read.frames_ago == 0 {
-                let span = named.unwrap_or(read.span);
-                self.needs(position, &Read { span, ..read }, reader);
-            }
-        });
-        accesses::for_each_write(resources, pass, |write| {
-            if let Some(clear) = write.continues {
-                self.continues(position, pass, &write, clear);
-            }
-            self.add(write.resource, &write.cells);
-        });
-    }
-
-    fn add(&mut self, of: Resource, cells: &Cells) {
-        if let Some(whole) = accesses::whole(self.resources, of) {
-            let at = self.writers.index(of);
-            self.written[at].add(cells, &whole);
+    fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: &dyn Display) {
+        match found.demand {
+            Demand::Color | Demand::Depth => self.continues(position, pass, found),
+            Demand::Read | Demand::Earlier | Demand::Output => self.needs(position, found, reader),
         }
     }
 
-    /// The first of `cells` that holds nothing when the frame has come this far.
-    fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
-        let holds = self.resources.lifetime(of)?.has_contents(of);
-        if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
-    }
-
-    /// Demands that the part that `reader` reads was written.
-    fn needs(&mut self, position: usize, read: &Read, reader: &dyn Display) {
-        let of = read.resource;
-        let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
-        let what = self.words(of, &read.cells, cell);
-        self.add(of, &read.cells);
+    /// `reader` reads a part that nothing has written.
+    fn needs(&mut self, position: usize, found: &Unwritten, reader: &dyn Display) {
+        let Unwritten { of, span, .. } = *found;
+        let what = self.words(found);
         let declared = self.resources.name(of);
         let reader = reader.to_string();
-        let (name, span) = (&declared.text, read.span);
+        let name = &declared.text;
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;
             let message = format!("{reader} needs {what}, but pass `{off}`, which fills it, is off ({because})");
@@ -131,12 +109,12 @@ impl Check<'_> {
                     wrong.help("let another pass fill it then, such as `fill: (to: \"…\", value: 0)`")
                 }
             }
-        } else if read.frames_ago > 0 {
+        } else if found.demand == Demand::Earlier {
             let message = format!("{reader} reads what an earlier frame left of {what}, but no pass writes it");
             let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "declared here");
             wrong.help("each frame writes what has history anew")
-        } else if let Some(writer) = self.writer_of(of, cell) {
-            self.too_early(position, read, &what, writer)
+        } else if let Some(writer) = self.writer_of(of, found.missing) {
+            self.too_early(position, found, &what, writer)
         } else if let Some(Lifetime::Imported { .. }) = self.resources.lifetime(of) {
             let message = format!("{reader} reads {what}, which is handed in without contents, and no pass writes it");
             let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "imported here");
@@ -159,9 +137,9 @@ impl Check<'_> {
     }
 
     /// A read that stands before the first write.
-    fn too_early(&self, position: usize, read: &Read, what: &str, writer: Writer) -> Diagnostic {
-        let of = read.resource;
-        let wrong = Diagnostic::new(read.span, format!("{what} is read before it is written")).remark("read here");
+    fn too_early(&self, position: usize, found: &Unwritten, what: &str, writer: Writer) -> Diagnostic {
+        let Unwritten { of, span, needed, .. } = *found;
+        let wrong = Diagnostic::new(span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
             let mut help = "a pass reads what stood there before the pass".to_owned();
             if let Some(previous) = self.previous(of) {
@@ -169,7 +147,7 @@ impl Check<'_> {
             }
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
-        let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
+        let first = Need { pass: position, resource: of, span, writer: writer.position };
         let few = self.errors.len() < MANY_MISTAKES;
         if few && let Some(circle) = waits::circle(self.resources, self.states, &self.writers, first) {
             return waits::report(self.resources, &circle);
@@ -182,8 +160,8 @@ impl Check<'_> {
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
         // Further up, the writer itself would read a part that nothing has written.
-        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.resources, pass));
-        if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
+        let uses = self.states[writer.position].runs().iter().flat_map(|pass| accesses::uses(self.resources, pass));
+        if uses.into_iter().any(|own| own.reads && !own.attaches && own.resource == of && own.part == needed) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
         let wrong = self.removed(wrong, &self.resources.name(of).text);
@@ -210,16 +188,15 @@ impl Check<'_> {
         })
     }
 
-    /// Demands that a target has contents that a draw can be added to.
-    fn continues(&mut self, position: usize, pass: &Pass, write: &Write, clear: &str) {
-        let Some(cell) = self.missing(write.resource, &write.cells, 0) else { return };
-        let what = self.words(write.resource, &write.cells, cell);
-        let name = &self.resources.name(write.resource).text;
-        let layers = write.cells.layers.clone();
+    /// A draw is added to a target of which nothing has written a part.
+    fn continues(&mut self, position: usize, pass: &Pass, found: &Unwritten) {
+        let Unwritten { of, span, needed, missing, .. } = *found;
+        let what = self.words(found);
+        let name = &self.resources.name(of).text;
         // Shaders choose no layer, so draws land in the first.
-        let several = layers.len() > 1;
+        let several = needed.layers > 1;
         // Which layer is meant was asked already.
-        let here = |error: &Diagnostic| error.labels.first().is_some_and(|label| label.span == write.span);
+        let here = |error: &Diagnostic| error.labels.first().is_some_and(|label| label.span == span);
         if several && self.errors.iter().any(here) {
             return;
         }
@@ -230,27 +207,27 @@ impl Check<'_> {
         };
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
-        let clear = clear.replace('…', name);
-        let clear = match accesses::whole(self.resources, write.resource) {
-            Some(whole) => {
-                let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
-                let layer = match layers.len() {
-                    1 if whole.layers.len() > 1 => format!(", layer: {}", cell.layer),
-                    0 | 1 => String::new(),
-                    _ if layers == whole.layers => ", layers: Rest".to_owned(),
-                    several => format!(", layer: {}, layers: {several}", layers.start),
-                };
-                clear.replacen("\",", &format!("\"{mip}{layer},"), 1)
-            }
-            None => clear,
+        let whole = self.parts.part(of, Subresources::WHOLE);
+        let mip = if whole.mips > 1 { format!(", mip: {}", missing.base_mip) } else { String::new() };
+        let layer = match needed.layers {
+            1 if whole.layers > 1 => format!(", layer: {}", missing.base_layer),
+            0 | 1 => String::new(),
+            several if several == whole.layers => ", layers: Rest".to_owned(),
+            several => format!(", layer: {}, layers: {several}", needed.base_layer),
         };
+        let clear = match found.demand {
+            Demand::Color => "clear: (0.0, 0.0, 0.0, 1.0)",
+            _ if needed.aspects == Aspects::STENCIL => "stencil: (clear: 0)",
+            _ => "clear: 0.0",
+        };
+        let clear = format!("(image: \"{name}\"{mip}{layer}, {clear})");
         let promise = match &pass.untouched {
             Some(_) if !several => "; or say `covers: true` of the pass, which promises that it sets every texel",
             _ => "",
         };
-        let diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`{promise}"));
+        let diagnostic = Diagnostic::new(span, message).help(format!("clear it: `{clear}`{promise}"));
         let mut diagnostic = self.removed(diagnostic, name);
-        if let Some((writer, because)) = self.off_before(write.resource, position) {
+        if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;
             diagnostic =
                 diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
@@ -258,34 +235,38 @@ impl Check<'_> {
         keep(self.errors, diagnostic);
     }
 
-    /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
-    fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
-        let name = &self.resources.name(of).text;
-        let Some(whole) = accesses::whole(self.resources, of) else { return format!("`{name}`") };
-        if *cells == whole && self.written[self.writers.index(of)].is_blank() {
+    /// "`color`", or "mip level 2 of `color`" where only a part is missing.
+    fn words(&self, found: &Unwritten) -> String {
+        let Unwritten { of, needed, missing, is_blank, .. } = *found;
+        let (name, whole) = (&self.resources.name(of).text, self.parts.part(of, Subresources::WHOLE));
+        if is_blank && needed == whole {
             return format!("`{name}`");
         }
         let mut words = Vec::new();
-        if whole.planes.bits().count_ones() > 1 {
-            words.push(if cell.plane == Aspects::DEPTH { "the depth".to_owned() } else { "the stencil".to_owned() });
+        if whole.aspects.bits().count_ones() > 1 {
+            words.push(if missing.aspects == Aspects::DEPTH {
+                "the depth".to_owned()
+            } else {
+                "the stencil".to_owned()
+            });
         }
-        if whole.mips.len() > 1 {
-            words.push(format!("mip level {}", cell.mip));
+        if whole.mips > 1 {
+            words.push(format!("mip level {}", missing.base_mip));
         }
-        if whole.layers.len() > 1 {
-            words.push(format!("layer {}", cell.layer));
+        if whole.layers > 1 {
+            words.push(format!("layer {}", missing.base_layer));
         }
         if words.is_empty() { format!("`{name}`") } else { format!("{} of `{name}`", words.join(", ")) }
     }
 
-    /// The first pass that runs and writes `cell`, or after many mistakes any part.
-    fn writer_of(&self, of: Resource, cell: Cell) -> Option<Writer> {
+    /// The first pass that runs and writes the part, or after many mistakes any part.
+    fn writer_of(&self, of: Resource, missing: Subresources) -> Option<Writer> {
         let writers = &self.writers.on[self.writers.index(of)];
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.iter().flat_map(|pass| accesses::writes(self.resources, pass));
-            writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
+            let uses = pass.iter().flat_map(|pass| accesses::uses(self.resources, pass));
+            uses.into_iter().any(|used| used.writes && used.resource == of && used.part.overlaps(missing))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };
         first.copied()

@@ -3,6 +3,7 @@
 use super::inputs::Inputs;
 use super::resources::Resources;
 use crate::base::{Diagnostic, Span, suggestion};
+use crate::frame::check::images::wrong_encoding;
 use crate::frame::{Eye, ImageIndex, Output, Resource};
 use crate::language::{self, Pipeline, State};
 use crate::ron::Spanned;
@@ -51,14 +52,10 @@ fn shown(resources: &Resources<'_>, resource: Resource, encoding: Option<Encodin
 /// Whether an output's format can hold its encoding.
 fn encoded(resources: &Resources<'_>, of: Resource, encoding: Spanned<Encoding>, errors: &mut Vec<Diagnostic>) -> bool {
     let Resource::Image(index) = of else { return false };
-    let Some(format) = resources.image(index).map(|image| image.image.format) else { return false };
-    let fits = encoding.value.fits(format);
-    if !fits {
-        let (image, word) = (resources.declared(index), encoding.value.name());
-        let message = format!("`{}` can't leave the frame as `{word}`: it is {format}", image.name.text);
-        let wrong = Diagnostic::new(encoding.span, message).label(image.format.span, "its format");
-        errors.push(wrong.help(encoding.value.help(&image.name.text)));
-    }
+    let Some(image) = resources.image(index) else { return false };
+    let wrong = wrong_encoding(&image.image, encoding.value, resources.declared(index), encoding.span);
+    let fits = wrong.is_none();
+    errors.extend(wrong);
     fits
 }
 

@@ -2,41 +2,10 @@
 
 use super::resources::Resources;
 use crate::base::{Diagnostic, Span};
-use crate::frame::Image;
+use crate::frame::{Image, check};
 use crate::language::{ImagePart, Selection};
 use crate::ron::Spanned;
 use crate::vulkan::{Aspects, Shape, Subresources};
-use std::ops::Range;
-
-/// A part of an image, counted out.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Cells {
-    pub(super) mips: Range<u32>,
-    pub(super) layers: Range<u32>,
-    pub(super) planes: Aspects,
-}
-
-/// A part of `image`, counted out.
-pub(super) fn cells(image: &Image, range: &Subresources) -> Cells {
-    let counted = |base: u32, count: u32, all: u32| match count {
-        Subresources::REMAINING => base..all.max(base),
-        count => base..base.saturating_add(count).min(all.max(base)),
-    };
-    let all = image.format.aspects();
-    Cells {
-        mips: counted(range.base_mip, range.mips, image.mips),
-        layers: counted(range.base_layer, range.layers, image.layers),
-        planes: if range.aspects.is_empty() { all } else { range.aspects & all },
-    }
-}
-
-/// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
-pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String {
-    match image.allocated {
-        Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
-        None => format!("{width}×{height}"),
-    }
-}
 
 /// The part that a pass names; all of the image if it names no more than the image, or after a mistake was reported.
 pub(super) fn range(resources: &Resources<'_>, part: &ImagePart, errors: &mut Vec<Diagnostic>) -> Subresources {
@@ -95,6 +64,11 @@ fn selected(
         }
         Some((count, _)) => (first, count),
     }
+}
+
+/// Reports a part of several mip levels of `image`, where one is needed.
+pub(super) fn several_levels(resources: &Resources<'_>, part: &ImagePart, image: &Image, what: &str) -> Diagnostic {
+    check::transfers::several_levels(image, [place(part), resources.declared(part.image.index).mips.span], what)
 }
 
 /// Where the file names a part: the mip level or layer if it says one, else the image.

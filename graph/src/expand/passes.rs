@@ -2,6 +2,7 @@
 
 use super::resources::Resources;
 use super::shader::{self, Checked};
+use super::transfers::OfFile;
 use super::{
     coverage, fills, halves, local, params, parts, rotation, sampled, seen_alike, storage, supplied, targets,
     transfers, variant, work,
@@ -28,7 +29,7 @@ pub(super) fn lower(
         lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
-    transfers::draw_part(resources, &mut lowered, errors);
+    transfers::draw_part(&OfFile { resources, pass }, &mut lowered, errors);
     supplied::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);

@@ -1,11 +1,12 @@
 //! Images that a shader samples: the parts that the pass gives, against the shader's declarations.
 
 use super::images::FrameImage;
-use super::parts::{self, Cells};
+use super::parts;
 use super::resources::Resources;
 use super::shader::{self, shape_words};
 use super::{arrays, compared, storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
+use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, Sampled};
 use crate::language::{self, Face};
 use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
@@ -153,8 +154,8 @@ pub(super) fn check<'i>(
             // It is reported with the pass.
             continue;
         }
-        let cells = parts::cells(&image.image, &sampled.range);
-        let check = Check { resources, pass, sample, shader, image, cells, declared };
+        let part = image.image.part(sampled.range);
+        let check = Check { resources, pass, sample, shader, image, part, declared };
         let before = errors.len();
         check.dimension(errors);
         if errors.len() == before {
@@ -195,8 +196,8 @@ struct Check<'a> {
     sample: &'a language::Sample,
     shader: &'a str,
     image: &'a FrameImage,
-    /// The part that is given.
-    cells: Cells,
+    /// The part that is given, with planes named.
+    part: Subresources,
     declared: Declared,
 }
 
@@ -204,7 +205,7 @@ impl Check<'_> {
     /// The part has the shape that the shader declares.
     fn dimension(&self, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        let layers = self.cells.layers.len();
+        let layers = self.part.layers;
         let span = parts::place(&self.sample.part);
         let shape = self.resources.declared(self.sample.part.image.index).shape.span;
         if dimension(self.shader, name, self.declared.shape, image, span, shape, errors) {
@@ -225,7 +226,7 @@ impl Check<'_> {
     /// The part has the component type that the shader reads.
     fn component(&self, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        let stencil = self.cells.planes == Aspects::STENCIL;
+        let stencil = self.part.aspects == Aspects::STENCIL;
         let holds = if stencil { Component::Uint } else { Component::of(image.format) };
         if self.declared.shape.component != holds {
             let (wanted, held) = (self.declared.shape.component.words(), holds.words());
@@ -285,7 +286,7 @@ impl Check<'_> {
     /// `DepthOnly` needs an image with depth: only depth can be drawn again.
     fn depth_only(&self, errors: &mut Vec<Diagnostic>) {
         let image = &self.image.image;
-        if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.cells.planes == Aspects::STENCIL) {
+        if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.part.aspects == Aspects::STENCIL) {
             let message = format!("`{}` is no depth: it is {}", image.name, image.format);
             let declared = self.resources.declared(self.sample.part.image.index).format.span;
             let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format");
@@ -298,7 +299,7 @@ impl Check<'_> {
         let (image, shader, multisampled) = (&self.image.image, self.shader, self.declared.shape.multisampled);
         let why = match () {
             () if image.format.is_integer() => format!("`{}` holds integers ({})", image.name, image.format),
-            () if self.cells.planes == Aspects::STENCIL => format!("the stencil of `{}` holds integers", image.name),
+            () if self.part.aspects == Aspects::STENCIL => format!("the stencil of `{}` holds integers", image.name),
             () if multisampled && !self.declared.adapts => format!("shader `{shader}` reads single samples of it"),
             () => return,
         };
@@ -392,19 +393,17 @@ impl Check<'_> {
             return;
         };
         let Some(target) = resources.image(target).map(|target| &target.image) else { return };
-        let (own, drawn) = (image.extent_at(self.cells.mips.start), target.target_shape(range).extent);
-        if (&own[..2], image.allocated) != (&drawn[..2], target.allocated)
-            || self.cells.mips.len() > 1
-            || self.cells.layers.len() > 1
+        let (own, drawn) = (image.extent_at(self.part.base_mip), target.target_shape(range).extent);
+        if (&own[..2], image.allocated) != (&drawn[..2], target.allocated) || self.part.mips > 1 || self.part.layers > 1
         {
             let message = format!(
                 "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
                 image.name, self.pass.name.text
             );
-            let levels = self.cells.mips.len();
-            let more = parts::size_words(own, image)
-                + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
-            let targets = format!("`{}` is {}", target.name, parts::size_words(drawn, target));
+            let levels = self.part.mips;
+            let more =
+                size_words(own, image) + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
+            let targets = format!("`{}` is {}", target.name, size_words(drawn, target));
             errors.push(Diagnostic::new(span, message).remark(more).help(targets));
         }
     }
@@ -448,7 +447,7 @@ pub(super) fn dimension(
 }
 
 /// Why this number of layers doesn't fit the declared shape.
-pub(super) fn layers_fit(shape: ImageShape, layers: usize) -> Option<String> {
+pub(super) fn layers_fit(shape: ImageShape, layers: u32) -> Option<String> {
     let fits = match (shape.dimension, shape.arrayed) {
         (Dimension::Cube, false) => layers == 6,
         (Dimension::Cube, true) => layers.is_multiple_of(6),

@@ -1,9 +1,8 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
-use super::parts::Cells;
 use super::resources::Resources;
 use super::shader::{self, PARAMS, shape_words};
-use super::{accesses, arrays, parts, sampled, transfers, work};
+use super::{arrays, parts, sampled, work};
 use crate::base::{Diagnostic, Span, nearest, suggestion};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
@@ -45,10 +44,9 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
 /// Lets the writes of a pass that the file says nothing of keep what is there, where `holds` says that there is something.
 /// Returns what they keep.
 pub(super) fn keep(
-    resources: &Resources<'_>,
     described: &language::Pass,
     pass: &mut Pass,
-    holds: impl Fn(Resource, &Cells) -> bool,
+    holds: impl Fn(Resource, Subresources) -> bool,
 ) -> Vec<Kept> {
     let mut kept = Vec::new();
     for storage in described.storage.iter().filter(|storage| storage.access.is_none()) {
@@ -66,8 +64,7 @@ pub(super) fn keep(
                 (read, write, Subresources::WHOLE)
             }
         };
-        let Some(cells) = accesses::part(resources, of, &range) else { continue };
-        if write && !*read && holds(of, &cells) {
+        if write && !*read && holds(of, range) {
             *read = true;
             kept.push(Kept { of, span, binding: name.clone() });
         }
@@ -228,16 +225,16 @@ impl ImageCheck<'_> {
         let (shader, name, image) = (self.shader, self.name, self.image);
         let declared = self.resources.declared(self.part.image.index);
         let span = parts::place(self.part);
-        let cells = parts::cells(image, &range);
+        let part = image.part(range);
         if sampled::dimension(shader, name, shape, image, span, declared.shape.span, errors) {
             return;
         }
-        if let Some(message) = sampled::layers_fit(shape, cells.layers.len()) {
+        if let Some(message) = sampled::layers_fit(shape, part.layers) {
             let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
             errors.push(Diagnostic::new(span, message));
         }
-        if transfers::one_mip(self.resources, image, self.part, &cells, "the shader accesses", errors).is_none() {
-            return;
+        if part.mips != 1 {
+            return errors.push(parts::several_levels(self.resources, self.part, image, "the shader accesses"));
         }
         let here =
             |message: String| Diagnostic::new(self.part.image.span, message).label(declared.format.span, "its format");

@@ -1,35 +1,34 @@
 //! What storage writes may leave as it was. Nothing is proven of them: `writeonly` says that a shader doesn't read, not that it writes
 //! all. So what was there is kept, if anything was, unless the file promises more.
 
-use super::parts::Cells;
 use super::resources::Resources;
 use super::shader::Checked;
 use super::state::State;
 use super::storage::{self, Kept};
-use super::written::Written;
-use super::{accesses, coverage, variant, writers};
-use crate::frame::{Remark, Resource};
+use super::{accesses, coverage, variant};
+use crate::frame::Remark;
+use crate::frame::tracked::Parts;
 use crate::language;
 use crate::shader::declared_name;
 
 /// Lets storage writes that nobody promises to be whole keep what earlier passes, or earlier frames, left. `states` are those of
 /// the pipeline's passes. Returns remarks that say so.
-pub(super) fn keep(resources: &Resources<'_>, states: &mut [State], shaders: &mut Checked<'_>) -> Vec<Remark> {
+pub(super) fn keep(
+    resources: &Resources<'_>,
+    states: &mut [State],
+    parts: &Parts<'_>,
+    shaders: &mut Checked<'_>,
+) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let described = &resources.pipeline.passes;
     if described.iter().flat_map(|pass| &pass.storage).all(|storage| storage.access.is_some()) {
         return remarks;
     }
-    let images = resources.images.len();
-    let mut written: Vec<Written> = Vec::new();
-    written.resize_with(images + resources.buffers.len(), Written::default);
-    for (state, described) in states.iter_mut().zip(described) {
+    let mut contents = accesses::contents(resources, parts);
+    for ((state, described), number) in states.iter_mut().zip(described).zip(1..) {
         if let State::On(pass) = state {
-            let holds = |of: Resource, cells: &Cells| {
-                let holds = resources.lifetime(of).is_some_and(|lifetime| lifetime.has_contents(of));
-                holds || written[writers::number(images, of)].has_any(cells)
-            };
-            for Kept { of, span, binding } in storage::keep(resources, described, pass, holds) {
+            for Kept { of, span, binding } in storage::keep(described, pass, |of, range| contents.holds_any(of, range))
+            {
                 let declared = declaration(resources, described, &binding, shaders);
                 let text = format!(
                     "keeps what it doesn't write of `{}`: its shader doesn't read it{}, which doesn't say that it writes all of it; \
@@ -40,13 +39,7 @@ pub(super) fn keep(resources: &Resources<'_>, states: &mut [State], shaders: &mu
                 remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
             }
         }
-        for pass in state.runs() {
-            accesses::for_each_write(resources, pass, |write| {
-                if let Some(whole) = accesses::whole(resources, write.resource) {
-                    written[writers::number(images, write.resource)].add(&write.cells, &whole);
-                }
-            });
-        }
+        state.runs().iter().for_each(|pass| contents.write(pass, number));
     }
     remarks
 }

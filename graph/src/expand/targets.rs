@@ -2,9 +2,10 @@
 
 use super::images::FrameImage;
 use super::resources::Resources;
-use super::{coverage, fills, parts, transfers};
+use super::{coverage, fills, parts};
 use crate::base::Diagnostic;
-use crate::frame::{Blend, Remark, TargetShape};
+use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
+use crate::frame::{Blend, Remark};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::ron::Name;
 use crate::shader::{ShaderInterface, Unset};
@@ -35,10 +36,9 @@ pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut
     }
     if let Some(target) = &pass.depth
         && let Some(image) = resolved(target.part.image)
-        && !image.image.format.is_depth()
     {
-        let message = format!("`{}` has no depth ({})", image.image.name, image.image.format);
-        errors.push(Diagnostic::new(target.part.image.span, message).label(declared(target.part.image), "its format"));
+        let declared = resources.declared(target.part.image.index);
+        errors.extend(without_depth(&image.image, declared, target.part.image.span));
     }
     if let Some(target) = &pass.depth
         && let (Some(stencil), Some(image)) = (target.stencil, resolved(target.part.image))
@@ -50,8 +50,8 @@ pub(super) fn fit(resources: &Resources<'_>, pass: &language::Pass, errors: &mut
         errors.push(wrong.help(format!("say `format: DepthStencil` of `{}`", image.image.name)));
     }
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
-    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(resources, part, errors)).collect();
-    agree(pass, &parts, errors);
+    let targets: Vec<Target<'_>> = parts.filter_map(|part| drawn(resources, part, errors)).collect();
+    agree(&pass.name.text, targets, errors);
     for stand_in in &pass.otherwise {
         let language::StandIn::Forward(forward) = stand_in else { continue };
         if let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
@@ -77,35 +77,23 @@ fn kind(image: &FrameImage) -> &'static str {
     }
 }
 
-/// A part of an image that is drawn into.
-struct Part<'a> {
-    part: &'a ImagePart,
-    image: &'a FrameImage,
-    shape: TargetShape,
-}
-
 /// The one mip level, and the layers, that are drawn into. `None` if that can't be; mistakes were reported then.
-fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec<Diagnostic>) -> Option<Part<'a>> {
+fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec<Diagnostic>) -> Option<Target<'a>> {
     let resolved = resources.image(part.image.index)?;
-    let (image, name) = (&resolved.image, &resolved.image.name);
-    if image.shape == Shape::D3 {
-        let message = format!("`{name}` is three-dimensional and can't be drawn into");
-        let declared = resources.declared(part.image.index).shape.span;
-        let wrong = Diagnostic::new(part.image.span, message).label(declared, "its shape");
-        errors.push(wrong.help("let a dispatch store into it"));
-        return None;
-    }
-    // Parts out of range are reported with the pass.
+    let (image, name, declared) = (&resolved.image, &resolved.image.name, resources.declared(part.image.index));
     let mut known = Vec::new();
     let range = parts::range(resources, part, &mut known);
-    if !known.is_empty() {
+    // Parts out of range are reported with the pass.
+    if !known.is_empty() && image.shape != Shape::D3 {
         return None;
     }
-    transfers::one_mip(resources, image, part, &parts::cells(image, &range), "is drawn into", errors)?;
-    let shape = image.target_shape(range);
-    let layers = shape.layers;
+    if let Some(wrong) = undrawable(image, range, declared, [part.image.span, parts::place(part)]) {
+        errors.push(wrong);
+        return None;
+    }
+    let layers = image.part(range).layers;
     if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {
-        let declared = resources.declared(part.image.index).layers.span;
+        let declared = declared.layers.span;
         let message = format!("`{name}` has {layers} layers: say which one is drawn into");
         let help = format!(
             "write `(image: \"{name}\", layer: 0)`: a draw reaches one layer; `layers: Rest` clears them all as well"
@@ -113,52 +101,7 @@ fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec
         errors.push(Diagnostic::new(part.image.span, message).label(declared, "declared here").help(help));
         return None;
     }
-    Some(Part { part, image: resolved, shape })
-}
-
-/// All targets of a pass have one size, one sample count and as many layers.
-fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>) {
-    let Some((first, others)) = parts.split_first() else { return };
-    for other in others {
-        let (one, another) = (&first.image.image, &other.image.image);
-        let span = other.part.image.span;
-        if (first.shape.extent, first.shape.allocated) != (other.shape.extent, other.shape.allocated) {
-            let message = format!(
-                "pass `{}` draws into images of different sizes: `{}` and `{}`",
-                pass.name.text, one.name, another.name
-            );
-            let wrong = Diagnostic::new(span, message)
-                .remark(parts::size_words(other.shape.extent, another))
-                .label(first.part.image.span, parts::size_words(first.shape.extent, one));
-            let whole = (one.extent, one.allocated) != (another.extent, another.allocated);
-            let help = format!("let one follow the other: say `size: Like(\"{}\")` of `{}`", one.name, another.name);
-            errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });
-        }
-        if first.shape.samples != other.shape.samples {
-            let message = format!(
-                "pass `{}` draws into images with different sample counts: `{}` and `{}`",
-                pass.name.text, one.name, another.name
-            );
-            errors.push(
-                Diagnostic::new(span, message)
-                    .remark(other.image.samples_words())
-                    .label(first.part.image.span, first.image.samples_words())
-                    .help(format!(
-                        "let one follow the other: say `samples: Like(\"{}\")` of `{}`",
-                        one.name, another.name
-                    )),
-            );
-        }
-        if first.shape.layers != other.shape.layers {
-            let layers = |count: u32| if count == 1 { "1 layer".to_owned() } else { format!("{count} layers") };
-            let message = format!(
-                "pass `{}` draws into different numbers of layers: `{}` and `{}`",
-                pass.name.text, one.name, another.name
-            );
-            let wrong = Diagnostic::new(span, message).remark(layers(other.shape.layers));
-            errors.push(wrong.label(first.part.image.span, layers(first.shape.layers)));
-        }
-    }
+    Some(Target { image, range, span: part.image.span, samples_because: resolved.samples_because.as_deref() })
 }
 
 /// Every output that a target takes is set: one that some path leaves is a mistake, or told of where that isn't sure.

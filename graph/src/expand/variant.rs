@@ -1,13 +1,13 @@
 //! How a pass's shader is compiled: its declarations of sampled images may follow the images that the pass gives.
 
-use super::parts::{self, Cells};
+use super::parts;
 use super::resources::Resources;
 use super::shader::Checked;
 use crate::base::Diagnostic;
 use crate::frame::{Image, Pass};
 use crate::language::{self, Face};
 use crate::shader::Variant;
-use crate::vulkan::{Aspects, Component, ImageShape};
+use crate::vulkan::{Aspects, Component, ImageShape, Subresources};
 use std::sync::Arc;
 
 /// The variant of its shader that a pass needs. Unknown images are left out: mistakes are reported elsewhere.
@@ -15,7 +15,7 @@ pub(super) fn of(resources: &Resources<'_>, pass: &language::Pass) -> Variant {
     let texture = |sample: &language::Sample| {
         let image = &resources.image(sample.part.image.index)?.image;
         let range = parts::range(resources, &sample.part, &mut Vec::new());
-        Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
+        Some((sample.binding.text.clone(), texture(image, image.part(range), sample.face)))
     };
     let mut sampled: Vec<Arc<str>> = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
     Variant::name_arrays(&mut sampled);
@@ -64,8 +64,8 @@ pub(super) fn with_all(resources: &Resources<'_>, pass: &language::Pass) -> Opti
 }
 
 /// The texture type of a part of an image, in a shader that leaves the type to the pass.
-fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
-    let stencil = cells.planes == Aspects::STENCIL;
+fn texture(image: &Image, part: Subresources, face: Face) -> ImageShape {
+    let stencil = part.aspects == Aspects::STENCIL;
     let component = if stencil { Component::Uint } else { Component::of(image.format) };
     let single_samples = match face {
         Face::Samples => true,
@@ -73,7 +73,12 @@ fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
         Face::Plain => image.format.is_depth(),
         Face::Resolved | Face::DepthOnly => false,
     };
-    ImageShape::of(image.shape, cells.layers.clone(), single_samples && image.samples > 1, component)
+    ImageShape::of(
+        image.shape,
+        part.base_layer..part.base_layer + part.layers,
+        single_samples && image.samples > 1,
+        component,
+    )
 }
 
 /// Reports a shader that adapts to several samples, and is wrong where the device leaves its images one sample.

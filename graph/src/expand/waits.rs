@@ -1,6 +1,6 @@
 //! Passes that wait for each other: moving one up doesn't help where the other needs it.
 
-use super::accesses;
+use super::accesses::{self, Use};
 use super::resources::Resources;
 use super::state::State;
 use super::writers::Writers;
@@ -29,11 +29,9 @@ pub(super) fn circle(resources: &Resources<'_>, states: &[State], writers: &Writ
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
         let runs = states.get(at).map_or(&[][..], State::runs);
-        let read = runs.iter().flat_map(|pass| accesses::reads(resources, pass)).filter(|read| read.frames_ago == 0);
-        let read = read.map(|read| (read.resource, read.span));
-        let continued = runs.iter().flat_map(|pass| accesses::writes(resources, pass));
-        let continued = continued.filter(|write| write.continues.is_some());
-        for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
+        let uses = runs.iter().flat_map(|pass| accesses::uses(resources, pass)).filter(|used| used.reads);
+        let (targets, others): (Vec<Use>, Vec<Use>) = uses.partition(|used| used.attaches);
+        for Use { resource, span, .. } in others.into_iter().chain(targets) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {
                 continue;
             };

@@ -1,9 +1,10 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
 use super::resources::Resources;
+use super::transfers::OfFile;
 use super::{coverage, fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Draw, Groups, Pass, Work};
+use crate::frame::{Draw, Groups, Pass, Work, check};
 use crate::language::{self, Groups as Described, MOST_GROUPS};
 use crate::ron::{Name, Spanned};
 use crate::shader::ShaderInterface;
@@ -59,9 +60,9 @@ fn groups(resources: &Resources<'_>, groups: &Described) -> Groups {
 /// Width, height, and depth or layers of a part of an image.
 fn texels(resources: &Resources<'_>, part: &language::ImagePart) -> [u32; 3] {
     let Some(image) = resources.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
-    let cells = parts::cells(image, &parts::range(resources, part, &mut Vec::new()));
-    let [width, height, depth] = image.extent_at(cells.mips.start);
-    [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
+    let part = image.part(parts::range(resources, part, &mut Vec::new()));
+    let [width, height, depth] = image.extent_at(part.base_mip);
+    [width, height, depth.saturating_mul(part.layers)]
 }
 
 /// Reports work that the pass can't do.
@@ -77,9 +78,8 @@ pub(super) fn check(
         language::Work::Dispatch { groups, .. } => {
             dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
-        language::Work::Copy { from, to } => transfers::copy(resources, [from, to], lowered, errors),
-        language::Work::Blit { from, to, filter } => {
-            transfers::blit(resources, [from, to], *filter, lowered, errors);
+        language::Work::Copy { .. } | language::Work::Blit { .. } => {
+            check::transfers::check(&OfFile { resources, pass }, lowered, errors);
         }
         language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
         language::Work::Custom { .. } => {}

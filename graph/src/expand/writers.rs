@@ -13,14 +13,6 @@ pub(super) struct Writer {
     pub(super) span: Span,
 }
 
-/// The number of an image or buffer, where buffers follow this many images.
-pub(super) fn number(images: usize, of: Resource) -> usize {
-    match of {
-        Resource::Image(index) => index.0 as usize,
-        Resource::Buffer(index) => images + index.0 as usize,
-    }
-}
-
 /// Writers of each image and buffer, in the order of passes.
 pub(super) struct Writers {
     images: usize,
@@ -39,9 +31,11 @@ impl Writers {
             let otherwise = &resources.pipeline.passes[position].otherwise;
             let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
             for pass in state.runs() {
-                accesses::for_each_write(resources, pass, |write| {
-                    let at = writers.index(write.resource);
-                    writers.on[at].push(Writer { position, span: write.span });
+                accesses::for_each_use(resources, pass, |used| {
+                    if used.writes {
+                        let at = writers.index(used.resource);
+                        writers.on[at].push(Writer { position, span: used.span });
+                    }
                 });
             }
             if let State::Off { would, .. } = state {
@@ -55,7 +49,10 @@ impl Writers {
     }
 
     pub(super) fn index(&self, of: Resource) -> usize {
-        number(self.images, of)
+        match of {
+            Resource::Image(index) => index.0 as usize,
+            Resource::Buffer(index) => self.images + index.0 as usize,
+        }
     }
 
     /// The last pass before `position` that writes it.

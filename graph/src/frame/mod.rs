@@ -6,6 +6,7 @@
 mod access;
 mod capture;
 pub mod change;
+pub(crate) mod check;
 mod covers;
 mod decided;
 mod draw;
@@ -18,6 +19,7 @@ mod part;
 mod pass;
 mod resource;
 mod texture;
+pub(crate) mod tracked;
 mod uses;
 mod view;
 mod work;
@@ -76,6 +78,16 @@ pub struct Frame {
     pub switched_off: Vec<SwitchedOff>,
     /// Warnings: allowed, but probably a mistake.
     pub remarks: Vec<Remark>,
+}
+
+impl Frame {
+    /// The name of an image or buffer.
+    pub(crate) fn name(&self, of: Resource) -> &Arc<str> {
+        match of {
+            Resource::Image(image) => &self.images[image.0 as usize].name,
+            Resource::Buffer(buffer) => &self.buffers[buffer.0 as usize].name,
+        }
+    }
 }
 
 /// A warning about a pass or an image: allowed, but probably a mistake.

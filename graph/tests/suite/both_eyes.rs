@@ -313,7 +313,7 @@ fn frames_that_use_both_eyes_parts_otherwise_than_for_both_are_refused_in_words(
             let work = Work::Forward { from: COLOR, to: NOISE, because: "it is off".to_owned() };
             frame.passes.push(Pass::new("hand on", work));
         }),
-        ("`opaque` draws into `color` and `noise`, which differ", |frame| {
+        ("`opaque` draws into images that hold eyes' parts in different ways: `color` and `noise`", |frame| {
             let noise = frame.passes[0].color[0].clone();
             frame.passes[1].color.push(noise);
         }),

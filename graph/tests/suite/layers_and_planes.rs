@@ -227,15 +227,13 @@ fn one_plane_of_depth_with_stencil_is_copied_to_a_buffer() {
         frame.outputs.push(rows.into());
         compiled(&frame).expect("the buffer holds the plane");
         frame.buffers[0].bytes -= 1;
-        assert_eq!(
-            compiled(&frame).expect_err("it is too small"),
-            "`copy` copies between a buffer and an image that is larger"
-        );
+        let too_small =
+            |wanted: u64| format!("`copy`: `rows` has {} bytes, but the texels of `depth` take {wanted}", bytes - 1);
+        assert_eq!(compiled(&frame).expect_err("it is too small"), too_small(bytes));
         frame.passes[1].transfers[0].range = Subresources::WHOLE;
-        assert_eq!(
-            compiled(&frame).expect_err("these are two planes"),
-            "`copy` copies depth with stencil to or from a buffer"
-        );
+        let planes = "`copy`: `depth` has depth and stencil (D32_SFLOAT_S8_UINT): say which of them";
+        let said = compiled(&frame).expect_err("these are two planes");
+        assert_eq!(said, format!("{planes}; {}", too_small(4 * u64::from(texels))));
     }
 }
 

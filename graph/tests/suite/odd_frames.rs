@@ -69,19 +69,19 @@ fn what_cannot_be_is_refused_in_words() {
             frame.images[0].layers = u32::MAX;
             frame.images[0].extent = [16384, 16384, 1];
         }),
-        ("has 0 mip levels; its size allows 1 to 7", |frame| noise(frame).mips = 0),
-        ("has 8 mip levels", |frame| noise(frame).mips = 8),
-        ("has 4294967295 mip levels", |frame| noise(frame).mips = u32::MAX),
+        ("`noise` can't have 0 mip levels: 64×64 texels have 7", |frame| noise(frame).mips = 0),
+        ("can't have 8 mip levels", |frame| noise(frame).mips = 8),
+        ("can't have 4294967295 mip levels", |frame| noise(frame).mips = u32::MAX),
         ("has no layers", |frame| noise(frame).layers = 0),
         ("has 0 samples", |frame| noise(frame).samples = 0),
         ("has 3 samples", |frame| noise(frame).samples = 3),
-        ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
-        ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
-        ("`blend` draws into `screen`, which is three-dimensional", |frame| {
+        ("`color` has 4 samples, so it is two-dimensional and has one mip level", |frame| frame.images[0].mips = 2),
+        ("`blend`: `screen` has 2 mip levels: say which one is drawn into", |frame| frame.images[2].mips = 2),
+        ("`blend`: `screen` is three-dimensional and can't be drawn into", |frame| {
             frame.images[2].extent[2] = 2;
             frame.images[2].shape = Shape::D3;
         }),
-        ("`blend` draws into `screen`, which is three-dimensional", |frame| frame.images[2].shape = Shape::D3),
+        ("`blend`: `screen` is three-dimensional and can't be drawn into", |frame| frame.images[2].shape = Shape::D3),
         ("is three-dimensional and can't hold depth", |frame| {
             noise(frame).format = D32_SFLOAT;
             noise(frame).shape = Shape::D3;
@@ -143,7 +143,7 @@ fn attachments_of_one_pass_have_as_many_layers_and_are_no_more_than_the_device_h
     assert_eq!(said, ["`opaque` draws into 2 colour images; `a device for tests` has 1"]);
     frame.images[0].layers = 2;
     let said = refused_on(&frame, &raster::device());
-    assert_eq!(said, ["`opaque` draws into `a` and `b`, which differ in size, layers or samples"]);
+    assert_eq!(said, ["pass `opaque` draws into different numbers of layers: `a` and `b`"]);
 }
 
 #[test]

@@ -13,13 +13,9 @@ use std::sync::Arc;
 
 /// Numbers physical images of one name, as an image gets that others are forwarded to; the last one keeps the name.
 pub(super) fn distinct_names(frame: &Frame, resources: &mut [PhysicalResource]) {
-    let own = |of: Resource| match of {
-        Resource::Image(image) => &frame.images[image.0 as usize].name,
-        Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
-    };
     let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(resources.len());
     for resource in resources.iter_mut().rev() {
-        let name = resource.renamed.as_ref().unwrap_or(own(resource.of)).clone();
+        let name = resource.renamed.as_ref().unwrap_or(frame.name(resource.of)).clone();
         let mut shown = name.clone();
         while let Some(number) = used.get_mut(&shown) {
             // Counting goes on where it stopped: many images may have one name.

@@ -2,7 +2,7 @@
 
 use crate::base::Diagnostic;
 use crate::device::{Abilities, Limit, NeedKind, Profile};
-use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass, Resource};
+use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass};
 use crate::plan::{Note, Stage};
 use crate::vulkan::State;
 
@@ -60,13 +60,8 @@ fn states(frame: &Frame, device: &Profile, errors: &mut Vec<Diagnostic>) {
         Lifetime::Imported { before, after } => Some((name, span, [Some(before), after.as_ref()])),
         Lifetime::File(_) | Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => None,
     });
-    let left = frame.outputs.iter().map(|output| {
-        let name = match output.resource {
-            Resource::Image(image) => &frame.images[image.0 as usize].name,
-            Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
-        };
-        (name, output.span, [None, output.after.as_ref()])
-    });
+    let left =
+        frame.outputs.iter().map(|output| (frame.name(output.resource), output.span, [None, output.after.as_ref()]));
     for (name, span, states) in imported.chain(left) {
         let mut features = states.into_iter().flatten().flat_map(State::features);
         if let Some(missing) = features.find(|feature| !device.has_feature(feature)) {

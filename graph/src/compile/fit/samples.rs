@@ -6,9 +6,9 @@ use super::needs::{Needs, Supports};
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;
-use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, TargetShape};
+use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource};
 use crate::plan::{Note, Stage};
-use crate::vulkan::{Filter, Format, Sampler, Shape, Subresources, Usage};
+use crate::vulkan::{Filter, Format, Sampler, Shape, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +30,6 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
         if multisampled && let Some((first, _)) = pass.attachments().next() {
             pass.attachments().for_each(|(other, _)| _ = together.union(first.0, other.0));
         }
-        errors.extend(disagreement(frame, pass));
         if !formats.are_met {
             check_operations(frame, pass, supports, &mut errors);
         }
@@ -69,10 +68,8 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
 /// Whether the negotiated result for a frame holds for another frame, which differs in nothing but sizes and values, and
 /// forwards between images of the same proportions.
 pub(crate) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
-    let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);
     frame.images.iter().all(|image| image.made().iter().all(|side| *side <= largest(image, device)))
         && still_fit(frame, live, device)
-        && passes.into_iter().all(|pass| disagreement(frame, pass).is_none())
 }
 
 /// The longest side that an image of this shape can have.
@@ -108,42 +105,6 @@ pub(crate) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<Ima
             return together;
         }
     }
-}
-
-/// Attachments of one pass must have one size, one number of layers and one sample count.
-#[inline]
-fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
-    let several = pass.color.len() + usize::from(pass.depth.is_some()) > 1;
-    several.then(|| disagreement_of_several(frame, pass)).flatten()
-}
-
-fn disagreement_of_several(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
-    let shape = |(image, range): (ImageIndex, Subresources)| frame.images[image.0 as usize].target_shape(range);
-    let mut attached = pass.attachments();
-    let first = attached.next()?;
-    let other = attached.find(|other| shape(*other) != shape(first))?;
-    let words = |part| {
-        let TargetShape { extent: [width, height, _], allocated, layers, samples, .. } = shape(part);
-        let allocated = allocated.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
-        let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
-        format!("{width}×{height}{allocated}{layers} with {samples} samples")
-    };
-    let (a, b) = (&frame.images[first.0.0 as usize], &frame.images[other.0.0 as usize]);
-    Some(
-        Diagnostic::new(
-            pass.span,
-            format!(
-                "`{}` draws into `{}` and `{}`, which differ in size, layers or samples",
-                pass.name, a.name, b.name
-            ),
-        )
-        .label(a.span, words(first))
-        .label(b.span, words(other))
-        .help(format!(
-            "let one follow the other: say `size: Like(\"{0}\")`, and `samples: Like(\"{0}\")` of `{1}`",
-            a.name, b.name
-        )),
-    )
 }
 
 fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {

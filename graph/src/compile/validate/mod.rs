@@ -3,11 +3,9 @@
 mod eyes;
 mod lifetimes;
 mod pass;
-mod transfers;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View};
-use crate::vulkan::Shape;
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, View, check};
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, wrong_clear};
 
@@ -25,7 +23,12 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     for image in &frame.images {
         has_eyes |= image.eyes.is_some();
         has_files |= matches!(image.lifetime, Lifetime::File(_));
-        if let Some(what) = image_problem(image).or_else(|| eyes::image_problem(image, frame.stereo)) {
+        let before = errors.len();
+        check::images::check(image, image, &mut errors);
+        if errors.len() > before {
+            continue;
+        }
+        if let Some(what) = resolve_problem(image).or_else(|| eyes::image_problem(image, frame.stereo)) {
             errors.push(Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
         } else if let Some(wrong) = lifetimes::check(&image.lifetime, image.span, || of_image(image)) {
             errors.push(wrong);
@@ -59,9 +62,13 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
 
 /// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
 pub(super) fn still_holds(frame: &Frame) -> bool {
-    let sizes = frame.images.iter().all(|image| size_problem(image).is_none());
+    let mut errors = Vec::new();
+    frame.images.iter().for_each(|image| check::images::check(image, image, &mut errors));
+    for pass in &frame.passes {
+        Check { frame, pass, errors: &mut errors }.targets();
+    }
     let views = || !frame.views.iter().any(has_no_texels);
-    sizes && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
+    errors.is_empty() && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
 }
 
 /// Whether a frame is valid that differs from a valid one in nothing but values.
@@ -75,6 +82,11 @@ pub(super) fn values_still_hold(frame: &Frame) -> bool {
         }
     }
     errors.is_empty()
+}
+
+fn resolve_problem(image: &Image) -> Option<String> {
+    let resolve = image.resolve.as_ref().filter(|resolve| !resolve.way.fits(image.format));
+    resolve.map(|_| format!("can't be resolved as it says: it is {}", image.format))
 }
 
 fn has_no_texels(view: &View) -> bool {
@@ -151,74 +163,15 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
 /// The mistake in an output's encoding, if the output's format can't hold it.
 fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
     let encoding = output.encoding?;
-    let name = encoding.name();
-    let image = match output.resource {
-        Resource::Image(image) => &frame.images[image.0 as usize],
-        Resource::Buffer(buffer) => {
-            let message =
-                format!("`{}` is a buffer and has no encoding `{name}`", frame.buffers[buffer.0 as usize].name);
-            return Some(Diagnostic::new(output.span, message).help("leave `encoding` out"));
+    match output.resource {
+        Resource::Image(image) => {
+            let image = &frame.images[image.0 as usize];
+            check::images::wrong_encoding(image, encoding, image, output.span)
         }
-    };
-    if encoding.fits(image.format) {
-        return None;
+        Resource::Buffer(_) => {
+            let message =
+                format!("`{}` is a buffer and has no encoding `{}`", frame.name(output.resource), encoding.name());
+            Some(Diagnostic::new(output.span, message).help("leave `encoding` out"))
+        }
     }
-    let message = format!("`{}` can't leave the frame as `{name}`: it is {}", image.name, image.format);
-    let help = encoding.help(&image.name);
-    Some(Diagnostic::new(output.span, message).label(image.span, "declared here").help(help))
-}
-
-fn image_problem(image: &Image) -> Option<String> {
-    let [width, height, _] = image.extent;
-    if let Some(problem) = size_problem(image) {
-        Some(problem)
-    } else if image.allocated.is_some()
-        && (image.shape != Shape::D2 || image.mips > 1 || image.lifetime != Lifetime::Transient)
-    {
-        Some("changes its size, so it is transient, two-dimensional and has one mip level".to_owned())
-    } else if image.layers == 0 {
-        Some("has no layers".to_owned())
-    } else if !SAMPLE_COUNTS.contains(&image.samples) {
-        Some(format!("has {} samples; 1, 2, 4, 8 or 16 are possible", image.samples))
-    } else if image.samples > 1 && (image.mips > 1 || image.shape != Shape::D2) {
-        Some("is multisampled and has mip levels or depth".to_owned())
-    } else if image.shape == Shape::D3 && image.layers > 1 {
-        Some("is three-dimensional and has layers".to_owned())
-    } else if image.shape == Shape::D3 && image.format.is_depth() {
-        Some("is three-dimensional and can't hold depth".to_owned())
-    } else if let Some(Resolve { way, .. }) = &image.resolve
-        && !way.fits(image.format)
-    {
-        Some(format!("can't be resolved as it says: it is {}", image.format))
-    } else if matches!(image.lifetime, Lifetime::File(_)) && (image.layers > 1 || image.shape == Shape::Cube) {
-        Some("comes from a file and has layers".to_owned())
-    } else if image.shape == Shape::Cube && !image.layers.is_multiple_of(6) {
-        Some(not_a_cube(width, height, image.layers))
-    } else {
-        None
-    }
-}
-
-/// What is wrong with the size of an image, or with what else the size decides about.
-#[inline]
-fn size_problem(image: &Image) -> Option<String> {
-    let [width, height, depth] = image.extent;
-    let levels = || width.max(height).max(depth).checked_ilog2().map_or(0, |log| log + 1);
-    if image.extent.contains(&0) {
-        Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
-    } else if image.mips != 1 && !(1..=levels()).contains(&image.mips) {
-        Some(format!("has {} mip levels; its size allows 1 to {}", image.mips, levels()))
-    } else if image.allocated.is_some_and(|[wide, high]| wide < width || high < height) {
-        Some(format!("is {width}×{height}, and has no room for that"))
-    } else if depth > 1 && image.shape != Shape::D3 {
-        Some("has depth and is not three-dimensional".to_owned())
-    } else if image.shape == Shape::Cube && width != height {
-        Some(not_a_cube(width, height, image.layers))
-    } else {
-        None
-    }
-}
-
-fn not_a_cube(width: u32, height: u32, layers: u32) -> String {
-    format!("is a cube of {width}×{height} with {layers} layers; cubes are square and have 6")
 }

@@ -2,8 +2,9 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
-use crate::vulkan::{Shape, Stages, Subresources};
+use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
+use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
+use crate::vulkan::{Stages, Subresources};
 
 /// The check of a pass.
 pub(super) struct Check<'c> {
@@ -65,11 +66,19 @@ impl Check<'_> {
             self.inside(image, range, span);
         }
         if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
-            self.one_mip(image, range, span);
+            self.within(undrawable(image, range, image, [span, span]));
         }
-        if matches!(access, Access::Depth(_)) && !image.format.is_depth() {
-            self.wrong(span, "tests depth in an image that has none");
+        if let Access::Depth(_) = access {
+            self.within(without_depth(image, image, span));
         }
+    }
+
+    /// Reports a mistake in what the pass uses, with the name of the pass.
+    #[inline]
+    fn within(&mut self, wrong: impl IntoIterator<Item = Diagnostic>) {
+        let of_pass =
+            |wrong: Diagnostic| Diagnostic { message: format!("`{}`: {}", self.pass.name, wrong.message), ..wrong };
+        self.errors.extend(wrong.into_iter().map(of_pass));
     }
 
     #[cold]
@@ -105,15 +114,6 @@ impl Check<'_> {
         }
     }
 
-    /// The target of a draw, and both sides of a forward, are one mip level of a flat image.
-    fn one_mip(&mut self, image: &Image, range: Subresources, span: Span) {
-        if image.shape == Shape::D3 {
-            self.wrong(span, &format!("draws into `{}`, which is three-dimensional", image.name));
-        } else if image.part(range).mips > 1 {
-            self.wrong(span, &format!("draws into `{}`, which has mip levels: it can be only one of them", image.name));
-        }
-    }
-
     pub(super) fn work(&mut self) {
         let pass = self.pass;
         let attached = !pass.color.is_empty() || pass.depth.is_some();
@@ -123,6 +123,7 @@ impl Check<'_> {
             (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
             _ => {}
         }
+        self.targets();
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
         if let Some(sampled) = pass.sampled.iter().find(|sampled| !fits(sampled.stages)) {
             return self.wrong_stages(&sampled.binding);
@@ -146,6 +147,38 @@ impl Check<'_> {
             return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
         }
         self.transfers();
+    }
+
+    /// The images that it draws into agree.
+    #[inline]
+    pub(super) fn targets(&mut self) {
+        let Check { frame, pass, errors } = self;
+        if pass.color.len() + usize::from(pass.depth.is_some()) > 1 {
+            let targets = pass.accesses().filter(Access::attaches).filter_map(|target| {
+                let image = &frame.images[target.image_index()?.0 as usize];
+                Some(Target { image, range: target.range(), span: target.span(), samples_because: None })
+            });
+            agree(&pass.name, targets, errors);
+        }
+    }
+
+    /// Both sides of a transfer fit together.
+    #[inline]
+    pub(super) fn transfers(&mut self) {
+        let is_transfer = self.pass.work.is_transfer();
+        if is_transfer || !self.pass.transfers.is_empty() {
+            self.check_transfers();
+        }
+    }
+
+    fn check_transfers(&mut self) {
+        let (frame, pass) = (self.frame, self.pass);
+        let mut wrong = Vec::new();
+        check::transfers::check(frame, pass, &mut wrong);
+        self.within(wrong);
+        if let Some(why) = check::transfers::looks_beyond(frame, pass) {
+            self.errors.push(Diagnostic::new(pass.span, format!("{why}: texels beyond that part are mixed in")));
+        }
     }
 
     #[cold]

@@ -3,14 +3,14 @@
 //! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
 //! or ends, and each piece of that grid is a part.
 
-use crate::frame::{Access, BufferIndex, Effect, Frame, Image, ImageIndex, Pass, Resource, SAMPLING, VisitAccess};
+use super::{Access, BufferIndex, Effect, Image, ImageIndex, Pass, Resource, SAMPLING, VisitAccess};
 use crate::vulkan::{Aspects, Subresources};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     planes: Aspects,
     /// Where mip levels are cut: rising, from 0 to their number.
     mips: Vec<u32>,
@@ -20,7 +20,7 @@ pub(super) struct Grid {
 
 /// How all images are cut.
 #[derive(Debug, Default)]
-pub(super) struct Grids {
+pub(crate) struct Grids {
     grids: Vec<Arc<Grid>>,
     /// For each image of the frame its grid, [`WHOLE`] if it is one part; empty if all are.
     of: Vec<u32>,
@@ -30,33 +30,33 @@ pub(super) struct Grids {
 const WHOLE: u32 = u32::MAX;
 
 impl Grids {
-    /// Cuts images as the passes of `frame` use them; ranges must lie inside their images.
-    pub(super) fn new(frame: &Frame) -> Grids {
+    /// Cuts images as `passes` use them; ranges must lie inside their images.
+    pub(crate) fn new<'p>(images: &[Image], passes: impl Iterator<Item = &'p Pass>) -> Grids {
         let mut grids = Grids::default();
-        if !frame.images.iter().any(can_be_cut) {
+        if !images.iter().any(can_be_cut) {
             return grids;
         }
-        for (image, number) in frame.images.iter().zip(0_u32..) {
+        for (image, number) in images.iter().zip(0_u32..) {
             if image.format.aspects().bits().count_ones() > 1 {
-                grids.grid(frame, ImageIndex(number), image);
+                grids.grid(images, ImageIndex(number), image);
             }
         }
-        for pass in &frame.passes {
+        for pass in passes {
             pass.accesses().for_each(|access| {
                 if let (Some(image), range) = (access.image_index(), access.range())
                     && !range.is_whole()
                 {
-                    grids.cut(frame, image, range);
+                    grids.cut(images, image, range);
                 }
             });
-            grids.cut_copies(frame, pass);
+            grids.cut_copies(images, pass);
         }
         grids
     }
 
-    fn grid(&mut self, frame: &Frame, index: ImageIndex, image: &Image) -> &mut Grid {
+    fn grid(&mut self, images: &[Image], index: ImageIndex, image: &Image) -> &mut Grid {
         if self.of.is_empty() {
-            self.of.resize(frame.images.len(), WHOLE);
+            self.of.resize(images.len(), WHOLE);
         }
         let at = &mut self.of[index.0 as usize];
         if *at == WHOLE {
@@ -67,13 +67,13 @@ impl Grids {
         Arc::make_mut(&mut self.grids[*at as usize])
     }
 
-    fn cut(&mut self, frame: &Frame, index: ImageIndex, range: Subresources) {
-        let image = &frame.images[index.0 as usize];
+    fn cut(&mut self, images: &[Image], index: ImageIndex, range: Subresources) {
+        let image = &images[index.0 as usize];
         let range = image.part(range);
         if range == image.whole() {
             return;
         }
-        let grid = self.grid(frame, index, image);
+        let grid = self.grid(images, index, image);
         for (cuts, at) in [
             (&mut grid.mips, [range.base_mip, range.base_mip + range.mips]),
             (&mut grid.layers, [range.base_layer, range.base_layer + range.layers]),
@@ -87,52 +87,54 @@ impl Grids {
     }
 
     /// Cuts images that a pass samples while it writes them: they are copied mip level by mip level.
-    fn cut_copies(&mut self, frame: &Frame, pass: &Pass) {
+    fn cut_copies(&mut self, images: &[Image], pass: &Pass) {
         for sampled in &pass.sampled {
             let written = pass.color.iter().any(|target| target.image == sampled.image)
                 || pass.storage.iter().any(|storage| storage.image == sampled.image);
-            let mips = frame.images[sampled.image.0 as usize].mips;
+            let mips = images[sampled.image.0 as usize].mips;
             if written && mips > 1 {
                 for base_mip in 0..mips {
                     let level = Subresources { base_mip, mips: 1, ..Subresources::WHOLE };
-                    self.cut(frame, sampled.image, level);
+                    self.cut(images, sampled.image, level);
                 }
             }
         }
     }
 
     /// How an image of the frame is cut; `None`: it is one part.
-    pub(super) fn of(&self, image: ImageIndex) -> Option<&Arc<Grid>> {
+    pub(crate) fn of(&self, image: ImageIndex) -> Option<&Arc<Grid>> {
         let at = *self.of.get(image.0 as usize)?;
         self.grids.get(at as usize)
     }
 }
 
 /// The parts of all images, then the buffers, each of which is one part, by number.
-pub(super) struct Parts<'f> {
-    frame: &'f Frame,
+pub(crate) struct Parts<'f> {
+    images: &'f [Image],
+    buffers: u32,
     grids: &'f Grids,
     /// For each image its first part, and that of the first buffer; empty if each image is one part, and has its number.
     firsts: Vec<u32>,
 }
 
 impl<'f> Parts<'f> {
-    pub(super) fn new(frame: &'f Frame, grids: &'f Grids) -> Parts<'f> {
+    /// Those of `images`, cut by `grids`, and of a number of buffers.
+    pub(crate) fn new(images: &'f [Image], buffers: usize, grids: &'f Grids) -> Parts<'f> {
         let mut firsts = Vec::new();
         if !grids.grids.is_empty() {
             let mut first = 0;
-            for number in 0..frame.images.len() as u32 {
+            for number in 0..images.len() as u32 {
                 firsts.push(first);
                 first += grids.of(ImageIndex(number)).map_or(1, |grid| grid.len());
             }
             firsts.push(first);
         }
-        Parts { frame, grids, firsts }
+        Parts { images, buffers: buffers as u32, grids, firsts }
     }
 
     /// Number of parts.
-    pub(super) fn len(&self) -> usize {
-        self.first(Resource::Buffer(BufferIndex(self.frame.buffers.len() as u32))) as usize
+    pub(crate) fn len(&self) -> usize {
+        self.first(Resource::Buffer(BufferIndex(self.buffers))) as usize
     }
 
     /// The first part of an image or buffer.
@@ -141,9 +143,7 @@ impl<'f> Parts<'f> {
         match resource {
             Resource::Image(image) if self.firsts.is_empty() => image.0,
             Resource::Image(image) => self.firsts[image.0 as usize],
-            Resource::Buffer(buffer) => {
-                self.firsts.last().map_or(self.frame.images.len() as u32, |first| *first) + buffer.0
-            }
+            Resource::Buffer(buffer) => self.firsts.last().map_or(self.images.len() as u32, |first| *first) + buffer.0,
         }
     }
 
@@ -154,41 +154,64 @@ impl<'f> Parts<'f> {
         if self.firsts.is_empty() { None } else { self.grids.of(image) }
     }
 
-    /// All parts of an image or buffer.
-    pub(super) fn of(&self, resource: Resource) -> Range<usize> {
-        let first = self.first(resource) as usize;
-        let count = match resource {
-            Resource::Image(image) => self.grid(image).map_or(1, |grid| grid.len()),
-            Resource::Buffer(_) => 1,
-        };
-        first..first + count as usize
-    }
-
-    /// The name of an image or buffer.
-    pub(super) fn name(&self, resource: Resource) -> &'f str {
-        match resource {
-            Resource::Image(image) => &self.frame.images[image.0 as usize].name,
-            Resource::Buffer(buffer) => &self.frame.buffers[buffer.0 as usize].name,
+    fn grid_of(&self, of: Resource) -> Option<&'f Arc<Grid>> {
+        match of {
+            Resource::Image(image) => self.grid(image),
+            Resource::Buffer(_) => None,
         }
     }
 
-    /// The name of the image or buffer that has this part.
-    pub(super) fn name_of(&self, part: u32) -> &'f str {
+    /// All parts of an image or buffer.
+    pub(crate) fn of(&self, resource: Resource) -> Range<usize> {
+        let first = self.first(resource) as usize;
+        let count = self.grid_of(resource).map_or(1, |grid| grid.len());
+        first..first + count as usize
+    }
+
+    /// The image or buffer that has this part.
+    pub(crate) fn owner(&self, part: u32) -> Resource {
         let buffers = self.first(Resource::Buffer(BufferIndex(0)));
         match part.checked_sub(buffers) {
-            Some(buffer) => self.name(Resource::Buffer(BufferIndex(buffer))),
-            None if self.firsts.is_empty() => self.name(Resource::Image(ImageIndex(part))),
-            None => {
-                let image = self.firsts.partition_point(|first| *first <= part) - 1;
-                self.name(Resource::Image(ImageIndex(image as u32)))
-            }
+            Some(buffer) => Resource::Buffer(BufferIndex(buffer)),
+            None if self.firsts.is_empty() => Resource::Image(ImageIndex(part)),
+            None => Resource::Image(ImageIndex(self.firsts.partition_point(|first| *first <= part) as u32 - 1)),
+        }
+    }
+
+    /// An image, if it is one.
+    pub(crate) fn image(&self, of: Resource) -> Option<&'f Image> {
+        match of {
+            Resource::Image(index) => self.images.get(index.0 as usize),
+            Resource::Buffer(_) => None,
+        }
+    }
+
+    /// What `range` means of an image or buffer, with planes named.
+    pub(crate) fn part(&self, of: Resource, range: Subresources) -> Subresources {
+        part_of(self.image(of), range)
+    }
+
+    /// The parts that `range` (resolved) covers.
+    pub(crate) fn cover(&self, of: Resource, range: Subresources) -> Vec<u32> {
+        let first = self.first(of);
+        match self.grid_of(of) {
+            Some(grid) => grid.cover(range).map(|part| first + part).collect(),
+            None => vec![first],
+        }
+    }
+
+    /// The subresources of one of the parts of an image or buffer.
+    pub(crate) fn range(&self, of: Resource, part: u32) -> Subresources {
+        match self.grid_of(of) {
+            Some(grid) => grid.range(part - self.first(of)),
+            None => self.part(of, Subresources::WHOLE),
         }
     }
 
     /// Calls `visit` with each access of a pass to a part as it is in this frame, and whether the access needs the contents,
     /// and whether it changes them.
     #[inline(always)]
-    pub(super) fn for_each_access(&self, pass: &Pass, visit: impl FnMut(&Access<'_>, u32, bool, bool)) {
+    pub(crate) fn for_each_access(&self, pass: &Pass, visit: impl FnMut(&Access<'_>, u32, bool, bool)) {
         pass.visit_accesses(&mut EachPart { parts: self, pass, visit });
     }
 }
@@ -209,7 +232,7 @@ impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
         let EachPart { parts, pass, visit } = self;
         let first = parts.first(access.resource());
         let (image, grid) = match access.resource() {
-            Resource::Image(index) => (parts.frame.images.get(index.0 as usize), parts.grid(index)),
+            Resource::Image(index) => (parts.images.get(index.0 as usize), parts.grid(index)),
             Resource::Buffer(_) => (None, None),
         };
         match (access, image, grid) {
@@ -228,6 +251,12 @@ impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
     }
 }
 
+/// What `range` means of an image, with planes named; `None`: a buffer, which is one part.
+pub(crate) fn part_of(image: Option<&Image>, range: Subresources) -> Subresources {
+    let buffer = Subresources { aspects: Aspects::COLOR, base_mip: 0, mips: 1, base_layer: 0, layers: 1 };
+    image.map_or(buffer, |image| image.part(range))
+}
+
 /// Whether an image has more than one plane, mip level and layer.
 fn can_be_cut(image: &Image) -> bool {
     image.mips > 1 || image.layers > 1 || image.format.aspects().bits().count_ones() > 1
@@ -235,7 +264,7 @@ fn can_be_cut(image: &Image) -> bool {
 
 impl Grid {
     /// Number of parts.
-    pub(super) fn len(&self) -> u32 {
+    pub(crate) fn len(&self) -> u32 {
         self.planes.bits().count_ones() * self.mip_rows() * self.layer_columns()
     }
 
@@ -248,7 +277,7 @@ impl Grid {
     }
 
     /// The parts that `range` (resolved) covers, by number.
-    pub(super) fn cover(&self, range: Subresources) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn cover(&self, range: Subresources) -> impl Iterator<Item = u32> + '_ {
         let place = |cuts: &[u32], at: u32| cuts.partition_point(|cut| *cut < at) as u32;
         let (rows, columns) = (self.mip_rows(), self.layer_columns());
         let mips = place(&self.mips, range.base_mip)..place(&self.mips, range.base_mip + range.mips);
@@ -261,7 +290,7 @@ impl Grid {
     }
 
     /// The subresources of part number `part`.
-    pub(super) fn range(&self, part: u32) -> Subresources {
+    pub(crate) fn range(&self, part: u32) -> Subresources {
         let (rows, columns) = (self.mip_rows(), self.layer_columns());
         let (layer, mip, plane) = (part % columns, part / columns % rows, part / columns / rows);
         let span = |cuts: &[u32], at: u32| (cuts[at as usize], cuts[at as usize + 1] - cuts[at as usize]);
@@ -272,7 +301,7 @@ impl Grid {
 }
 
 /// Joins two parts of one image into one range, if together they are one.
-pub(super) fn join(a: Subresources, b: Subresources) -> Option<Subresources> {
+pub(crate) fn join(a: Subresources, b: Subresources) -> Option<Subresources> {
     let same_mips = (a.base_mip, a.mips) == (b.base_mip, b.mips);
     let same_layers = (a.base_layer, a.layers) == (b.base_layer, b.layers);
     if a.aspects == b.aspects && same_mips && a.base_layer + a.layers == b.base_layer {
