@@ -110,7 +110,6 @@ impl Linker<'_> {
     }
 
     /// Reports an access that needs contents where nothing has written any.
-    #[cold]
     fn report_unwritten(&mut self, pass: &Pass, access: &Access<'_>, writes: bool) {
         let (name, pass, span) = (self.parts.name(access.resource()), &pass.name, access.span());
         let message = if writes {

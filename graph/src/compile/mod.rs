@@ -12,7 +12,6 @@ use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
-use emit::{StageResults, Subject};
 use structure::Structure;
 
 mod adapt;
@@ -57,18 +56,8 @@ pub fn compile(
     let turned = rotate::rotate(frame)?;
     let frame = turned.as_ref().unwrap_or(frame);
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
-    let mut settled = structure.settle_for_good(device, memory, options)?;
+    let barriers = std::mem::take(&mut structure.timeline.barriers);
+    let settled = structure.settle(barriers, device, memory, options)?;
     let frame = substitute.as_ref().unwrap_or(frame);
-    let subjects = Subject::of(&structure.adapted);
-    let mut steps = emit::steps(&StageResults::new(frame, device, &structure, &settled).with_subjects(&subjects));
-    // Only `steps` needs these.
-    (settled.barriers.barriers, settled.barriers.batched) = (Vec::new(), Vec::new());
-    let results = StageResults::new(frame, device, &structure, &settled).with_subjects(&subjects);
-    let totals = emit::put_in_work(&results, &mut steps);
-    // Only `put_in_work` needs these.
-    (structure.adapted.ops, structure.adapted.uses) = (Vec::new(), Vec::new());
-    (structure.live.passes, structure.scoped.steps) = (Vec::new(), Vec::new());
-    drop(subjects);
-    let resources = emit::resources(frame, &structure, &settled);
-    Ok(emit::emit(&StageResults::new(frame, device, &structure, &settled), (steps, totals), resources))
+    Ok(emit::emit(frame, device, &structure, &settled))
 }

@@ -192,7 +192,6 @@ impl Adapted {
     }
 
     /// The descriptor that a physical image is made with.
-    #[inline(always)]
     pub(super) fn made(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
         // Few frames have any.
         if self.allocated.is_empty() && self.eyes.is_empty() { *image } else { self.made_larger(resource, image) }

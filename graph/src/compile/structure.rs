@@ -173,23 +173,6 @@ impl Structure {
         Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
     }
 
-    /// As [`Structure::settle`], where nothing is settled again: drops what only that needs.
-    pub(super) fn settle_for_good(
-        &mut self,
-        device: &Profile,
-        memory: &mut dyn MemoryProvider,
-        options: &Options,
-    ) -> Result<Settled, Vec<Diagnostic>> {
-        let barriers = std::mem::take(&mut self.timeline.barriers);
-        let mut settled = self.settle(barriers, device, memory, options)?;
-        settled.aliasing = Aliasing::default();
-        settled.barriers.barriers.shrink_to_fit();
-        self.timeline.forget_subresources();
-        (self.scheduled.order, self.by_first_step) = (Vec::new(), Vec::new());
-        self.adapted.uses.shrink_to_fit();
-        Ok(settled)
-    }
-
     /// Settles again for other sizes.
     pub(super) fn settle_again(
         &self,

@@ -45,7 +45,10 @@ pub(super) fn part(resources: &Resources<'_>, resource: Resource, range: &Subres
 
 /// Shows the reads of `pass`. A target that the pass only adds to stands among its writes.
 pub(super) fn for_each_read(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Read)) {
-    for access in pass.accesses().filter(|access| !access.attaches()) {
+    pass.visit_accesses(&mut |access: Access<'_>| {
+        if access.attaches() {
+            return;
+        }
         let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
         access.for_each_effect(pass, image(resources, resource), |effect| {
             if effect.reads
@@ -54,7 +57,7 @@ pub(super) fn for_each_read(resources: &Resources<'_>, pass: &Pass, mut see: imp
                 see(Read { resource, cells, frames_ago, span });
             }
         });
-    }
+    });
 }
 
 /// The reads of `pass`, as [`for_each_read`] shows them.
@@ -66,7 +69,7 @@ pub(super) fn reads(resources: &Resources<'_>, pass: &Pass) -> Vec<Read> {
 
 /// Shows the writes of `pass`, and all targets that it draws into.
 pub(super) fn for_each_write(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Write)) {
-    for access in pass.accesses() {
+    pass.visit_accesses(&mut |access: Access<'_>| {
         let (resource, span) = (access.resource(), access.span());
         access.for_each_effect(pass, image(resources, resource), |Effect { range, reads, writes: changes }| {
             let clear = match access {
@@ -81,7 +84,7 @@ pub(super) fn for_each_write(resources: &Resources<'_>, pass: &Pass, mut see: im
                 see(Write { resource, cells, span, continues: clear.filter(|_| reads) });
             }
         });
-    }
+    });
 }
 
 /// The writes of `pass`, as [`for_each_write`] shows them.

@@ -9,9 +9,7 @@ use crate::plan::{Buffer, BufferId, Cause, ChosenFormat, Image, ImageId, Initial
 use crate::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
 
 /// Images and buffers of the Plan.
-pub(in crate::compile) type Resources = (Vec<Image>, Vec<Buffer>);
-
-pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> Resources {
+pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> (Vec<Image>, Vec<Buffer>) {
     let Structure { adapted, timeline, .. } = structure;
     let (mut images, mut buffers) = (Vec::with_capacity(adapted.resources.len()), Vec::new());
     let mut chosen = settled.placed.chosen.iter().peekable();

@@ -1,7 +1,7 @@
 //! Brings a Plan up to date where the structure is the same: new values, or new sizes too.
 
 use super::barriers::StepBarriers;
-use super::stage_results::{StageResults, Subject, frame_work};
+use super::stage_results::{StageResults, frame_work};
 use super::values::{settings, views, with_bytes};
 use super::{attachments, notes, passes};
 use crate::compile::model::{Kind, OpKind};
@@ -101,10 +101,8 @@ pub(in crate::compile) fn sizes(results: &StageResults<'_>, plan: &mut Plan) {
 }
 
 /// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
-pub(in crate::compile) fn barriers(results: StageResults<'_>, plan: &mut Plan) {
-    let subjects = Subject::of(results.adapted);
-    let results = results.with_subjects(&subjects);
-    let mut barriers = StepBarriers::new(&results);
+pub(in crate::compile) fn barriers(results: &StageResults<'_>, plan: &mut Plan) {
+    let mut barriers = StepBarriers::new(results);
     for (step, number) in plan.steps.iter_mut().zip(0..) {
         (step.memory_barriers, step.image_barriers) = barriers.of(number);
     }

@@ -9,7 +9,7 @@ use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::{BufferId, Cause, ImageId, Inserted, Resource};
-use crate::vulkan::{Aspects, Subresources};
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// The results of all stages.
@@ -23,8 +23,6 @@ pub(in crate::compile) struct StageResults<'a> {
     pub(super) placed: &'a Placed,
     pub(super) sync: &'a Barriers,
     pub(super) exact_memory: bool,
-    /// The subject of each physical resource; empty where no passes and no barriers are made.
-    pub(super) subjects: &'a [Subject],
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
 }
@@ -46,44 +44,8 @@ impl<'a> StageResults<'a> {
             placed: &settled.placed,
             sync: &settled.barriers,
             exact_memory: settled.exact_memory,
-            subjects: &[],
             nothing: Arc::default(),
         }
-    }
-
-    /// The same, to make passes and barriers. `subjects`: one for each physical resource.
-    pub(in crate::compile) fn with_subjects(self, subjects: &'a [Subject]) -> StageResults<'a> {
-        StageResults { subjects, ..self }
-    }
-}
-
-/// The properties of a physical resource that passes and barriers name: close together in memory, since they are read often.
-pub(in crate::compile) struct Subject {
-    pub(super) id: u32,
-    pub(super) is_image: bool,
-    /// Whether it has several subresources.
-    pub(super) is_cut: bool,
-    /// All of it.
-    aspects: Aspects,
-    mips: u32,
-    layers: u32,
-}
-
-impl Subject {
-    /// A subject for each physical resource.
-    pub(in crate::compile) fn of(adapted: &Adapted) -> Vec<Subject> {
-        let subject = |resource: &PhysicalResource| {
-            let Subresources { aspects, mips, layers, .. } = resource.all();
-            let (is_image, is_cut) = (resource.image().is_some(), resource.grid.is_some());
-            Subject { id: resource.id, is_image, is_cut, aspects, mips, layers }
-        };
-        adapted.resources.iter().map(subject).collect()
-    }
-
-    /// All of it.
-    pub(super) fn all(&self) -> Subresources {
-        let Subject { aspects, mips, layers, .. } = *self;
-        Subresources { aspects, base_mip: 0, mips, base_layer: 0, layers }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::difference::{self, Difference};
 use crate::base::Diagnostic;
-use crate::compile::emit::{self, StageResults, Subject};
+use crate::compile::emit::{self, StageResults};
 use crate::compile::model::OpKind;
 use crate::compile::options::Options;
 use crate::compile::structure::{Settled, Settling, Structure};
@@ -123,11 +123,7 @@ impl Last {
         let barriers = structure.timeline.barriers.clone();
         let settled = structure.settle(barriers, device, memory, options)?;
         let planned = substitute.as_ref().unwrap_or(frame);
-        let subjects = Subject::of(&structure.adapted);
-        let results = StageResults::new(planned, device, &structure, &settled).with_subjects(&subjects);
-        let mut steps = emit::steps(&results);
-        let totals = emit::put_in_work(&results, &mut steps);
-        let plan = emit::emit(&results, (steps, totals), emit::resources(planned, &structure, &settled));
+        let plan = emit::emit(planned, device, &structure, &settled);
         Ok(Last {
             given: frame.clone(),
             frame: frame.clone(),
@@ -206,7 +202,7 @@ impl Last {
                 emit::sizes(&results(), plan);
             }
             Settling::OtherBarriers if settled.barriers.steps as usize == plan.steps.len() => {
-                emit::barriers(results(), plan);
+                emit::barriers(&results(), plan);
                 emit::sizes(&results(), plan);
             }
             Settling::OtherBarriers | Settling::Nothing => return Ok(false),

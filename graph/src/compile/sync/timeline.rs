@@ -62,11 +62,6 @@ impl AccessTimeline {
         };
     }
 
-    /// Drops the parts that serve only to make other timelines and barriers.
-    pub(in crate::compile) fn forget_subresources(&mut self) {
-        (self.subresources, self.lifetimes) = (Vec::new(), Vec::new());
-    }
-
     /// Adds the accesses of a step. `is_own_step`: it is one of the frame's own steps, not the one behind all of them.
     pub(super) fn add(&mut self, accesses: &[SubresourceAccess], step: u32, is_own_step: bool) {
         if self.queues.is_one() {
@@ -107,6 +102,7 @@ impl AccessTimeline {
 
     /// Puts a barrier before an access, or widens the one before earlier reads. A final state (not `is_own_step`) waits for
     /// the stages that it names, and for no others.
+    // Inlined: where no subresource is crossed, compiling 1,000 passes then takes 2.6 % fewer instructions.
     #[inline(always)]
     fn access(&mut self, access: &SubresourceAccess, crossed: Option<Crossed>, step: u32, is_own_step: bool) {
         let AccessTimeline { subresources, barriers, queues, .. } = self;

@@ -12,7 +12,8 @@ pub(super) struct Check<'c> {
     pub(super) errors: &'c mut Vec<Diagnostic>,
 }
 
-impl VisitAccess for Check<'_> {
+impl VisitAccess<'_> for Check<'_> {
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn visit(&mut self, access: Access<'_>) {
         match access.resource() {
@@ -26,7 +27,6 @@ impl VisitAccess for Check<'_> {
 }
 
 impl Check<'_> {
-    #[cold]
     pub(super) fn wrong(&mut self, span: Span, what: &str) {
         self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
     }
@@ -52,6 +52,7 @@ impl Check<'_> {
         }
     }
 
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
         let (range, span) = (access.range(), access.span());
@@ -72,7 +73,6 @@ impl Check<'_> {
         }
     }
 
-    #[cold]
     fn no_image(&mut self, index: ImageIndex, span: Span) {
         self.wrong(span, &format!("names image number {}, which does not exist", index.0));
     }
@@ -148,7 +148,6 @@ impl Check<'_> {
         self.transfers();
     }
 
-    #[cold]
     fn wrong_stages(&mut self, name: &str) {
         self.wrong(self.pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
     }
