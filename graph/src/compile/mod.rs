@@ -2,17 +2,15 @@
 //!
 //! ```text
 //! rotate ─► validate ─► parts ─► link ─► cull ─► fit ─► adapt ─► schedule ─► scope ─► queues ─► retain ─► timeline ─► usage
-//!                                                                                       (these don't depend on sizes)
 //!       ─► place ─► aliasing ─► barriers ─► emit
 //! ```
 //!
-//! `structure` runs the stages. `incremental` keeps their decisions from frame to frame.
+//! `stages` runs them. `incremental` keeps their decisions from frame to frame.
 
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
-use structure::Structure;
 
 mod adapt;
 mod cull;
@@ -32,8 +30,8 @@ mod rotate;
 mod schedule;
 mod scope;
 pub mod shaders;
+mod stages;
 mod steps;
-mod structure;
 mod sync;
 mod usage;
 mod validate;
@@ -55,9 +53,6 @@ pub fn compile(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let turned = rotate::rotate(frame)?;
     let frame = turned.as_ref().unwrap_or(frame);
-    let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
-    let barriers = std::mem::take(&mut structure.timeline.barriers);
-    let settled = structure.settle(barriers, device, memory, options)?;
-    let frame = substitute.as_ref().unwrap_or(frame);
-    Ok(emit::emit(frame, device, &structure, &settled))
+    let (decisions, substitute) = stages::decide(frame, device, memory, options)?;
+    Ok(emit::emit(substitute.as_ref().unwrap_or(frame), device, &decisions))
 }

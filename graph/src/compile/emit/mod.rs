@@ -13,5 +13,4 @@ mod stage_results;
 mod values;
 
 pub(super) use plan::emit;
-pub(super) use revise::{barriers, sizes, values};
-pub(super) use stage_results::StageResults;
+pub(super) use revise::values;

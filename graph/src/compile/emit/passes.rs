@@ -23,7 +23,7 @@ pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
     if matches!(op.kind, OpKind::Resolve { .. }) {
         return Work::Resolve(transfer(results, op, number, None));
     }
-    match frame_work(results, op) {
+    match frame_work(results.frame, op) {
         None | Some(FrameWork::Copy) => Work::Copy(transfer(results, op, number, None)),
         Some(FrameWork::Blit { filter }) => Work::Blit(transfer(results, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {

@@ -6,7 +6,7 @@ use super::stage_results::StageResults;
 use super::values::{changes, settings, views, with_bytes};
 use super::{attachments, notes, outputs, ownership, passes, resources};
 use crate::compile::scope::Step as Grouped;
-use crate::compile::structure::{Settled, Structure};
+use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::Frame;
@@ -14,24 +14,24 @@ use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
 
 /// The Plan of a frame.
-pub(in crate::compile) fn emit(frame: &Frame, device: &Profile, structure: &Structure, settled: &Settled) -> Plan {
-    let results = &StageResults::new(frame, device, structure, settled);
+pub(in crate::compile) fn emit(frame: &Frame, device: &Profile, decisions: &Decisions) -> Plan {
+    let results = &StageResults::new(frame, decisions);
     let steps = steps(results);
-    let (images, buffers) = resources::resources(frame, structure, settled);
+    let (images, buffers) = resources::resources(results);
     Plan {
         format_version: FORMAT_VERSION,
-        device: DeviceUsed { name: results.device.name.clone(), exact_memory: results.exact_memory },
-        settings: settings(results),
-        changes: changes(results),
-        decided: Arc::clone(&results.frame.decided),
-        extent: results.frame.extent,
-        stereo: results.frame.stereo,
-        views: views(results),
+        device: DeviceUsed { name: device.name.clone(), exact_memory: decisions.exact_memory },
+        settings: settings(frame),
+        changes: changes(frame),
+        decided: Arc::clone(&frame.decided),
+        extent: frame.extent,
+        stereo: frame.stereo,
+        views: views(frame),
         images,
         buffers,
         outputs: outputs::outputs(results),
-        heaps: results.placed.heaps.clone(),
-        totals: with_bytes(results, Totals::count(&steps)),
+        heaps: decisions.placed.heaps.clone(),
+        totals: with_bytes(&decisions.placed, Totals::count(&steps)),
         steps,
         notes: notes::notes(results),
     }

@@ -1,51 +1,33 @@
-//! The results of all stages, from which the parts of a Plan are made.
+//! What was decided about a frame, beside the frame: the parts of a Plan are made of both.
 
 use crate::compile::memory::Placed;
 use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::retain::LoadStoreOps;
 use crate::compile::scope::Scoped;
-use crate::compile::structure::{Settled, Structure};
+use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
-use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::{BufferId, Cause, ImageId, Inserted, Resource};
 use crate::vulkan::Subresources;
 use std::sync::Arc;
 
-/// The results of all stages.
-pub(in crate::compile) struct StageResults<'a> {
+/// What was decided about a frame, beside the frame.
+pub(super) struct StageResults<'a> {
     pub(super) frame: &'a Frame,
-    pub(super) device: &'a Profile,
-    pub(super) structure: &'a Structure,
+    pub(super) decisions: &'a Decisions,
     pub(super) adapted: &'a Adapted,
     pub(super) scoped: &'a Scoped,
     pub(super) load_store: &'a LoadStoreOps,
     pub(super) placed: &'a Placed,
     pub(super) sync: &'a Barriers,
-    pub(super) exact_memory: bool,
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
 }
 
 impl<'a> StageResults<'a> {
-    pub(in crate::compile) fn new(
-        frame: &'a Frame,
-        device: &'a Profile,
-        structure: &'a Structure,
-        settled: &'a Settled,
-    ) -> StageResults<'a> {
-        StageResults {
-            frame,
-            device,
-            structure,
-            adapted: &structure.adapted,
-            scoped: &structure.scoped,
-            load_store: &structure.load_store,
-            placed: &settled.placed,
-            sync: &settled.barriers,
-            exact_memory: settled.exact_memory,
-            nothing: Arc::default(),
-        }
+    pub(super) fn new(frame: &'a Frame, decisions: &'a Decisions) -> StageResults<'a> {
+        let Decisions { adapted, scoped, load_store, placed, barriers: sync, .. } = decisions;
+        StageResults { frame, decisions, adapted, scoped, load_store, placed, sync, nothing: Arc::default() }
     }
 }
 
@@ -82,6 +64,6 @@ pub(super) fn cause(results: &StageResults<'_>, op: &Op) -> Cause {
 }
 
 /// The work of the pass that an operation is or stands in for.
-pub(super) fn frame_work<'f>(results: &StageResults<'f>, op: &Op) -> Option<&'f Work> {
-    op.kind.pass().map(|pass| &results.frame.passes[pass as usize].work)
+pub(super) fn frame_work<'f>(frame: &'f Frame, op: &Op) -> Option<&'f Work> {
+    op.kind.pass().map(|pass| &frame.passes[pass as usize].work)
 }

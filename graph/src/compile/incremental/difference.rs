@@ -13,13 +13,11 @@ pub(super) enum Difference {
     None,
     /// In values that no decision depends on.
     Values,
-    /// In sizes of images and buffers, and perhaps in values.
-    Sizes,
     /// In more.
     Structure,
 }
 
-use Difference::{None as Nothing, Sizes, Structure, Values};
+use Difference::{None as Nothing, Structure, Values};
 
 /// The difference that there is if two things are not the same.
 fn unless(same: bool, difference: Difference) -> Difference {
@@ -54,26 +52,35 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
     let Frame { sources, settings, changes, extent, stereo, views, images, buffers, passes, outputs, .. } = new;
     let Frame { decided, switched_off, remarks, .. } = new;
-    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs && old.stereo == *stereo;
-    if !same || old.switched_off != *switched_off || old.remarks != *remarks {
+    let same = old.sources == *sources
+        && old.changes == *changes
+        && old.extent == *extent
+        && old.stereo == *stereo
+        && old.outputs == *outputs
+        && old.switched_off == *switched_off
+        && old.remarks == *remarks
+        && same_lists(&old.images, images, same_image)
+        && same_lists(&old.buffers, buffers, same_buffer);
+    if !same {
         return Structure;
     }
     unless(old.settings == *settings && old.decided == *decided, Values)
-        .max(unless(old.extent == *extent, Sizes))
         .max(of_lists(&old.views, views, view))
-        .max(of_lists(&old.images, images, image))
-        .max(of_lists(&old.buffers, buffers, buffer))
         .max(of_lists(&old.passes, passes, pass))
 }
 
 fn view(old: &View, new: &View) -> Difference {
     let View { name, span, extent, camera, allows, jitter, eye } = new;
-    let same =
-        old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows && old.eye == *eye;
-    if same { unless(old.jitter == *jitter, Values).max(unless(old.extent == *extent, Sizes)) } else { Structure }
+    let same = old.name == *name
+        && old.span == *span
+        && old.extent == *extent
+        && old.camera == *camera
+        && old.allows == *allows
+        && old.eye == *eye;
+    if same { unless(old.jitter == *jitter, Values) } else { Structure }
 }
 
-fn image(old: &Image, new: &Image) -> Difference {
+fn same_image(old: &Image, new: &Image) -> bool {
     let Image {
         name,
         span,
@@ -90,26 +97,25 @@ fn image(old: &Image, new: &Image) -> Difference {
         chosen,
         lifetime,
     } = new;
-    let same = same_name(&old.name, name)
+    same_name(&old.name, name)
         && old.span == *span
-        && old.resolve == *resolve
-        && old.chosen == *chosen
         && old.format == *format
         && old.shape == *shape
+        && old.extent == *extent
+        && old.allocated == *allocated
         && old.rotation == *rotation
         && old.eyes == *eyes
         && old.mips == *mips
         && old.layers == *layers
         && old.samples == *samples
-        && old.allocated.is_some() == allocated.is_some()
-        && same_lifetime(&old.lifetime, lifetime);
-    if same { unless((old.extent, old.allocated) == (*extent, *allocated), Sizes) } else { Structure }
+        && old.resolve == *resolve
+        && old.chosen == *chosen
+        && same_lifetime(&old.lifetime, lifetime)
 }
 
-fn buffer(old: &Buffer, new: &Buffer) -> Difference {
+fn same_buffer(old: &Buffer, new: &Buffer) -> bool {
     let Buffer { name, span, bytes, lifetime } = new;
-    let same = same_name(&old.name, name) && old.span == *span && same_lifetime(&old.lifetime, lifetime);
-    if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
+    same_name(&old.name, name) && old.span == *span && old.bytes == *bytes && same_lifetime(&old.lifetime, lifetime)
 }
 
 fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
@@ -242,24 +248,4 @@ fn same_fill(old: &FillValue, new: &FillValue) -> bool {
         (FillValue::Depth(old, a), FillValue::Depth(new, b)) => (old.to_bits(), a) == (new.to_bits(), b),
         _ => old == new,
     }
-}
-
-/// Whether a pass that is off forwards one image to another.
-pub(super) fn forwards(frame: &Frame) -> bool {
-    frame.passes.iter().any(|pass| pass.work.forwarded().is_some())
-}
-
-/// Whether images that had one size have one size again, and others have others.
-pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
-    let mut sizes: Vec<_> = old
-        .images
-        .iter()
-        .zip(&new.images)
-        .map(|(old, new)| ((old.extent, old.allocated), (new.extent, new.allocated)))
-        .collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();
-    after.sort_unstable();
-    after.windows(2).all(|pair| pair[0] != pair[1]) && sizes.windows(2).all(|pair| pair[0].0 != pair[1].0)
 }

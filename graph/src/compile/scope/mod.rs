@@ -15,7 +15,6 @@ use crate::plan::{Note, Reason};
 use builder::Builder;
 use gain::Gain;
 
-pub(super) use can_join::same_areas;
 pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 
 /// Steps in execution order.

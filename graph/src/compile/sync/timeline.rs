@@ -23,7 +23,7 @@ pub(in crate::compile) struct AccessTimeline {
     /// For each physical resource its states around the frame; `None` if it lives within the frame.
     pub(in crate::compile) states: Vec<Option<States>>,
     /// Uses, by index, that are in another layout than they ask for, because their step uses the same subresource in other
-    /// ways; and that layout, or the one that they ask for where they have it.
+    /// ways; and that layout.
     pub(super) layouts: Vec<(u32, Layout)>,
 }
 
@@ -42,10 +42,10 @@ impl AccessTimeline {
             .fold(0, |usage, state| usage | state.usage)
     }
 
-    /// Gives uses the layouts that they have in their steps; the second time, those that they ask for.
-    pub(in crate::compile) fn swap_layouts(&mut self, uses: &mut [Use]) {
-        for (used, layout) in &mut self.layouts {
-            std::mem::swap(&mut uses[*used as usize].layout, layout);
+    /// Gives uses the layouts that they have in their steps.
+    pub(in crate::compile) fn give_layouts(&self, uses: &mut [Use]) {
+        for (used, layout) in &self.layouts {
+            uses[*used as usize].layout = *layout;
         }
     }
 

@@ -6,7 +6,7 @@ mod pass;
 mod transfers;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS};
 use crate::vulkan::Shape;
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, wrong_clear};
@@ -57,15 +57,8 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
-pub(super) fn still_holds(frame: &Frame) -> bool {
-    let sizes = frame.images.iter().all(|image| size_problem(image).is_none());
-    let views = || !frame.views.iter().any(has_no_texels);
-    sizes && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
-}
-
 /// Whether a frame is valid that differs from a valid one in nothing but values.
-pub(super) fn values_still_hold(frame: &Frame) -> bool {
+pub(super) fn still_holds(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
         if pass.work.is_transfer() {
@@ -77,14 +70,10 @@ pub(super) fn values_still_hold(frame: &Frame) -> bool {
     errors.is_empty()
 }
 
-fn has_no_texels(view: &View) -> bool {
-    view.extent.contains(&0)
-}
-
 /// Each view has a name of its own and a size, and each pass one of them.
 fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     for (number, view) in frame.views.iter().enumerate() {
-        if has_no_texels(view) {
+        if view.extent.contains(&0) {
             let [width, height] = view.extent;
             let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
             errors.push(Diagnostic::new(view.span, message));
