@@ -12,6 +12,7 @@ use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
 
+mod access_chain;
 mod adapt;
 mod cull;
 mod emit;

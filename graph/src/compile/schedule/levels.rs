@@ -5,7 +5,7 @@
 use super::accesses::Access;
 use super::memory::{Lifetimes, Memory};
 use super::runs::Runs;
-use crate::vulkan::Layout;
+use crate::compile::access_chain::AccessChain;
 use std::cmp::Ordering;
 
 /// The least level of each run.
@@ -111,22 +111,13 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 
 /// A walk through all runs, from the first to the last or from the last to the first, that finds their least levels.
 struct Walk {
-    subresources: Vec<LastLevels>,
-}
-
-/// The accesses to a subresource so far: one more than their highest level, 0 if there are none. Reads in one layout don't
-/// depend on each other, as in `runs`.
-#[derive(Debug, Clone, Copy)]
-struct LastLevels {
-    before: u32,
-    readers: u32,
-    layout: Layout,
+    /// For each subresource its accesses so far: one more than their highest level.
+    chains: Vec<AccessChain<u32>>,
 }
 
 impl Walk {
     fn new(runs: &Runs) -> Walk {
-        let state = LastLevels { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { subresources: vec![state; runs.subresources()] }
+        Walk { chains: vec![AccessChain::new(); runs.subresources()] }
     }
 
     /// The least level of a run with these accesses, behind all that it depends on.
@@ -138,22 +129,15 @@ impl Walk {
     /// The least level that an access may have.
     #[inline]
     fn behind(&self, access: &Access) -> u32 {
-        let LastLevels { before, readers, layout } = self.subresources[access.subresource as usize];
-        if !access.writes && layout == access.layout { before } else { before.max(readers) }
+        self.chains[access.subresource as usize].highest_behind(access.writes, access.layout)
     }
 
     /// Notes the level of an access.
     #[inline]
     fn put(&mut self, access: &Access, level: u32) {
         let Access { subresource, writes, layout, is_effect, .. } = *access;
-        let (state, behind) = (&mut self.subresources[subresource as usize], level + 1);
-        if writes {
-            // Another effect may share the level of an effect.
-            *state = LastLevels { before: behind - u32::from(is_effect), readers: 0, layout };
-        } else if state.readers != 0 && state.layout == layout {
-            state.readers = state.readers.max(behind);
-        } else {
-            *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
-        }
+        // Another effect may share the level of an effect.
+        let behind = level + u32::from(!is_effect);
+        self.chains[subresource as usize].add_number(writes, layout, behind);
     }
 }
