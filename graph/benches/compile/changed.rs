@@ -1,4 +1,4 @@
-//! The same frame with other values, and with other sizes.
+//! The same frame with other values.
 
 use framewright_graph::frame::{Frame, Groups, Work};
 
@@ -9,11 +9,5 @@ pub(crate) fn with_values(frame: &Frame) -> Frame {
             *groups = Groups::Invocations([128, 128, 1]);
         }
     }
-    frame
-}
-
-pub(crate) fn with_sizes(frame: &Frame) -> Frame {
-    let mut frame = with_values(frame);
-    frame.images.iter_mut().for_each(|image| image.extent = image.extent.map(|side| side.div_ceil(2)));
     frame
 }

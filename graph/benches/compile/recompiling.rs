@@ -1,6 +1,6 @@
-//! Compiling again: the same frame, an equal one, other values, other sizes.
+//! Compiling again: the same frame, an equal one, other values.
 
-use crate::changed::{with_sizes, with_values};
+use crate::changed::with_values;
 use crate::graphs;
 use crate::timing::{Timing, beside, microseconds};
 use framewright_graph::compile::{Compiler, Options, Reuse};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 pub(crate) fn run(timing: &Timing) {
-    println!("\n{:<14}{:>16}{:>12}{:>18}{:>18}", "again", "same, µs", "equal, µs", "other values", "other sizes");
+    println!("\n{:<14}{:>16}{:>12}{:>18}", "again", "same, µs", "equal, µs", "other values");
     let frames = [
         ("deferred 25", graphs::deferred()),
         ("chain 100", graphs::chain(100)),
@@ -26,22 +26,17 @@ pub(crate) fn run(timing: &Timing) {
 fn row(timing: &Timing, name: &str, frame: &Frame) {
     let frame = Arc::new(frame.clone());
     let equal = Arc::new(Frame::clone(&frame));
-    let [values, sizes] = [with_values(&frame), with_sizes(&frame)].map(Arc::new);
-    let full = alternate(timing, [&frame, &sizes], Reuse::Nothing, true);
+    let values = Arc::new(with_values(&frame));
+    let full = alternate(timing, [&frame, &values], Reuse::Nothing, true);
     let same = alternate(timing, [&frame, &frame], Reuse::Everything, false);
     let compared = alternate(timing, [&frame, &equal], Reuse::Everything, false);
-    let values = alternate(timing, [&frame, &values], Reuse::Placement, false);
-    let sizes = alternate(timing, [&frame, &sizes], Reuse::Structure, false);
-    let share = |time: Duration, goal: &str| match time {
-        Duration::MAX => "compiled anew".to_owned(),
-        time => beside(format!("{:.0} %", 100.0 * time.as_secs_f64() / full.as_secs_f64()), Some(goal.to_owned())),
-    };
+    let values = alternate(timing, [&frame, &values], Reuse::Decisions, false);
+    let share = 100.0 * values.as_secs_f64() / full.as_secs_f64();
     println!(
-        "{name:<14}{:>16}{:>12.2}{:>18}{:>18}",
+        "{name:<14}{:>16}{:>12.2}{:>18}",
         beside(format!("{:.3}", microseconds(same)), Some("1".to_owned())),
         microseconds(compared),
-        share(values, "5"),
-        share(sizes, "15"),
+        beside(format!("{share:.0} %"), Some("5".to_owned())),
     );
 }
 

@@ -19,11 +19,6 @@ impl Span {
     /// The span of something that was built in memory.
     pub const NONE: Span = Span { file: u32::MAX, start: 0, end: 0 };
 
-    /// All that it is made of, in the order in which it stands in memory.
-    pub(crate) const fn numbers(self) -> [u32; 3] {
-        [self.file, self.start, self.end]
-    }
-
     /// The bytes `start..end` of file number `file`.
     #[must_use]
     pub const fn new(file: u32, start: u32, end: u32) -> Span {

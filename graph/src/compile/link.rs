@@ -64,7 +64,6 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
 }
 
 /// Says that a pass needs what nothing has written, once for all planes.
-#[cold]
 fn unwritten(frame: &Frame, pass: &str, found: &Unwritten, errors: &mut Vec<Diagnostic>) {
     let name = frame.name(found.of);
     let (message, help) = if found.writes {

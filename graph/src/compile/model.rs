@@ -2,7 +2,7 @@
 
 use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
-use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
+use crate::frame::{EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
 use crate::plan::{AttachmentKind, Inserted, Note};
 use crate::vulkan::{
     AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
@@ -124,15 +124,6 @@ impl PhysicalResource {
         }
     }
 
-    /// Takes the size that the frame says now.
-    fn resize(&mut self, frame: &Frame) {
-        match (&mut self.kind, self.of) {
-            (Kind::Image(image), Resource::Image(of)) => image.extent = frame.images[of.0 as usize].extent,
-            (Kind::Buffer(buffer), Resource::Buffer(of)) => buffer.bytes = frame.buffers[of.0 as usize].bytes,
-            _ => {}
-        }
-    }
-
     pub(super) fn is_transient(&self) -> bool {
         matches!(self.memory, MemorySource::Transient)
     }
@@ -164,16 +155,6 @@ pub(super) struct Adapted {
 }
 
 impl Adapted {
-    /// Takes the sizes that the frame says now.
-    pub(super) fn resize(&mut self, frame: &Frame) {
-        self.resources.iter_mut().for_each(|resource| resource.resize(frame));
-        for (resource, allocated) in &mut self.allocated {
-            if let Resource::Image(of) = self.resources[*resource as usize].of {
-                *allocated = frame.images[of.0 as usize].allocated.unwrap_or(*allocated);
-            }
-        }
-    }
-
     /// Whether each resource is one subresource, which has the number of the resource. Mostly so: then a walk through the
     /// subresources needs nothing of the resources.
     pub(super) fn is_uncut(&self) -> bool {
@@ -192,7 +173,6 @@ impl Adapted {
     }
 
     /// The descriptor that a physical image is made with.
-    #[inline(always)]
     pub(super) fn made(&self, resource: PhysicalIndex, image: &ImageDescriptor) -> ImageDescriptor {
         // Few frames have any.
         if self.allocated.is_empty() && self.eyes.is_empty() { *image } else { self.made_larger(resource, image) }

@@ -13,7 +13,7 @@ use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
 pub(super) fn finish(
     mut adapted: Adapted,
     sharing: &[(PhysicalIndex, Sharing)],
-    timeline: &mut AccessTimeline,
+    timeline: &AccessTimeline,
     load_store: &LoadStoreOps,
     scoped: &Scoped,
     options: &Options,
@@ -24,7 +24,7 @@ pub(super) fn finish(
     }
     share_usages(&mut adapted);
     sharing.iter().for_each(|(resource, sharing)| adapted.resources[*resource as usize].set_sharing(*sharing));
-    timeline.swap_layouts(&mut adapted.uses);
+    timeline.give_layouts(&mut adapted.uses);
     adapted
 }
 

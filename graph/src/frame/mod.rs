@@ -24,7 +24,7 @@ mod uses;
 mod view;
 mod work;
 
-pub(crate) use access::{Access, Effect, SAMPLING, VisitAccess};
+pub(crate) use access::{Access, Effect, VisitAccess};
 pub use capture::{Capture, Captures, capture_name};
 pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};

@@ -210,6 +210,7 @@ impl<'f> Parts<'f> {
 
     /// Calls `visit` with each access of a pass to a part as it is in this frame, and whether the access needs the contents,
     /// and whether it changes them.
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     pub(crate) fn for_each_access(&self, pass: &Pass, visit: impl FnMut(&Access<'_>, u32, bool, bool)) {
         pass.visit_accesses(&mut EachPart { parts: self, pass, visit });
@@ -223,7 +224,8 @@ struct EachPart<'p, F> {
     visit: F,
 }
 
-impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
+impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess<'_> for EachPart<'_, F> {
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn visit(&mut self, access: Access<'_>) {
         if access.frames_ago() > 0 {
@@ -235,16 +237,11 @@ impl<F: FnMut(&Access<'_>, u32, bool, bool)> VisitAccess for EachPart<'_, F> {
             Resource::Image(index) => (parts.images.get(index.0 as usize), parts.grid(index)),
             Resource::Buffer(_) => (None, None),
         };
-        match (access, image, grid) {
-            (_, Some(image), Some(grid)) => {
+        match (image, grid) {
+            (Some(image), Some(grid)) => {
                 access.for_each_effect(pass, Some(image), |Effect { range, reads, writes }| {
                     grid.cover(image.part(range)).for_each(|part| visit(&access, first + part, reads, writes));
                 });
-            }
-            // The image itself isn't looked at: a large frame has more of them than a cache holds.
-            (Access::Sampled(_), ..) => {
-                let (reads, writes) = SAMPLING;
-                visit(&access, first, reads, writes);
             }
             _ => access.for_each_effect(pass, image, |it| visit(&access, first, it.reads, it.writes)),
         }

@@ -9,6 +9,8 @@
 //! crosses frames, and as often as it takes for everything with history to have been everything (`frames`).
 //!
 //! The work is linear in steps, barriers and accesses: see `clocks`, `parts` and `program`.
+//! Most Plans are right, so what reports is marked `cold`, which saves 5 % of the instructions, and what is large or rare is kept
+//! apart by `inline(never)`, which saves 6 to 9 %.
 
 mod accesses;
 mod barriers;

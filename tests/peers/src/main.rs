@@ -25,8 +25,6 @@
 mod accesses;
 #[path = "../../../graph/benches/compile/allocator.rs"]
 mod allocator;
-#[path = "../../../graph/benches/compile/changed.rs"]
-mod changed;
 #[path = "../../../graph/tests/suite/testing/graphs.rs"]
 mod graphs;
 mod measure;

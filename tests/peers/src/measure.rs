@@ -29,8 +29,7 @@ pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 /// The two parts of a run.
 #[derive(Clone, Copy)]
 pub(crate) struct Times {
-    /// `None`: nothing is built.
-    pub(crate) build: Option<Duration>,
+    pub(crate) build: Duration,
     pub(crate) compile: Duration,
 }
 
@@ -65,7 +64,7 @@ pub(crate) fn least<const N: usize>(
             let begin = Instant::now();
             while begin.elapsed() < TURN {
                 let times = run(candidate.as_mut())?;
-                least.build = least.build.zip(times.build).map(|(least, time)| least.min(time));
+                least.build = least.build.min(times.build);
                 least.compile = least.compile.min(times.compile);
             }
             Ok((candidate, least, barriers))

@@ -26,10 +26,10 @@ enum Outcome {
 
 #[derive(Serialize, Clone, Copy)]
 struct Figures {
-    build: Option<f64>,
+    build: f64,
     compile: f64,
     /// `build` and `compile`.
-    together: Option<f64>,
+    together: f64,
     /// `compile` over Framewright's.
     compile_ratio: Option<f64>,
     /// `together` over Framewright's.
@@ -42,18 +42,17 @@ impl Row {
     /// A row for each system, in the order of [`ALL`]: Framewright is the first one.
     pub(crate) fn of(graph: Graph, found: [Found; ALL.len()]) -> Vec<Row> {
         let each = |time: Duration| time.as_secs_f64() * 1e6 / f64::from(graph.passes);
-        let together = |times: &Times| times.build.map(|build| each(build + times.compile));
+        let together = |times: Times| each(times.build + times.compile);
         let ours = found[0].as_ref().ok().map(|(times, _)| *times);
-        let ours_together = ours.as_ref().and_then(together);
         let outcome = |found: Found| match found {
             Ok((times, barriers)) => {
                 let compile = each(times.compile);
                 Outcome::Measured(Figures {
-                    build: times.build.map(each),
+                    build: each(times.build),
                     compile,
-                    together: together(&times),
+                    together: together(times),
                     compile_ratio: ours.map(|ours| compile / each(ours.compile)),
-                    together_ratio: together(&times).zip(ours_together).map(|(theirs, ours)| theirs / ours),
+                    together_ratio: ours.map(|ours| together(times) / together(ours)),
                     image_barriers: barriers.map(|barriers| barriers.images),
                     barrier_calls: barriers.map(|barriers| barriers.calls),
                 })
@@ -140,16 +139,15 @@ pub(crate) fn print_table(devices: &Devices, rows: &[Row]) {
 
 impl Figures {
     fn columns(&self) -> String {
-        let decimals =
-            |value: Option<f64>, decimals| value.map_or("–".to_owned(), |value| format!("{value:.decimals$}"));
+        let ratio = |ratio: Option<f64>| ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
         let count = |count: Option<u64>| count.map_or("–".to_owned(), |count| count.to_string());
         format!(
-            "{:>8}{:>10.3}{:>8}{:>10}{:>8}{:>11}{:>9}",
-            decimals(self.build, 3),
+            "{:>8.3}{:>10.3}{:>8}{:>10.3}{:>8}{:>11}{:>9}",
+            self.build,
             self.compile,
-            decimals(self.compile_ratio, 2),
-            decimals(self.together, 3),
-            decimals(self.together_ratio, 2),
+            ratio(self.compile_ratio),
+            self.together,
+            ratio(self.together_ratio),
             count(self.image_barriers),
             count(self.barrier_calls)
         )

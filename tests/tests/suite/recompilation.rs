@@ -36,7 +36,7 @@ impl Held {
                 let reuse = self.compiler.reuse();
                 *self.reused.entry(reuse).or_default() += 1;
                 // What compiles as values alone is drawn with the images and pipelines that are there.
-                if let (Some(last), Reuse::Placement | Reuse::Everything) = (&self.last, reuse) {
+                if let (Some(last), Reuse::Decisions | Reuse::Everything) = (&self.last, reuse) {
                     assert_eq!(last.differs_beyond_values(&anew), None, "{what}");
                 }
                 self.last = Some(anew);
@@ -128,7 +128,7 @@ fn follow(held: &mut Held, first: Frame, other: Frame, what: &str) {
     assert_eq!(held.hold(&equal, &format!("{what}: an equal frame")), Some(Reuse::Everything));
     for value in [3, 255] {
         let reuse = held.hold(&Arc::new(with_values(&first, value)), &format!("{what}: the value {value}"));
-        assert_eq!(reuse, Some(Reuse::Placement), "{what}");
+        assert_eq!(reuse, Some(Reuse::Decisions), "{what}");
     }
     for by in [2, 3, 1] {
         held.hold(&Arc::new(scaled(&first, by)), &format!("{what}: {by} times as large"));
@@ -163,8 +163,8 @@ fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
         held.reused.into_iter().for_each(|(reuse, count)| *reused.entry(reuse).or_insert(0) += count);
     }
     let count = |reuse| reused.get(&reuse).copied().unwrap_or(0);
-    let (structures, barriers) = (count(Reuse::Structure), count(Reuse::Barriers));
-    assert!(structures > 50 && barriers > 3000, "too little served too seldom: {reused:?}");
+    let (values, frames) = (count(Reuse::Decisions), count(Reuse::Nothing));
+    assert!(values > 600 && frames > 4000, "too few frames were compiled: {reused:?}");
 }
 
 #[test]

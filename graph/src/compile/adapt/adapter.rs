@@ -145,7 +145,6 @@ impl<'a> Adapter<'a> {
     }
 
     /// Notes that these uses wrote images. Multisampled ones may be resolved.
-    #[inline(never)]
     fn note_writers(&mut self, uses: Range<usize>, draws: bool) {
         for at in uses {
             let used = self.adapted.uses[at];

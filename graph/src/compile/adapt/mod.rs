@@ -19,7 +19,6 @@ pub(super) use access::has_samples;
 pub(super) use input::Input;
 
 use super::model::Adapted;
-use super::steps::in_order;
 use crate::base::Diagnostic;
 use crate::frame::Resource;
 use crate::plan::Note;
@@ -43,9 +42,9 @@ pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagno
     adapter.adapted.resources.reserve(frame.images.len());
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4 + frame.images.len());
-    let pass = |at: u32| live.passes[at as usize];
-    let read = |adapter: &Adapter<'_>, at| adapter.read(pass(at));
-    in_order(&mut adapter, live.passes.len() as u32, true, read, |adapter, at| adapter.pass(pass(at)));
+    for pass in &live.passes {
+        adapter.pass(*pass);
+    }
     for output in &frame.outputs {
         adapter.output(output);
     }

@@ -6,19 +6,8 @@ use crate::base::Diagnostic;
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
 use crate::frame::{Face, ImageIndex, Pass, Sampled, Work};
 use crate::vulkan::{Aspects, Subresources};
-use std::hint::black_box;
 
 impl Adapter<'_> {
-    /// Reads which images a pass samples.
-    pub(super) fn read(&self, number: u32) {
-        for sampled in &self.input.frame.passes[number as usize].sampled {
-            let resource = self.resource_of[sampled.image.0 as usize];
-            black_box(
-                resource.and_then(|resource| self.versions.get(resource as usize)).map(|version| version.samples),
-            );
-        }
-    }
-
     pub(super) fn pass(&mut self, number: u32) {
         let frame = self.input.frame;
         let pass = &frame.passes[number as usize];
@@ -118,7 +107,6 @@ impl Adapter<'_> {
         self.version_before(number, pass, sampled, before)
     }
 
-    #[cold]
     fn note_one_sample(&mut self, pass: &Pass, sampled: &Sampled) {
         let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
         self.note(&self.input.frame.images[sampled.image.0 as usize].name, text, sampled.span);

@@ -68,7 +68,6 @@ impl Adapter<'_> {
         }
     }
 
-    #[cold]
     fn written_anew(&mut self, image: ImageIndex, wanted: u32) -> PhysicalIndex {
         let declared = &self.input.frame.images[image.0 as usize];
         let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
@@ -170,7 +169,6 @@ impl Adapter<'_> {
         resource
     }
 
-    #[inline(always)]
     fn add_image(&mut self, image: ImageIndex, samples: u32) -> PhysicalIndex {
         let declared = &self.input.frame.images[image.0 as usize];
         let descriptor = ImageDescriptor {
@@ -203,7 +201,6 @@ impl Adapter<'_> {
         self.add(Resource::Buffer(buffer), self.adapted.buffers - 1, Kind::Buffer(descriptor), None, None)
     }
 
-    #[inline(always)]
     fn add(
         &mut self,
         of: Resource,

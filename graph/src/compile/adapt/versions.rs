@@ -82,7 +82,6 @@ impl Adapter<'_> {
     }
 
     /// The physical image that a pass writes; a second one if the pass also samples what it replaces.
-    #[inline(always)]
     pub(super) fn target(
         &mut self,
         number: u32,

@@ -46,21 +46,17 @@ impl<'p, 'a> StepBarriers<'p, 'a> {
         let mut buffers: Option<MemoryBarrier> = None;
         for it in here {
             let barrier = &self.results.sync.barriers[it.barrier as usize];
-            let subject = &self.results.subjects[barrier.resource as usize];
-            if !subject.is_image {
-                add_buffer(&mut buffers, barrier, subject.id);
+            let resource = &self.results.adapted.resources[barrier.resource as usize];
+            if resource.image().is_none() {
+                add_buffer(&mut buffers, barrier, resource.id);
                 continue;
             }
             if barrier.hazard == Hazard::Ownership {
                 // It is emitted with its other half: see `ownership`.
                 continue;
             }
-            if subject.is_cut {
-                let range = self.results.subresources(barrier.resource, barrier.subresource);
-                add(&mut images, image_barrier(barrier, subject.id, range));
-            } else {
-                images.push(image_barrier(barrier, subject.id, subject.all()));
-            }
+            let range = self.results.subresources(barrier.resource, barrier.subresource);
+            add(&mut images, image_barrier(barrier, resource.id, range));
         }
         memory.extend(buffers);
         (memory, images)

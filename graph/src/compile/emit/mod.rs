@@ -12,7 +12,5 @@ mod revise;
 mod stage_results;
 mod values;
 
-pub(super) use plan::{emit, put_in_work, steps};
-pub(super) use resources::resources;
-pub(super) use revise::{barriers, sizes, values};
-pub(super) use stage_results::{StageResults, Subject};
+pub(super) use plan::emit;
+pub(super) use revise::values;

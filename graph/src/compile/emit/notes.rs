@@ -15,7 +15,7 @@ pub(super) fn notes(results: &StageResults<'_>) -> Vec<Note> {
         },
         at: frame.sources.place(off.span),
     });
-    let culled = results.structure.live.culled.iter().map(|pass| &frame.passes[*pass as usize]).map(|pass| Note {
+    let culled = results.decisions.live.culled.iter().map(|pass| &frame.passes[*pass as usize]).map(|pass| Note {
         stage: Stage::Cull,
         subject: pass.name.clone(),
         text: "does not run: no output needs what it writes".to_owned(),
@@ -27,13 +27,5 @@ pub(super) fn notes(results: &StageResults<'_>) -> Vec<Note> {
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),
     });
-    let of_stages = results.structure.notes.iter().chain(&results.structure.queue_notes).cloned();
-    off.chain(remarks).chain(culled).chain(of_stages).collect()
-}
-
-/// Brings the notes with figures that depend on sizes up to date: the last ones.
-pub(super) fn renew_sizes(results: &StageResults<'_>, notes: &mut [Note]) {
-    let with_sizes = &results.structure.queue_notes;
-    let first = notes.len().saturating_sub(with_sizes.len());
-    notes[first..].clone_from_slice(with_sizes);
+    off.chain(remarks).chain(culled).chain(results.decisions.notes.iter().cloned()).collect()
 }

@@ -43,7 +43,7 @@ pub(super) fn transfers(results: &StageResults<'_>) -> Vec<Transfer> {
 
 fn transfer(results: &StageResults<'_>, of_subresource: &OwnershipTransfer) -> Transfer {
     let (queues, acquiring) = (&results.sync.queues, &results.sync.barriers[of_subresource.barrier as usize]);
-    let image = ImageId(results.subjects[acquiring.resource as usize].id);
+    let image = ImageId(results.adapted.resources[acquiring.resource as usize].id);
     let range = results.subresources(acquiring.resource, acquiring.subresource);
     let barrier = |after, src: (Stages, Accesses), dst: (Stages, Accesses)| ImageBarrier {
         image,

@@ -23,7 +23,7 @@ pub(super) fn single(results: &StageResults<'_>, number: u32) -> Work {
     if matches!(op.kind, OpKind::Resolve { .. }) {
         return Work::Resolve(transfer(results, op, number, None));
     }
-    match frame_work(results, op) {
+    match frame_work(results.frame, op) {
         None | Some(FrameWork::Copy) => Work::Copy(transfer(results, op, number, None)),
         Some(FrameWork::Blit { filter }) => Work::Blit(transfer(results, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {
@@ -123,7 +123,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     let shader = work.shader().map_or_else(nothing, Arc::clone);
     let (mut accesses, mut buffers) = (Vec::with_capacity(uses.len()), Vec::new());
     for used in uses {
-        if results.subjects[used.resource as usize].is_image {
+        if results.adapted.resources[used.resource as usize].image().is_some() {
             accesses.push(declared_access(results, used, declared));
         } else {
             buffers.push(buffer_access(results, used, declared));
@@ -280,9 +280,9 @@ fn adapted(results: &StageResults<'_>, used: &Use, texture: ImageShape) -> Image
 /// One access of a pass to an image; load, store and resolve operations are the scope's.
 #[inline]
 fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> Access {
-    let subject = &results.subjects[used.resource as usize];
-    let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all());
-    let image = ImageId(subject.id);
+    let resource = &results.adapted.resources[used.resource as usize];
+    let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or_else(|| resource.all());
+    let image = ImageId(resource.id);
     Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }
 

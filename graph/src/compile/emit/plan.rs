@@ -2,49 +2,49 @@
 
 use super::barriers::StepBarriers;
 use super::ownership::Transfer;
-use super::resources::Resources;
 use super::stage_results::StageResults;
 use super::values::{changes, settings, views, with_bytes};
-use super::{attachments, notes, outputs, ownership, passes};
+use super::{attachments, notes, outputs, ownership, passes, resources};
 use crate::compile::scope::Step as Grouped;
-use crate::compile::steps::NEVER;
+use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
+use crate::device::Profile;
+use crate::frame::Frame;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
 
-/// The Plan, with the steps that `steps` and `put_in_work` made, and the images and buffers that `resources` made.
-pub(in crate::compile) fn emit(
-    results: &StageResults<'_>,
-    (steps, totals): (Vec<Step>, Totals),
-    (images, buffers): Resources,
-) -> Plan {
+/// The Plan of a frame.
+pub(in crate::compile) fn emit(frame: &Frame, device: &Profile, decisions: &Decisions) -> Plan {
+    let results = &StageResults::new(frame, decisions);
+    let steps = steps(results);
+    let (images, buffers) = resources::resources(results);
     Plan {
         format_version: FORMAT_VERSION,
-        device: DeviceUsed { name: results.device.name.clone(), exact_memory: results.exact_memory },
-        settings: settings(results),
-        changes: changes(results),
-        decided: Arc::clone(&results.frame.decided),
-        extent: results.frame.extent,
-        stereo: results.frame.stereo,
-        views: views(results),
+        device: DeviceUsed { name: device.name.clone(), exact_memory: decisions.exact_memory },
+        settings: settings(frame),
+        changes: changes(frame),
+        decided: Arc::clone(&frame.decided),
+        extent: frame.extent,
+        stereo: frame.stereo,
+        views: views(frame),
         images,
         buffers,
         outputs: outputs::outputs(results),
-        heaps: results.placed.heaps.clone(),
-        totals: with_bytes(results, totals),
+        heaps: decisions.placed.heaps.clone(),
+        totals: with_bytes(&decisions.placed, Totals::count(&steps)),
         steps,
         notes: notes::notes(results),
     }
 }
 
-/// Steps of the Plan, with all but their work.
-pub(in crate::compile) fn steps(results: &StageResults<'_>) -> Vec<Step> {
+/// Steps of the Plan.
+fn steps(results: &StageResults<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = results.sync;
     let mut barriers = StepBarriers::new(results);
     let step = |number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
-        let (queue, waits) = (queues.queue(number), queues.waits(number));
-        Step { queue, waits, memory_barriers, image_barriers, work: Work::Export, releases: Vec::new() }
+        let (queue, waits, work) = (queues.queue(number), queues.waits(number), work(results, number));
+        Step { queue, waits, memory_barriers, image_barriers, work, releases: Vec::new() }
     };
     let mut steps: Vec<Step> = (0..*count).map(step).collect();
     for Transfer { from, release, to, acquire } in ownership::transfers(results) {
@@ -54,26 +54,11 @@ pub(in crate::compile) fn steps(results: &StageResults<'_>) -> Vec<Step> {
     steps
 }
 
-/// Puts the work of each step in. Returns what the steps alone tell of the Plan's totals.
-///
-/// Works in the frame's order: passes, operations and uses are then read one after the other. Only the steps, which are written,
-/// may lie apart.
-pub(in crate::compile) fn put_in_work(results: &StageResults<'_>, steps: &mut [Step]) -> Totals {
-    let scoped = &results.scoped.steps;
-    // For each operation the step that it is the first one of.
-    let mut begun = vec![NEVER; results.adapted.ops.len()];
-    for (step, number) in scoped.iter().zip(0_u32..) {
-        if let Some(op) = step.ops().first() {
-            begun[*op as usize] = number;
-        }
+/// The work of a step. There may be one behind all others, which only has barriers.
+fn work(results: &StageResults<'_>, number: u32) -> Work {
+    match results.scoped.steps.get(number as usize) {
+        Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(results, scope, number))),
+        Some(Grouped::Single(op)) => passes::single(results, *op),
+        Some(Grouped::BarriersOnly) | None => Work::Export,
     }
-    for number in begun.into_iter().filter(|number| *number != NEVER) {
-        steps[number as usize].work = match &scoped[number as usize] {
-            Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(results, scope, number))),
-            Grouped::Single(op) => passes::single(results, *op),
-            // It has no operation to be found by.
-            Grouped::BarriersOnly => continue,
-        };
-    }
-    Totals::count(steps)
 }

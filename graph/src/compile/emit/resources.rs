@@ -1,21 +1,19 @@
 //! Images and buffers of the Plan.
 
+use super::stage_results::StageResults;
 use crate::compile::model::{Adapted, Kind, MemorySource, PhysicalResource};
 use crate::compile::scope::resource_name;
-use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::States;
 use crate::frame::{Frame, Lifetime, Resource};
 use crate::plan::{Buffer, BufferId, Cause, ChosenFormat, Image, ImageId, Initial, Placement, Role};
 use crate::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
 
 /// Images and buffers of the Plan.
-pub(in crate::compile) type Resources = (Vec<Image>, Vec<Buffer>);
-
-pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> Resources {
-    let Structure { adapted, timeline, .. } = structure;
+pub(super) fn resources(results: &StageResults<'_>) -> (Vec<Image>, Vec<Buffer>) {
+    let StageResults { frame, adapted, placed, decisions, .. } = results;
     let (mut images, mut buffers) = (Vec::with_capacity(adapted.resources.len()), Vec::new());
-    let mut chosen = settled.placed.chosen.iter().peekable();
-    let resources = adapted.resources.iter().zip(0_u32..).zip(&timeline.states).zip(&settled.placed.placements);
+    let mut chosen = placed.chosen.iter().peekable();
+    let resources = adapted.resources.iter().zip(0_u32..).zip(&decisions.states).zip(&placed.placements);
     for (((resource, at), states), placement) in resources {
         let name = resource_name(frame, adapted, at).clone();
         let (span, rotation, eyes) = match resource.of {

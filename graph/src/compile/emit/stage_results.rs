@@ -1,89 +1,33 @@
-//! The results of all stages, from which the parts of a Plan are made.
+//! What was decided about a frame, beside the frame: the parts of a Plan are made of both.
 
 use crate::compile::memory::Placed;
 use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::retain::LoadStoreOps;
 use crate::compile::scope::Scoped;
-use crate::compile::structure::{Settled, Structure};
+use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
-use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::{BufferId, Cause, ImageId, Inserted, Resource};
-use crate::vulkan::{Aspects, Subresources};
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
-/// The results of all stages.
-pub(in crate::compile) struct StageResults<'a> {
+/// What was decided about a frame, beside the frame.
+pub(super) struct StageResults<'a> {
     pub(super) frame: &'a Frame,
-    pub(super) device: &'a Profile,
-    pub(super) structure: &'a Structure,
+    pub(super) decisions: &'a Decisions,
     pub(super) adapted: &'a Adapted,
     pub(super) scoped: &'a Scoped,
     pub(super) load_store: &'a LoadStoreOps,
     pub(super) placed: &'a Placed,
     pub(super) sync: &'a Barriers,
-    pub(super) exact_memory: bool,
-    /// The subject of each physical resource; empty where no passes and no barriers are made.
-    pub(super) subjects: &'a [Subject],
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
 }
 
 impl<'a> StageResults<'a> {
-    pub(in crate::compile) fn new(
-        frame: &'a Frame,
-        device: &'a Profile,
-        structure: &'a Structure,
-        settled: &'a Settled,
-    ) -> StageResults<'a> {
-        StageResults {
-            frame,
-            device,
-            structure,
-            adapted: &structure.adapted,
-            scoped: &structure.scoped,
-            load_store: &structure.load_store,
-            placed: &settled.placed,
-            sync: &settled.barriers,
-            exact_memory: settled.exact_memory,
-            subjects: &[],
-            nothing: Arc::default(),
-        }
-    }
-
-    /// The same, to make passes and barriers. `subjects`: one for each physical resource.
-    pub(in crate::compile) fn with_subjects(self, subjects: &'a [Subject]) -> StageResults<'a> {
-        StageResults { subjects, ..self }
-    }
-}
-
-/// The properties of a physical resource that passes and barriers name: close together in memory, since they are read often.
-pub(in crate::compile) struct Subject {
-    pub(super) id: u32,
-    pub(super) is_image: bool,
-    /// Whether it has several subresources.
-    pub(super) is_cut: bool,
-    /// All of it.
-    aspects: Aspects,
-    mips: u32,
-    layers: u32,
-}
-
-impl Subject {
-    /// A subject for each physical resource.
-    pub(in crate::compile) fn of(adapted: &Adapted) -> Vec<Subject> {
-        let subject = |resource: &PhysicalResource| {
-            let Subresources { aspects, mips, layers, .. } = resource.all();
-            let (is_image, is_cut) = (resource.image().is_some(), resource.grid.is_some());
-            Subject { id: resource.id, is_image, is_cut, aspects, mips, layers }
-        };
-        adapted.resources.iter().map(subject).collect()
-    }
-
-    /// All of it.
-    pub(super) fn all(&self) -> Subresources {
-        let Subject { aspects, mips, layers, .. } = *self;
-        Subresources { aspects, base_mip: 0, mips, base_layer: 0, layers }
+    pub(super) fn new(frame: &'a Frame, decisions: &'a Decisions) -> StageResults<'a> {
+        let Decisions { adapted, scoped, load_store, placed, barriers: sync, .. } = decisions;
+        StageResults { frame, decisions, adapted, scoped, load_store, placed, sync, nothing: Arc::default() }
     }
 }
 
@@ -120,6 +64,6 @@ pub(super) fn cause(results: &StageResults<'_>, op: &Op) -> Cause {
 }
 
 /// The work of the pass that an operation is or stands in for.
-pub(super) fn frame_work<'f>(results: &StageResults<'f>, op: &Op) -> Option<&'f Work> {
-    op.kind.pass().map(|pass| &results.frame.passes[pass as usize].work)
+pub(super) fn frame_work<'f>(frame: &'f Frame, op: &Op) -> Option<&'f Work> {
+    op.kind.pass().map(|pass| &frame.passes[pass as usize].work)
 }

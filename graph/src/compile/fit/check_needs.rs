@@ -26,13 +26,6 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
     if errors.is_empty() { Ok(notes) } else { Err(errors) }
 }
 
-/// Whether the buffers of a frame fit that differs from one that was checked in sizes and values alone.
-pub(crate) fn still_fit(frame: &Frame, live: &[u32], device: &Profile) -> bool {
-    let mut errors = Vec::new();
-    buffers(frame, live, device, &mut errors);
-    errors.is_empty()
-}
-
 fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: impl FnMut(String)) {
     let name = format!("`{}`", device.name);
     let abilities =

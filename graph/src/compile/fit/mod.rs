@@ -7,6 +7,6 @@ mod samples;
 mod support;
 
 pub(super) use check_needs::check_needs;
-pub(super) use formats::{Formats, formats};
-pub(super) use samples::{drawn_together, negotiate, still_holds};
+pub(super) use formats::formats;
+pub(super) use samples::{drawn_together, negotiate};
 pub(super) use support::check_support;

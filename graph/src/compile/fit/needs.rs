@@ -48,6 +48,7 @@ impl Needs {
         needs
     }
 
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn add(&mut self, access: Access<'_>) {
         self.usage |= match access {
@@ -90,7 +91,8 @@ impl Needs {
 /// Adds the needs of accesses to those of each image.
 struct AddNeeds<'n>(&'n mut [Needs]);
 
-impl VisitAccess for AddNeeds<'_> {
+impl VisitAccess<'_> for AddNeeds<'_> {
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn visit(&mut self, access: Access<'_>) {
         if let Resource::Image(image) = access.resource() {

@@ -1,6 +1,5 @@
 //! Sample counts, and a frame's other demands on its images, against the device's limits.
 
-use super::check_needs::still_fit;
 use super::formats::Formats;
 use super::needs::{Needs, Supports};
 use crate::base::{Diagnostic, Span};
@@ -63,13 +62,6 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
     }
     negotiated.multisampled &= negotiated.samples.iter().any(|count| *count > 1);
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
-}
-
-/// Whether the negotiated result for a frame holds for another frame, which differs in nothing but sizes and values, and
-/// forwards between images of the same proportions.
-pub(crate) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
-    frame.images.iter().all(|image| image.made().iter().all(|side| *side <= largest(image, device)))
-        && still_fit(frame, live, device)
 }
 
 /// The longest side that an image of this shape can have.

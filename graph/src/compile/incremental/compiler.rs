@@ -2,11 +2,9 @@
 
 use super::difference::{self, Difference};
 use crate::base::Diagnostic;
-use crate::compile::emit::{self, StageResults, Subject};
-use crate::compile::model::OpKind;
 use crate::compile::options::Options;
-use crate::compile::structure::{Settled, Settling, Structure};
-use crate::compile::{retain, rotate, validate};
+use crate::compile::stages::{self, Decisions};
+use crate::compile::{emit, retain, rotate, validate};
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
@@ -21,11 +19,7 @@ use std::sync::Arc;
 ///   A frame behind an `Arc` doesn't change, and the last one is kept, so no other frame can have its address.
 /// - An equal frame: it is compared, pass by pass.
 /// - Other values (clear and fill values, parameters, counts of workgroups, texts of settings): they replace the old ones.
-/// - Other sizes (of images and buffers): memory is placed anew, and order and scopes are reused. If alias edges are the
-///   same, barriers are reused too, else they are found again. The frame is compiled anew if another order might score best,
-///   if scopes might differ, if passes that are off forward between images of other proportions, or if alias edges differ on
-///   several queues.
-/// - Anything else: the frame is compiled anew.
+/// - Anything else, other sizes among it: the frame is compiled anew.
 #[derive(Debug, Default)]
 pub struct Compiler {
     last: Option<Box<Last>>,
@@ -36,12 +30,8 @@ pub struct Compiler {
 pub enum Reuse {
     /// None.
     Nothing,
-    /// Order, scopes and all that follows from these alone.
-    Structure,
-    /// That and the barriers: memory was placed anew, with the same alias edges.
-    Barriers,
-    /// That and the places in memory: only values were replaced.
-    Placement,
+    /// All that was decided: only values were replaced.
+    Decisions,
     /// All.
     Everything,
 }
@@ -55,9 +45,7 @@ struct Last {
     frame: Arc<Frame>,
     device: Arc<Profile>,
     options: Options,
-    exact_memory: bool,
-    structure: Structure,
-    settled: Settled,
+    decisions: Decisions,
     plan: Plan,
     reuse: Reuse,
     /// Whether the Plan has other formats than the frame: then nothing of it fits another frame.
@@ -87,7 +75,7 @@ impl Compiler {
     ) -> Result<&Plan, Vec<Diagnostic>> {
         let known = self.last.take().filter(|last| {
             let same_device = Arc::ptr_eq(&last.device, device) || last.device == *device;
-            same_device && last.options == *options && last.exact_memory == memory.exact()
+            same_device && last.options == *options && last.decisions.exact_memory == memory.exact()
         });
         let last = match known {
             Some(last) => last.follow(frame, memory)?,
@@ -119,23 +107,14 @@ impl Last {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Last, Vec<Diagnostic>> {
-        let (structure, substitute) = Structure::find_with_fallback(frame, device, options, true)?;
-        let barriers = structure.timeline.barriers.clone();
-        let settled = structure.settle(barriers, device, memory, options)?;
-        let planned = substitute.as_ref().unwrap_or(frame);
-        let subjects = Subject::of(&structure.adapted);
-        let results = StageResults::new(planned, device, &structure, &settled).with_subjects(&subjects);
-        let mut steps = emit::steps(&results);
-        let totals = emit::put_in_work(&results, &mut steps);
-        let plan = emit::emit(&results, (steps, totals), emit::resources(planned, &structure, &settled));
+        let (decisions, substitute) = stages::decide(frame, device, memory, options)?;
+        let plan = emit::emit(substitute.as_ref().unwrap_or(frame), device, &decisions);
         Ok(Last {
             given: frame.clone(),
             frame: frame.clone(),
             device: device.clone(),
             options: *options,
-            exact_memory: memory.exact(),
-            structure,
-            settled,
+            decisions,
             plan,
             reuse: Reuse::Nothing,
             fell_back: substitute.is_some(),
@@ -154,63 +133,23 @@ impl Last {
         }
         let given = frame;
         let frame = &turned(given)?;
-        let reuse = match difference::between(&self.frame, frame) {
-            Difference::None => Reuse::Everything,
-            _ if self.fell_back => Reuse::Nothing,
-            Difference::Values => Reuse::Placement,
-            Difference::Sizes => Reuse::Structure,
-            Difference::Structure => Reuse::Nothing,
-        };
-        self.reuse = reuse;
-        let done = match reuse {
-            Reuse::Everything => true,
-            Reuse::Placement => self.put_in_values(frame),
-            Reuse::Structure | Reuse::Barriers => self.put_in_sizes(frame, memory)?,
-            Reuse::Nothing => false,
-        };
-        if !done {
-            *self = Last::new(frame, &self.device, memory, &self.options)?;
+        match difference::between(&self.frame, frame) {
+            Difference::None => {}
+            Difference::Values if !self.fell_back && validate::still_holds(frame) => {
+                self.reuse = Reuse::Decisions;
+                self.put_in_values(frame);
+            }
+            Difference::Values | Difference::Structure => {
+                *self = Last::new(frame, &self.device, memory, &self.options)?;
+            }
         }
         (self.given, self.frame) = (given.clone(), frame.clone());
         Ok(self)
     }
 
-    /// Whether order, scopes and places served again.
-    fn put_in_values(&mut self, frame: &Frame) -> bool {
-        if !validate::values_still_hold(frame) {
-            return false;
-        }
-        let Last { structure, settled, device, plan, .. } = self;
-        retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
-        emit::values(&StageResults::new(frame, device, structure, settled), plan);
-        true
-    }
-
-    /// Whether the structure served again.
-    fn put_in_sizes(&mut self, frame: &Frame, memory: &mut dyn MemoryProvider) -> Result<bool, Vec<Diagnostic>> {
-        let Last { frame: before, device, options, structure, settled, plan, .. } = self;
-        let forwards = structure.adapted.ops.iter().any(|op| matches!(op.kind, OpKind::ForwardDraw { .. }));
-        let forwards = forwards || difference::forwards(frame);
-        if forwards && !difference::keeps_proportions(before, frame) {
-            return Ok(false);
-        }
-        if !validate::still_holds(frame) || !structure.still_holds(frame, device, options) {
-            return Ok(false);
-        }
-        retain::renew_clear_values(frame, &structure.adapted, &mut structure.load_store);
-        let settling = structure.settle_again(settled, device, memory, options)?;
-        let results = || StageResults::new(frame, device, structure, settled);
-        match settling {
-            Settling::Same => {
-                self.reuse = Reuse::Barriers;
-                emit::sizes(&results(), plan);
-            }
-            Settling::OtherBarriers if settled.barriers.steps as usize == plan.steps.len() => {
-                emit::barriers(results(), plan);
-                emit::sizes(&results(), plan);
-            }
-            Settling::OtherBarriers | Settling::Nothing => return Ok(false),
-        }
-        Ok(true)
+    fn put_in_values(&mut self, frame: &Frame) {
+        let Last { decisions, plan, .. } = self;
+        retain::renew_clear_values(frame, &decisions.adapted, &mut decisions.load_store);
+        emit::values(frame, decisions, plan);
     }
 }

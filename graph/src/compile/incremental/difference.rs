@@ -1,11 +1,9 @@
 //! The difference between two frames.
 
-use crate::base::Span;
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Sampled, StencilState, Storage,
-    View, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, Pass, Sampled, StencilState, Storage, View, Work,
 };
-use crate::vulkan::{FillValue, Sampler, Subresources};
+use crate::vulkan::FillValue;
 use std::sync::Arc;
 
 /// How much two frames differ.
@@ -15,13 +13,11 @@ pub(super) enum Difference {
     None,
     /// In values that no decision depends on.
     Values,
-    /// In sizes of images and buffers, and perhaps in values.
-    Sizes,
     /// In more.
     Structure,
 }
 
-use Difference::{None as Nothing, Sizes, Structure, Values};
+use Difference::{None as Nothing, Structure, Values};
 
 /// The difference that there is if two things are not the same.
 fn unless(same: bool, difference: Difference) -> Difference {
@@ -31,28 +27,6 @@ fn unless(same: bool, difference: Difference) -> Difference {
 /// Whether two names are the same: often they are one, since frames come from one another.
 fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
     Arc::ptr_eq(old, new) || old == new
-}
-
-/// Whether two properties that few have are the same.
-#[inline]
-fn same_option<T: PartialEq>(old: &Option<T>, new: &Option<T>) -> bool {
-    (old.is_none() & new.is_none()) || old == new
-}
-
-/// Whether two accesses to images are the same. Four numbers in an array, in the order in which they stand in memory, take
-/// one comparison.
-#[inline]
-fn same_access(
-    (old, old_range, old_ago, old_span): (ImageIndex, Subresources, u32, Span),
-    (new, new_range, new_ago, new_span): (ImageIndex, Subresources, u32, Span),
-) -> bool {
-    let numbers = |image: ImageIndex, range: Subresources, frames_ago: u32, span: Span| {
-        let Subresources { aspects, base_mip, mips, base_layer, layers } = range;
-        let [file, start, end] = span.numbers();
-        ([image.0, aspects.bits(), base_mip, mips], [base_layer, layers, frames_ago, file], [start, end])
-    };
-    let (old, new) = (numbers(old, old_range, old_ago, old_span), numbers(new, new_range, new_ago, new_span));
-    (old.0 == new.0) & (old.1 == new.1) & (old.2 == new.2)
 }
 
 /// Whether all members of two lists are the same.
@@ -78,26 +52,35 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
     let Frame { sources, settings, changes, extent, stereo, views, images, buffers, passes, outputs, .. } = new;
     let Frame { decided, switched_off, remarks, .. } = new;
-    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs && old.stereo == *stereo;
-    if !same || old.switched_off != *switched_off || old.remarks != *remarks {
+    let same = old.sources == *sources
+        && old.changes == *changes
+        && old.extent == *extent
+        && old.stereo == *stereo
+        && old.outputs == *outputs
+        && old.switched_off == *switched_off
+        && old.remarks == *remarks
+        && same_lists(&old.images, images, same_image)
+        && same_lists(&old.buffers, buffers, same_buffer);
+    if !same {
         return Structure;
     }
     unless(old.settings == *settings && old.decided == *decided, Values)
-        .max(unless(old.extent == *extent, Sizes))
         .max(of_lists(&old.views, views, view))
-        .max(of_lists(&old.images, images, image))
-        .max(of_lists(&old.buffers, buffers, buffer))
         .max(of_lists(&old.passes, passes, pass))
 }
 
 fn view(old: &View, new: &View) -> Difference {
     let View { name, span, extent, camera, allows, jitter, eye } = new;
-    let same =
-        old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows && old.eye == *eye;
-    if same { unless(old.jitter == *jitter, Values).max(unless(old.extent == *extent, Sizes)) } else { Structure }
+    let same = old.name == *name
+        && old.span == *span
+        && old.extent == *extent
+        && old.camera == *camera
+        && old.allows == *allows
+        && old.eye == *eye;
+    if same { unless(old.jitter == *jitter, Values) } else { Structure }
 }
 
-fn image(old: &Image, new: &Image) -> Difference {
+fn same_image(old: &Image, new: &Image) -> bool {
     let Image {
         name,
         span,
@@ -114,24 +97,27 @@ fn image(old: &Image, new: &Image) -> Difference {
         chosen,
         lifetime,
     } = new;
-    let same = same_name(&old.name, name)
+    same_name(&old.name, name)
         && old.span == *span
-        && same_option(&old.resolve, resolve)
-        && same_option(&old.chosen, chosen)
-        && (old.format == *format) & (old.shape == *shape) & (old.rotation == *rotation) & (old.eyes == *eyes)
-        && (old.mips == *mips) & (old.layers == *layers) & (old.samples == *samples)
-        && old.allocated.is_some() == allocated.is_some()
-        && same_lifetime(&old.lifetime, lifetime);
-    if same { unless((old.extent, old.allocated) == (*extent, *allocated), Sizes) } else { Structure }
+        && old.format == *format
+        && old.shape == *shape
+        && old.extent == *extent
+        && old.allocated == *allocated
+        && old.rotation == *rotation
+        && old.eyes == *eyes
+        && old.mips == *mips
+        && old.layers == *layers
+        && old.samples == *samples
+        && old.resolve == *resolve
+        && old.chosen == *chosen
+        && same_lifetime(&old.lifetime, lifetime)
 }
 
-fn buffer(old: &Buffer, new: &Buffer) -> Difference {
+fn same_buffer(old: &Buffer, new: &Buffer) -> bool {
     let Buffer { name, span, bytes, lifetime } = new;
-    let same = same_name(&old.name, name) && old.span == *span && same_lifetime(&old.lifetime, lifetime);
-    if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
+    same_name(&old.name, name) && old.span == *span && old.bytes == *bytes && same_lifetime(&old.lifetime, lifetime)
 }
 
-#[inline]
 fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
     let same_start = match (old, new) {
         (Lifetime::Transient, Lifetime::Transient) => return true,
@@ -167,11 +153,13 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
-        && (old.side_effect == *side_effect) & (old.alpha_to_coverage == *alpha_to_coverage) & (old.covers == *covers)
-        && same_option(&old.untouched, untouched)
-        && same_option(&old.no_depth_only, no_depth_only)
-        && same_option(&old.no_rotation, no_rotation)
-        && same_option(&old.inserted, inserted)
+        && old.side_effect == *side_effect
+        && old.alpha_to_coverage == *alpha_to_coverage
+        && old.covers == *covers
+        && old.untouched == *untouched
+        && old.no_depth_only == *no_depth_only
+        && old.no_rotation == *no_rotation
+        && old.inserted == *inserted
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
@@ -191,28 +179,28 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
     let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
-    // Most are the same, so comparing all at once takes fewer branches.
-    let same_access =
-        same_access((old.image, old.range, old.frames_ago, old.span), (*image, *range, *frames_ago, *span));
-    let same_way = same_sampler(old.sampler, *sampler) & (old.own_pixel == *own_pixel) & (old.stages == *stages);
-    (same_access & same_way & (old.face == *face))
-        && same_option(&old.eye, eye)
-        && same_option(&old.texture, texture)
+    old.image == *image
+        && old.range == *range
+        && old.frames_ago == *frames_ago
+        && old.span == *span
+        && old.eye == *eye
+        && old.face == *face
+        && old.texture == *texture
+        && old.own_pixel == *own_pixel
+        && old.sampler == *sampler
+        && old.stages == *stages
         && same_name(&old.binding, binding)
-}
-
-#[inline]
-fn same_sampler(old: Sampler, new: Sampler) -> bool {
-    let Sampler { filter, mips, address, compare } = new;
-    let same_filters = (old.filter == filter) & (old.mips == mips) & (old.address == address);
-    same_filters && same_option(&old.compare, &compare)
 }
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
     let Storage { binding, image, range, span, read, write, stages } = new;
-    let same_access = same_access((old.image, old.range, 0, old.span), (*image, *range, 0, *span));
-    let same_way = (old.read == *read) & (old.write == *write) & (old.stages == *stages);
-    (same_access & same_way) && same_name(&old.binding, binding)
+    old.image == *image
+        && old.range == *range
+        && old.span == *span
+        && old.read == *read
+        && old.write == *write
+        && old.stages == *stages
+        && same_name(&old.binding, binding)
 }
 
 fn works(old: &Work, new: &Work) -> Difference {
@@ -260,24 +248,4 @@ fn same_fill(old: &FillValue, new: &FillValue) -> bool {
         (FillValue::Depth(old, a), FillValue::Depth(new, b)) => (old.to_bits(), a) == (new.to_bits(), b),
         _ => old == new,
     }
-}
-
-/// Whether a pass that is off forwards one image to another.
-pub(super) fn forwards(frame: &Frame) -> bool {
-    frame.passes.iter().any(|pass| pass.work.forwarded().is_some())
-}
-
-/// Whether images that had one size have one size again, and others have others.
-pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
-    let mut sizes: Vec<_> = old
-        .images
-        .iter()
-        .zip(&new.images)
-        .map(|(old, new)| ((old.extent, old.allocated), (new.extent, new.allocated)))
-        .collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();
-    after.sort_unstable();
-    after.windows(2).all(|pair| pair[0] != pair[1]) && sizes.windows(2).all(|pair| pair[0].0 != pair[1].0)
 }

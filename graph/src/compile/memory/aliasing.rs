@@ -13,10 +13,10 @@ pub(in crate::compile) struct AliasEdge {
     pub(in crate::compile) this_frame: bool,
 }
 
-/// All alias edges, and the order of offsets that they follow from.
-#[derive(Debug, Default)]
-pub(in crate::compile) struct Aliasing {
-    pub(in crate::compile) edges: Vec<AliasEdge>,
+/// The alias edges so far, and the order of offsets that they follow from.
+#[derive(Debug)]
+struct Aliasing {
+    edges: Vec<AliasEdge>,
     /// For each physical resource the numbers of its first offset and of the one that it ends at; [`NEVER`] if it isn't
     /// placed. Offsets at which placements begin or end are numbered by heap, then upwards.
     ends: Vec<[u32; 2]>,
@@ -24,40 +24,21 @@ pub(in crate::compile) struct Aliasing {
     heaps: Vec<[u32; 2]>,
 }
 
+/// All alias edges. `by_first_step`: the placed resources, in the order of first steps.
+pub(in crate::compile) fn alias_edges(placed: &Placed, by_first_step: &[PhysicalIndex]) -> Vec<AliasEdge> {
+    let mut aliasing = Aliasing {
+        edges: Vec::with_capacity(2 * by_first_step.len()),
+        ends: vec![[NEVER; 2]; placed.placements.len()],
+        heaps: Vec::with_capacity(placed.heaps.len()),
+    };
+    for heap in 0..placed.heaps.len() as u32 {
+        aliasing.number(placed, heap);
+        aliasing.follow(placed, by_first_step, heap);
+    }
+    aliasing.edges
+}
+
 impl Aliasing {
-    /// `by_first_step`: the placed resources, in the order of first steps.
-    pub(in crate::compile) fn of(placed: &Placed, by_first_step: &[PhysicalIndex]) -> Aliasing {
-        let mut aliasing = Aliasing {
-            edges: Vec::with_capacity(2 * by_first_step.len()),
-            ends: vec![[NEVER; 2]; placed.placements.len()],
-            heaps: Vec::with_capacity(placed.heaps.len()),
-        };
-        for heap in 0..placed.heaps.len() as u32 {
-            aliasing.number(placed, heap);
-            aliasing.follow(placed, by_first_step, heap);
-        }
-        aliasing
-    }
-
-    /// Whether the ends of all placements are in the same order: then the same memory is taken over.
-    pub(in crate::compile) fn still_holds(&self, placed: &Placed) -> bool {
-        let mut offsets: Vec<Option<u64>> = vec![None; self.heaps.last().map_or(0, |[_, end]| *end as usize)];
-        let mut is_at = |end: u32, offset| *offsets[end as usize].get_or_insert(offset) == offset;
-        let same = self.ends.iter().zip(&placed.placements).all(|([lower, upper], placement)| match placement {
-            Some(it) => {
-                let heap = self.heaps.get(it.heap as usize);
-                heap.is_some_and(|[first, end]| first <= lower && lower < end)
-                    && is_at(*lower, it.offset)
-                    && is_at(*upper, it.offset + it.bytes)
-            }
-            None => *lower == NEVER,
-        });
-        same && self
-            .heaps
-            .iter()
-            .all(|[first, end]| offsets[*first as usize..*end as usize].is_sorted_by(|below, above| below < above))
-    }
-
     /// Numbers the offsets of a heap at which placements begin or end.
     fn number(&mut self, placed: &Placed, heap: u32) {
         let first = self.heaps.last().map_or(0, |[_, end]| *end);
@@ -189,29 +170,7 @@ mod tests {
         let times = |factor| PLACES.map(|(offset, bytes)| (offset * factor, bytes * factor));
         // Two that are marked in one word, one in several words, and one whose offsets lie too far apart to mark them.
         for places in [times(1 << 16), times(3), [(0, 63), (63, 130), (0, 193)], times((1 << 60) + 1)] {
-            assert_eq!(Aliasing::of(&placed(places), &[0, 1, 2]).edges, expected, "{places:?}");
+            assert_eq!(alias_edges(&placed(places), &[0, 1, 2]), expected, "{places:?}");
         }
-    }
-
-    #[test]
-    fn aliasing_holds_where_offsets_keep_their_order() {
-        let aliasing = Aliasing::of(&placed(PLACES), &[0, 1, 2]);
-        for same in [PLACES, [(0, 6), (6, 2), (0, 8)], [(8, 8), (16, 8), (8, 16)]] {
-            assert!(aliasing.still_holds(&placed(same)), "{same:?}");
-        }
-        let others = [
-            // One ends lower, one begins higher, one takes another's place, one takes no bytes, all are upside down.
-            [(0, 4), (4, 4), (0, 6)],
-            [(0, 4), (5, 3), (0, 8)],
-            [(0, 8), (0, 8), (0, 8)],
-            [(0, 4), (4, 0), (0, 4)],
-            [(4, 4), (0, 4), (0, 8)],
-        ];
-        for other in others {
-            assert!(!aliasing.still_holds(&placed(other)), "{other:?}");
-        }
-        let mut elsewhere = placed(PLACES);
-        elsewhere.placements[1] = None;
-        assert!(!aliasing.still_holds(&elsewhere));
     }
 }

@@ -5,5 +5,5 @@ mod intervals;
 mod pack;
 mod place;
 
-pub(super) use aliasing::{AliasEdge, Aliasing};
+pub(super) use aliasing::{AliasEdge, alias_edges};
 pub(super) use place::{Placed, Times, by_first_step, place};

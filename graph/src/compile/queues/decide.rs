@@ -26,15 +26,15 @@ pub(super) type Bound = [Result<[bool; QUEUES], GraphicsOnly>];
 
 /// The queue of each step.
 #[derive(Debug)]
-pub(in crate::compile) struct Decision {
+pub(super) struct Decision {
     /// Empty if all are on graphics, because the device has nothing else or nothing else is to be used.
-    pub(in crate::compile) queues: Vec<Queue>,
+    pub(super) queues: Vec<Queue>,
     /// Why each pass that isn't drawn runs on its queue.
-    pub(in crate::compile) notes: Vec<Note>,
+    pub(super) notes: Vec<Note>,
 }
 
 /// Decides which queue each step runs on. Steps that do nothing make no difference.
-pub(in crate::compile) fn decide(
+pub(super) fn decide(
     frame: &Frame,
     adapted: &Adapted,
     steps: &[Step],

@@ -6,12 +6,14 @@
 use super::crossing::{Crossing, LayoutChange};
 use super::number::QUEUES;
 use super::step_uses::uses_of;
+use crate::compile::access_chain::stands_beside_reads;
 use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
 use crate::compile::scope::{Scoped, Step};
 use crate::plan::Queue;
 use crate::vulkan::Layout;
 
-/// The last use of a subresource: a write, or reads in one layout.
+/// The last use of a subresource: a write, or reads in one layout. Reads in the layout of the write don't count: the step that
+/// changes the layout comes directly behind the write. So this is no [`AccessChain`](crate::compile::access_chain::AccessChain).
 #[derive(Debug, Clone, Copy)]
 struct LastUse {
     layout: Layout,
@@ -79,7 +81,7 @@ fn candidates(adapted: &Adapted, steps: &[Step], queues: &[Queue], crossings: &[
                 let subresource = &mut subresources[index as usize];
                 if used.writes {
                     *subresource = LastUse { layout: used.layout, written: Some(at), change: None };
-                } else if subresource.layout != used.layout {
+                } else if !stands_beside_reads(used.writes, used.layout, subresource.layout) {
                     let change = LayoutChange { subresource: index, resource, layout: used.layout };
                     let behind = subresource.written.take().filter(|written| *written != at);
                     let next = candidates.len() as u32;

@@ -25,6 +25,5 @@ mod windows;
 
 pub(super) use assign::{Assigned, assign};
 pub(super) use crossing::{Crossing, LayoutChange, OwnershipTransfer, QueueUse, QueueUses};
-pub(super) use decide::decide;
 pub(super) use number::{QUEUES, Steps};
 pub(super) use state::Queues;

@@ -147,7 +147,6 @@ impl Queues {
     }
 
     /// The waits of a step.
-    #[inline(always)]
     pub(in crate::compile) fn waits(&self, step: u32) -> Vec<Wait> {
         if self.is_one() { Vec::new() } else { self.clocks.waits(step) }
     }

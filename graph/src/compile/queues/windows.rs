@@ -1,22 +1,20 @@
 //! Windows: the graphics steps that can run beside each step that may leave the graphics queue.
 
 use super::step_uses::uses_of;
+use crate::compile::access_chain::AccessChain;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::scope::Step;
 use crate::plan::Queue;
-use crate::vulkan::{Layout, Sharing};
+use crate::vulkan::Sharing;
 
 /// The reaches of a subresource in a walk in one direction. A reach is one more than the rank of the last graphics step that
 /// a use depends on.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
-    /// The reach of the last write, or of reads in an earlier layout.
-    before: u32,
-    /// The reach of the reads since.
-    readers: u32,
+    /// The reach of its uses so far.
+    uses: AccessChain<u32>,
     /// The reach of all uses on graphics.
     graphics: u32,
-    layout: Layout,
 }
 
 /// Steps in the order of submission with the queue that each is to run on.
@@ -40,7 +38,7 @@ impl Steps<'_> {
 
     /// For each step its reach, in one direction.
     fn walk(&self, order: impl Iterator<Item = u32>, rank: impl Fn(u32) -> u32) -> Vec<u32> {
-        let none = Reach { before: 0, readers: 0, graphics: 0, layout: Layout::Undefined };
+        let none = Reach { uses: AccessChain::new(), graphics: 0 };
         let mut subresources = vec![none; self.adapted.subresources as usize];
         let mut behind = vec![0; self.steps.len()];
         for step in order {
@@ -51,12 +49,7 @@ impl Steps<'_> {
                     let exclusive = self.is_exclusive_image(used);
                     self.adapted.for_each_subresource(used, |subresource| {
                         let subresource = &subresources[subresource as usize];
-                        let joins = !used.writes && subresource.layout == used.layout;
-                        most = most.max(if joins {
-                            subresource.before
-                        } else {
-                            subresource.before.max(subresource.readers)
-                        });
+                        most = most.max(subresource.uses.highest_behind(used.writes, used.layout));
                         most = if exclusive { most.max(subresource.graphics) } else { most };
                     });
                 });
@@ -66,15 +59,7 @@ impl Steps<'_> {
             self.for_each_use(step, |used| {
                 self.adapted.for_each_subresource(used, |subresource| {
                     let subresource = &mut subresources[subresource as usize];
-                    if used.writes {
-                        (subresource.before, subresource.readers) = (subresource.before.max(reach), 0);
-                    } else if subresource.layout == used.layout {
-                        subresource.readers = subresource.readers.max(reach);
-                    } else {
-                        (subresource.before, subresource.readers) =
-                            (subresource.before.max(subresource.readers), reach);
-                    }
-                    subresource.layout = used.layout;
+                    subresource.uses.add_number(used.writes, used.layout, reach);
                     if on_graphics {
                         subresource.graphics = subresource.graphics.max(reach);
                     }

@@ -2,9 +2,8 @@
 
 use super::accesses::Access;
 use super::runs::Runs;
-
-/// No entry.
-const NONE: u32 = u32::MAX;
+use crate::compile::access_chain::AccessChain;
+use crate::vulkan::Layout;
 
 /// For each run those that depend on it at once. Some may be named twice.
 #[derive(Debug)]
@@ -15,36 +14,28 @@ pub(super) struct Dependencies {
     followers: Vec<u32>,
 }
 
-/// The last write of a subresource, and a list of the reads since.
-#[derive(Debug, Clone, Copy)]
-struct WriterAndReaders {
-    writer: u32,
-    /// Into a list of readers, each with the next one's place.
-    readers: u32,
-}
-
 impl Dependencies {
-    /// The dependencies between `runs`.
+    /// The dependencies between `runs`. Reads count as if all were in one layout: in whichever order they change it, they read
+    /// the same.
     pub(super) fn between(runs: &Runs) -> Dependencies {
-        let mut subresources = vec![WriterAndReaders { writer: NONE, readers: NONE }; runs.subresources()];
-        let mut readers: Vec<(u32, u32)> = Vec::new();
+        let layout = Layout::Undefined;
+        let mut chains: Vec<AccessChain<Option<u32>>> = vec![AccessChain::new(); runs.subresources()];
+        // The writers, and the readers in lists: each with the place of the next one.
+        let mut listed: Vec<(u32, Option<u32>)> = Vec::new();
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
             for Access { subresource, writes, .. } in runs.accesses(run) {
-                let state = &mut subresources[*subresource as usize];
-                if state.writer != NONE {
-                    pairs.push((state.writer, run));
+                let chain = &mut chains[*subresource as usize];
+                for mut place in chain.behind(*writes, layout) {
+                    while let Some((before, next)) = place.and_then(|place| listed.get(place as usize)) {
+                        pairs.push((*before, run));
+                        place = *next;
+                    }
                 }
-                if !writes {
-                    readers.push((run, state.readers));
-                    state.readers = readers.len() as u32 - 1;
-                    continue;
-                }
-                while let Some((reader, next)) = readers.get(state.readers as usize) {
-                    pairs.push((*reader, run));
-                    state.readers = *next;
-                }
-                state.writer = run;
+                chain.add(*writes, layout, |readers| {
+                    listed.push((run, readers));
+                    Some(listed.len() as u32 - 1)
+                });
             }
         }
         pairs.retain(|(before, after)| before != after);

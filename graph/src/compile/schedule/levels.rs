@@ -5,8 +5,8 @@
 use super::accesses::Access;
 use super::memory::{Lifetimes, Memory};
 use super::runs::Runs;
-use super::weighed::{Sums, Weighed, Weight};
-use crate::vulkan::Layout;
+use crate::compile::access_chain::AccessChain;
+use std::cmp::Ordering;
 
 /// The least level of each run.
 pub(super) struct Levels {
@@ -35,14 +35,8 @@ pub(super) fn levels(runs: &Runs) -> Option<Levels> {
     (top + 1 < runs.len()).then_some(Levels { least, top, lifetimes })
 }
 
-/// The runs level by level, and the lifetimes in the order of runs. Decisions that sizes made go into `weighed`, if they are
-/// to be kept.
-pub(super) fn by_level(
-    runs: &Runs,
-    levels: Levels,
-    memory: &Memory,
-    mut weighed: Option<&mut Weighed>,
-) -> (Vec<u32>, Lifetimes) {
+/// The runs level by level, and the lifetimes in the order of runs.
+pub(super) fn by_level(runs: &Runs, levels: Levels, memory: &Memory) -> (Vec<u32>, Lifetimes) {
     // Each run's least level makes way for the key by which it is sorted.
     let Levels { least: mut keys, top, lifetimes } = levels;
     let mut downwards = Walk::new(runs);
@@ -51,31 +45,24 @@ pub(super) fn by_level(
     for (run, key) in (0..runs.len()).zip(&mut keys).rev() {
         let lowest = *key;
         let accesses = runs.accesses(run);
-        let mut sums = Sums::default();
+        // The bytes that the run begins and ends, if it stands in its lowest level.
+        let (mut begun, mut ended) = (0_u64, 0_u64);
         let mut least = 0;
         for access in accesses {
             least = least.max(downwards.behind(access));
             let Known { bytes, first, end } = known[access.resource as usize];
-            sums.add(bytes, first == run, end <= lowest + 1);
+            begun = begun.saturating_add(if first == run { bytes } else { 0 });
+            ended = ended.saturating_add(if end <= lowest + 1 { bytes } else { 0 });
         }
         let highest = top - least;
-        let may_rise = highest > lowest;
-        let held = |it: &Known| it.first != run && it.end <= highest;
-        if sums.may_rise(may_rise) {
+        // The bytes that the run would keep alive, if it stood in its highest level.
+        let held = || {
             let used = accesses.iter().map(|access| &known[access.resource as usize]);
-            used.filter(|it| held(it)).for_each(|it| sums.hold(it.bytes));
-        }
-        let decision = sums.decide(may_rise);
-        if let Some(weighed) = &mut weighed {
-            let used = accesses.iter().map(|access| access.resource);
-            for resource in used.filter(|resource| *resource != runs.no_resource()) {
-                let it = &known[resource as usize];
-                let (begun, ended, held) = (it.first == run, it.end <= lowest + 1, held(it));
-                weighed.weigh(Weight { resource, begun, ended, held });
-            }
-            weighed.decided(may_rise, decision);
-        }
-        let level = if decision.rises { highest } else { lowest };
+            let held = used.filter(|it| it.first != run && it.end <= highest);
+            held.fold(0_u64, |sum, it| sum.saturating_add(it.bytes))
+        };
+        let rises = highest > lowest && begun > 0 && begun > held();
+        let level = if rises { highest } else { lowest };
         runs.for_each_backwards(run, |access| {
             downwards.put(access, top - level);
             let end = &mut known[access.resource as usize].end;
@@ -84,8 +71,14 @@ pub(super) fn by_level(
         // Within a level, runs that end more memory than they begin come first: the next runs then find memory free.
         // Effects keep their order.
         let keeps_place = runs.has_effects() && accesses.iter().any(|access| access.is_effect);
-        let place = if keeps_place { 1 } else { decision.begins as i8 + 1 };
-        *key = 3 * level + place as u32;
+        let place = match begun.cmp(&ended) {
+            _ if keeps_place => 1,
+            _ if rises => 2,
+            Ordering::Less => 0,
+            Ordering::Equal => 1,
+            Ordering::Greater => 2,
+        };
+        *key = 3 * level + place;
     }
     (counting_sort(&keys, 3 * top + 3), lifetimes)
 }
@@ -118,22 +111,13 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 
 /// A walk through all runs, from the first to the last or from the last to the first, that finds their least levels.
 struct Walk {
-    subresources: Vec<LastLevels>,
-}
-
-/// The accesses to a subresource so far: one more than their highest level, 0 if there are none. Reads in one layout don't
-/// depend on each other, as in `runs`.
-#[derive(Debug, Clone, Copy)]
-struct LastLevels {
-    before: u32,
-    readers: u32,
-    layout: Layout,
+    /// For each subresource its accesses so far: one more than their highest level.
+    chains: Vec<AccessChain<u32>>,
 }
 
 impl Walk {
     fn new(runs: &Runs) -> Walk {
-        let state = LastLevels { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { subresources: vec![state; runs.subresources()] }
+        Walk { chains: vec![AccessChain::new(); runs.subresources()] }
     }
 
     /// The least level of a run with these accesses, behind all that it depends on.
@@ -145,22 +129,15 @@ impl Walk {
     /// The least level that an access may have.
     #[inline]
     fn behind(&self, access: &Access) -> u32 {
-        let LastLevels { before, readers, layout } = self.subresources[access.subresource as usize];
-        if !access.writes && layout == access.layout { before } else { before.max(readers) }
+        self.chains[access.subresource as usize].highest_behind(access.writes, access.layout)
     }
 
     /// Notes the level of an access.
     #[inline]
     fn put(&mut self, access: &Access, level: u32) {
         let Access { subresource, writes, layout, is_effect, .. } = *access;
-        let (state, behind) = (&mut self.subresources[subresource as usize], level + 1);
-        if writes {
-            // Another effect may share the level of an effect.
-            *state = LastLevels { before: behind - u32::from(is_effect), readers: 0, layout };
-        } else if state.readers != 0 && state.layout == layout {
-            state.readers = state.readers.max(behind);
-        } else {
-            *state = LastLevels { before: state.before.max(state.readers), readers: behind, layout };
-        }
+        // Another effect may share the level of an effect.
+        let behind = level + u32::from(!is_effect);
+        self.chains[subresource as usize].add_number(writes, layout, behind);
     }
 }

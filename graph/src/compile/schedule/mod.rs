@@ -22,7 +22,6 @@ mod greedy;
 mod levels;
 mod memory;
 mod runs;
-mod weighed;
 
 use super::model::Adapted;
 use super::options::Order;
@@ -30,24 +29,14 @@ use dependencies::Dependencies;
 use greedy::Greedy;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
-use weighed::Weighed;
 
-/// An order, and the comparisons of bytes that decided it.
-#[derive(Debug)]
-pub(super) struct Scheduled {
-    /// Indices into [`Adapted::ops`], in execution order.
-    pub(super) order: Vec<u32>,
-    weighed: Weighed,
-}
-
-/// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
-pub(super) fn schedule(adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
-    let mut weighed = Weighed::default();
-    let order = match order {
+/// Finds the order of execution: indices into [`Adapted::ops`].
+pub(super) fn schedule(adapted: &Adapted, order: Order) -> Vec<u32> {
+    match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
             let runs = Runs::gather(adapted);
-            match scored(adapted, &runs, keeps.then_some(&mut weighed)) {
+            match scored(adapted, &runs) {
                 Some(order) => runs.operations(order),
                 None => runs.into_operations(),
             }
@@ -58,42 +47,26 @@ pub(super) fn schedule(adapted: &Adapted, order: Order, keeps: bool) -> Schedule
             runs.operations(order)
         }
         Order::Random(seed) => Dependencies::between(&Runs::of_one(adapted)).random_order(seed),
-    };
-    Scheduled { order, weighed }
-}
-
-impl Scheduled {
-    /// Whether the same operations on images and buffers of other sizes come in the same order.
-    pub(super) fn still_holds(&self, adapted: &Adapted, order: Order) -> bool {
-        match order {
-            Order::File | Order::Random(_) => true,
-            Order::Default => self.weighed.decide_the_same(|| Memory::of(adapted)),
-            // Of which runs come next, whichever is cheapest: too many comparisons to keep.
-            Order::LowMemory => schedule(adapted, order, false).order == self.order,
-        }
     }
 }
 
 /// The runs in the order that scores best; `None`: as they are.
-fn scored(adapted: &Adapted, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
+fn scored(adapted: &Adapted, runs: &Runs) -> Option<Vec<u32>> {
     let levels = levels::levels(runs)?;
     let memory = Memory::of(adapted);
-    let (order, in_file) = levels::by_level(runs, levels, &memory, keep.as_deref_mut());
+    let (order, in_file) = levels::by_level(runs, levels, &memory);
     if order.iter().zip(0..).all(|(run, place)| *run == place) {
         return None;
     }
-    let in_levels = Lifetimes::of(runs, &order);
-    let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
-    if let Some(weighed) = keep {
-        weighed.took(in_file, in_levels, takes_levels);
-    }
-    takes_levels.then_some(order)
+    let peak = memory.peak(&in_file);
+    let most = peak.saturating_add(peak / 50);
+    (memory.peak(&Lifetimes::of(runs, &order)) <= most).then_some(order)
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
 fn small(adapted: &Adapted, runs: &Runs) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
-    let scored = scored(adapted, runs, None).unwrap_or_else(|| file.clone());
+    let scored = scored(adapted, runs).unwrap_or_else(|| file.clone());
     let memory = Memory::of(adapted);
     Greedy::new(adapted, runs, &memory, Dependencies::between(runs)).best(vec![file, scored])
 }

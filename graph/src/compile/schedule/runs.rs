@@ -1,11 +1,8 @@
 //! Draws that may share a rendering scope are brought together, and from then on stay together.
 
 use super::accesses::{Access, Accesses};
+use crate::compile::access_chain::AccessChain;
 use crate::compile::model::{Adapted, InitialContents, PhysicalIndex, Role, Use};
-use crate::vulkan::Layout;
-
-/// No run.
-const NONE: u32 = u32::MAX;
 
 /// Operations in an order that is valid, in runs: draws into the same attachments, or one operation.
 #[derive(Debug)]
@@ -35,10 +32,7 @@ impl Runs {
             accesses,
             runs: Vec::new(),
             run_of: Vec::with_capacity(adapted.ops.len()),
-            subresources: vec![
-                LastRuns { before: NONE, readers: NONE, layout: Layout::Undefined };
-                accesses.subresources
-            ],
+            chains: vec![AccessChain::new(); accesses.subresources],
             places: 0,
         };
         for op in 0..adapted.ops.len() as u32 {
@@ -124,17 +118,6 @@ impl Runs {
     }
 }
 
-/// The accesses to a subresource so far: a write, then reads in one layout. A read in another layout than the one before it
-/// comes behind it, as a write would: changing the order of layouts could only add barriers.
-#[derive(Debug, Clone, Copy)]
-struct LastRuns {
-    /// The run that wrote it, or read it in an earlier layout.
-    before: u32,
-    /// The rearmost of the runs that read it since.
-    readers: u32,
-    layout: Layout,
-}
-
 /// A run so far.
 #[derive(Debug)]
 struct Run {
@@ -150,24 +133,22 @@ struct Gatherer<'a> {
     accesses: &'a Accesses,
     runs: Vec<Run>,
     run_of: Vec<u32>,
-    subresources: Vec<LastRuns>,
+    /// For each subresource the runs of its last accesses. If several runs read it, the rearmost stands for all.
+    chains: Vec<AccessChain<Option<u32>>>,
     places: u32,
 }
 
 impl Gatherer<'_> {
     fn op(&mut self, op: u32) {
-        let Gatherer { adapted, accesses, runs, subresources, .. } = self;
-        let candidate = candidate(adapted, subresources, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
+        let Gatherer { adapted, accesses, runs, chains, .. } = self;
+        let candidate = candidate(adapted, chains, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
         for Access { subresource, writes, layout, .. } in accesses.op(op) {
-            let LastRuns { before, readers, layout: current } = subresources[*subresource as usize];
-            let readers = if *writes || current != *layout { readers } else { NONE };
-            for run in [before, readers] {
-                if run != NONE && Some(run) != candidate {
-                    runs[run as usize].fixed = true;
-                    behind = behind.max(Some(runs[run as usize].place));
-                }
+            let before = chains[*subresource as usize].behind(*writes, *layout).into_iter().flatten();
+            for run in before.filter(|run| Some(*run) != candidate) {
+                runs[run as usize].fixed = true;
+                behind = behind.max(Some(runs[run as usize].place));
             }
         }
         let joined = candidate.filter(|candidate| {
@@ -189,46 +170,39 @@ impl Gatherer<'_> {
         });
         runs[run as usize].last = op;
         self.run_of.push(run);
-        for access in accesses.op(op) {
-            note(runs, &mut subresources[access.subresource as usize], run, access.writes, access.layout);
+        for Access { subresource, writes, layout, .. } in accesses.op(op) {
+            chains[*subresource as usize].add(*writes, *layout, |reader| match reader {
+                Some(reader) if reader != run => Some(rearmost(runs, reader, run)),
+                _ => Some(run),
+            });
         }
     }
 }
 
-/// Notes the access of a run to a subresource.
-fn note(runs: &mut [Run], state: &mut LastRuns, run: u32, writes: bool, layout: Layout) {
-    if writes {
-        *state = LastRuns { before: run, readers: NONE, layout };
-    } else if state.readers == NONE || state.layout != layout {
-        let before = if state.readers == NONE { state.before } else { state.readers };
-        *state = LastRuns { before, readers: run, layout };
-    } else if state.readers != run {
-        // Only the rearmost reader is known from here on, so none of them may move any more.
-        runs[state.readers as usize].fixed = true;
-        runs[run as usize].fixed = true;
-        if runs[run as usize].place > runs[state.readers as usize].place {
-            state.readers = run;
-        }
-    }
+/// The rearmost of two runs that read a subresource. Only this one is known from here on, so none of them may move any more.
+fn rearmost(runs: &mut [Run], one: u32, other: u32) -> u32 {
+    runs[one as usize].fixed = true;
+    runs[other as usize].fixed = true;
+    if runs[other as usize].place > runs[one as usize].place { other } else { one }
 }
 
 /// The run whose last write an operation draws on top of.
-fn candidate(adapted: &Adapted, subresources: &[LastRuns], op: u32) -> Option<u32> {
+fn candidate(adapted: &Adapted, chains: &[AccessChain<Option<u32>>], op: u32) -> Option<u32> {
     if !adapted.ops[op as usize].kind.draws() {
         return None;
     }
     let uses = adapted.uses(op);
     let attached = |used: &&Use| used.role.is_attachment();
     let run_before = |used: &Use| {
-        let mut run = NONE;
-        adapted.for_each_subresource(used, |subresource| run = subresources[subresource as usize].before);
+        let mut run = None;
+        adapted.for_each_subresource(used, |subresource| run = chains[subresource as usize].before());
         run
     };
-    let run = run_before(uses.iter().find(attached)?);
+    let run = run_before(uses.iter().find(attached)?)?;
     // A scope neither clears nor samples its own drawing.
     let forbids = |used: &Use| !used.role.is_attachment() || used.contents != InitialContents::Keep;
-    let apart = uses.iter().any(|used| forbids(used) && run_before(used) == run);
-    (run != NONE && !apart).then_some(run)
+    let apart = uses.iter().any(|used| forbids(used) && run_before(used) == Some(run));
+    (!apart).then_some(run)
 }
 
 /// Whether two draws have the same colour attachments, and depth and stencil attachments where both have them.

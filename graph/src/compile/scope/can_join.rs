@@ -1,8 +1,7 @@
 //! Whether a pass can join the rendering scope before it.
 
 use super::step::{Scope, Target, colors_of, plane_of};
-use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
-use crate::device::Profile;
+use crate::compile::model::{Adapted, InitialContents, PhysicalIndex, Role, Use};
 use crate::frame::TargetShape;
 use crate::vulkan::{Aspects, Subresources};
 
@@ -143,27 +142,4 @@ fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
     let (allocated, eyes) = (adapted.allocated(target.resource), adapted.eyes(target.resource));
     let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);
     Some(TargetShape { extent, allocated, eyes, layers, samples: image.samples })
-}
-
-/// For each draw that may join the scope of an earlier draw, in the given order, whether both have the same area. Sizes
-/// decide nothing else about scopes. All attachments of one draw have one area, and draws that share an attachment have the
-/// same. So areas differ only where a draw reads the other's attachment locally: without local reads, the iterator is empty.
-pub(crate) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> impl Iterator<Item = bool> {
-    let order = if device.local_read { order } else { &[] };
-    let mut before = None;
-    order.iter().filter_map(move |op| {
-        match &adapted.ops[*op as usize].kind {
-            draw if draw.draws() => {}
-            // It may be folded into a scope.
-            OpKind::Resolve { .. } => return None,
-            _ => {
-                before = None;
-                return None;
-            }
-        }
-        let attached = adapted.uses(*op).iter().find(|used| used.role.is_attachment());
-        let now = attached.map(|used| shape(adapted, Target::of(adapted, used)));
-        let before = before.replace(now)?;
-        Some(before == now)
-    })
 }

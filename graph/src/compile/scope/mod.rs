@@ -15,7 +15,6 @@ use crate::plan::{Note, Reason};
 use builder::Builder;
 use gain::Gain;
 
-pub(super) use can_join::same_areas;
 pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 
 /// Steps in execution order.
@@ -27,11 +26,6 @@ pub(super) struct Scoped {
 }
 
 impl Scoped {
-    /// Whether operations run in the order in which they stand in the frame.
-    pub(super) fn is_in_frame_order(&self) -> bool {
-        self.steps.iter().flat_map(Step::ops).is_sorted()
-    }
-
     /// Why operation number `op` shares its scope with the one before it.
     pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<Box<Reason>> {
         Some(Box::new(self.gains.get(op as usize)?.as_ref()?.reason(frame, adapted)))

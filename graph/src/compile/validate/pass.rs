@@ -13,7 +13,8 @@ pub(super) struct Check<'c> {
     pub(super) errors: &'c mut Vec<Diagnostic>,
 }
 
-impl VisitAccess for Check<'_> {
+impl VisitAccess<'_> for Check<'_> {
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn visit(&mut self, access: Access<'_>) {
         match access.resource() {
@@ -27,7 +28,6 @@ impl VisitAccess for Check<'_> {
 }
 
 impl Check<'_> {
-    #[cold]
     pub(super) fn wrong(&mut self, span: Span, what: &str) {
         self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
     }
@@ -53,6 +53,7 @@ impl Check<'_> {
         }
     }
 
+    // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
         let (range, span) = (access.range(), access.span());
@@ -74,14 +75,12 @@ impl Check<'_> {
     }
 
     /// Reports a mistake in what the pass uses, with the name of the pass.
-    #[inline]
     fn within(&mut self, wrong: impl IntoIterator<Item = Diagnostic>) {
         let of_pass =
             |wrong: Diagnostic| Diagnostic { message: format!("`{}`: {}", self.pass.name, wrong.message), ..wrong };
         self.errors.extend(wrong.into_iter().map(of_pass));
     }
 
-    #[cold]
     fn no_image(&mut self, index: ImageIndex, span: Span) {
         self.wrong(span, &format!("names image number {}, which does not exist", index.0));
     }
@@ -150,8 +149,7 @@ impl Check<'_> {
     }
 
     /// The images that it draws into agree.
-    #[inline]
-    pub(super) fn targets(&mut self) {
+    fn targets(&mut self) {
         let Check { frame, pass, errors } = self;
         if pass.color.len() + usize::from(pass.depth.is_some()) > 1 {
             let targets = pass.accesses().filter(Access::attaches).filter_map(|target| {
@@ -163,7 +161,6 @@ impl Check<'_> {
     }
 
     /// Both sides of a transfer fit together.
-    #[inline]
     pub(super) fn transfers(&mut self) {
         let is_transfer = self.pass.work.is_transfer();
         if is_transfer || !self.pass.transfers.is_empty() {
@@ -181,7 +178,6 @@ impl Check<'_> {
         }
     }
 
-    #[cold]
     fn wrong_stages(&mut self, name: &str) {
         self.wrong(self.pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
     }

@@ -22,8 +22,8 @@ pub(crate) struct About {
 }
 
 /// All systems, in the order of [`candidates`].
-pub(crate) const ALL: [About; 6] =
-    [framewright::ANEW, framewright::OTHER_SIZES, vulkano::GIVEN, vulkano::FOUND, vk_graph::SKIPPED, vk_graph::CALLED];
+pub(crate) const ALL: [About; 5] =
+    [framewright::ABOUT, vulkano::GIVEN, vulkano::FOUND, vk_graph::SKIPPED, vk_graph::CALLED];
 
 /// Devices of the peers. `Err`: why there is none.
 pub(crate) struct Devices {
@@ -47,7 +47,7 @@ pub(crate) fn candidates<'a>(
     graph: Graph,
     accesses: &'a Accesses,
     devices: &'a Devices,
-) -> [Result<Box<dyn Candidate + 'a>, String>; 6] {
+) -> [Result<Box<dyn Candidate + 'a>, String>; 5] {
     let taskgraph = |origin| -> Result<Box<dyn Candidate + 'a>, String> {
         let device = devices.vulkano.as_ref().map_err(Clone::clone)?;
         Ok(Box::new(vulkano::Taskgraph::new(device, accesses, origin)))
@@ -58,8 +58,7 @@ pub(crate) fn candidates<'a>(
         Ok(Box::new(vk_graph::Recorded { commands: commands.clone()?, driver }))
     };
     [
-        Ok(Box::new(framewright::Anew::new(graph))),
-        Ok(Box::new(framewright::OtherSizes::new(graph))),
+        Ok(Box::new(framewright::Framewright::new(graph))),
         taskgraph(Origin::Given),
         taskgraph(Origin::Found),
         recorded(Driver::Skipped),

@@ -118,7 +118,7 @@ impl Candidate for Recorded<'_> {
         let (recording, compile) = timed(|| graph.finalize().record(&mut pool, buffer.as_ref(), RecordSelection::All));
         recording.map(drop).map_err(|error| error.to_string())?;
         buffer.end().map_err(|error| error.to_string())?;
-        Ok(Times { build: Some(build), compile })
+        Ok(Times { build, compile })
     }
 
     fn barriers(&self) -> Option<Barriers> {

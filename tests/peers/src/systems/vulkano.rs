@@ -129,7 +129,7 @@ impl Candidate for Taskgraph<'_> {
         // SAFETY: Edges order all conflicting accesses, and the queue computes. The compiled graph is never executed.
         let (compiled, compile) = timed(|| unsafe { graph.compile(&info) }.map_err(|error| error.to_string()));
         self.compiled = Some(compiled?);
-        Ok(Times { build: Some(build), compile: finding + compile })
+        Ok(Times { build, compile: finding + compile })
     }
 
     /// Counted in the debug text of the compiled graph, which shows its instructions and barriers.
