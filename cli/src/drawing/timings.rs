@@ -65,7 +65,7 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
         let moves = |kind, word, transfer: &Transfer| match &transfer.name {
             Some(name) => pass(kind, name),
             None => {
-                let [from, to] = [&transfer.source, &transfer.target].map(|side| name(plan, side.resource()));
+                let [from, to] = [&transfer.source, &transfer.target].map(|side| plan.resource_name(side.resource()));
                 Row { inserted: Some(word), ..pass(kind, &format!("{from} → {to}")) }
             }
         };
@@ -93,7 +93,7 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
             Work::Fill(fill) => rows.push(match &fill.name {
                 Some(name) => pass(WorkKind::Fill, name),
                 None => {
-                    let filled = name(plan, fill.target.resource());
+                    let filled = plan.resource_name(fill.target.resource());
                     Row { inserted: Some("fill"), ..pass(WorkKind::Fill, filled) }
                 }
             }),
@@ -105,17 +105,10 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
 
 /// The resolves that a rendering scope carries, in words; `None` if there are none.
 fn resolves(plan: &Plan, scope: &RenderScope) -> Option<String> {
-    let image = |image: ImageId| name(plan, Resource::Image(image));
+    let image = |image: ImageId| plan.resource_name(Resource::Image(image));
     let resolves: Vec<String> = scope
         .attachments()
         .filter_map(|it| Some(format!("{} → {}", image(it.image), image(it.resolve.as_ref()?.image))))
         .collect();
     (!resolves.is_empty()).then(|| resolves.join(", "))
-}
-
-fn name(plan: &Plan, resource: Resource) -> &str {
-    match resource {
-        Resource::Image(image) => plan.images.get(image.0 as usize).map_or("", |image| &image.name),
-        Resource::Buffer(buffer) => plan.buffers.get(buffer.0 as usize).map_or("", |buffer| &buffer.name),
-    }
 }

@@ -8,7 +8,7 @@ mod contents;
 mod uses;
 
 use crate::base::Place;
-use crate::plan::{Cause, Plan, Resource, StepId};
+use crate::plan::{Plan, Resource, StepId};
 use crate::vulkan::Subresources;
 use serde::Serialize;
 
@@ -119,13 +119,5 @@ impl Dataflow {
         let nodes = uses::nodes(plan);
         let edges = contents::edges(plan, &nodes);
         Dataflow { nodes, edges }
-    }
-}
-
-/// The words and the place of a cause.
-fn reason(cause: &Cause) -> (Option<String>, Option<Place>) {
-    match cause {
-        Cause::Written(at) => (None, at.clone()),
-        Cause::Inserted(why) => (Some(why.because.clone()), why.at.clone()),
     }
 }

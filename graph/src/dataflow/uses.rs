@@ -1,6 +1,6 @@
 //! The nodes of a Plan's dataflow, and what each uses.
 
-use super::{Node, NodeKind, Use, UseRole, reason};
+use super::{Node, NodeKind, Use, UseRole};
 use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, Cause, ImageId, Pass, Plan, RenderScope, Resource, Side, StepId,
     Transfer, Work,
@@ -31,8 +31,7 @@ pub(super) fn nodes(plan: &Plan) -> Vec<Node> {
 }
 
 fn node(step: StepId, kind: NodeKind, name: String, cause: &Cause, uses: Vec<Use>) -> Node {
-    let (because, at) = reason(cause);
-    Node { step, kind, name, because, at, uses }
+    Node { step, kind, name, because: cause.because().map(str::to_owned), at: cause.at().cloned(), uses }
 }
 
 fn of_pass(step: StepId, kind: NodeKind, pass: &Pass, uses: Vec<Use>) -> Node {

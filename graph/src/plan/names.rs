@@ -65,7 +65,8 @@ impl Plan {
     }
 
     /// The name of an image or buffer, as it stands in the file; empty if there is none.
-    pub(crate) fn resource_name(&self, resource: Resource) -> &str {
+    #[must_use]
+    pub fn resource_name(&self, resource: Resource) -> &str {
         match resource {
             Resource::Image(ImageId(id)) => self.images.get(id as usize).map_or("", |image| &image.name),
             Resource::Buffer(BufferId(id)) => self.buffers.get(id as usize).map_or("", |buffer| &buffer.name),

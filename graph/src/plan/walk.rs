@@ -1,6 +1,6 @@
 //! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
 
-use super::{Attachment, Pass, RenderScope, Resource, Side, Step, Work};
+use super::{Attachment, Cause, Pass, RenderScope, Resource, Side, Step, Work};
 use crate::vulkan::Subresources;
 use std::slice;
 
@@ -54,6 +54,15 @@ impl Work {
             Work::Render(scope) => &mut scope.passes,
             Work::Dispatch(pass) | Work::Custom(pass) => slice::from_mut(pass),
             Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &mut [],
+        }
+    }
+
+    /// Why a transfer is there.
+    pub(crate) fn cause(&self) -> Option<&Cause> {
+        match self {
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => Some(&transfer.cause),
+            Work::Fill(fill) => Some(&fill.cause),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
         }
     }
 
