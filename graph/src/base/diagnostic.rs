@@ -17,6 +17,8 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 /// One mistake.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Its kind. Nobody but people reads the message.
+    pub kind: MistakeKind,
     /// The mistake, and what was expected, in one sentence without final stop. Not yet escaped.
     pub message: String,
     /// Where: the first is the primary place. May be empty when no file is involved.
@@ -29,6 +31,56 @@ pub struct Diagnostic {
     pub choice: Option<OutsideChoice>,
     /// Whether nothing is wrong with the files: the machine doesn't let one be read, or lacks something.
     pub of_machine: bool,
+}
+
+/// The kind of a mistake: what the program itself tells mistakes apart by. A stable code of a mistake belongs to its kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum MistakeKind {
+    /// Any other.
+    #[default]
+    Other,
+    /// Nothing has the name that stands at the primary place.
+    UnknownName(Sought),
+}
+
+/// What a name that nothing has was to name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sought {
+    /// A setting.
+    Setting,
+    /// A preset.
+    Preset,
+    /// A view.
+    View,
+    /// An image or texture.
+    Image,
+    /// A buffer.
+    Buffer,
+    /// An image, texture or buffer.
+    ImageOrBuffer,
+    /// A pass.
+    Pass,
+    /// Whatever an expression can name.
+    Value,
+    /// Another thing, of this word.
+    Other(&'static str),
+}
+
+impl Sought {
+    /// Its word in messages.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Sought::Setting => "setting",
+            Sought::Preset => "preset",
+            Sought::View => "view",
+            Sought::Image => "image",
+            Sought::Buffer => "buffer",
+            Sought::ImageOrBuffer => "image or buffer",
+            Sought::Pass => "pass",
+            Sought::Value => "value",
+            Sought::Other(word) => word,
+        }
+    }
 }
 
 /// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
@@ -85,7 +137,21 @@ impl Diagnostic {
     /// A mistake at `span`.
     #[must_use]
     pub fn new(span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic { labels: vec![Label { span, text: String::new() }], ..Diagnostic::nowhere(message) }
+        Diagnostic::nowhere(message).at(span)
+    }
+
+    /// Nothing has this name.
+    pub(crate) fn unknown_name(sought: Sought, name: &str) -> Diagnostic {
+        let message = format!("there is no {} named `{name}`", sought.word());
+        Diagnostic { kind: MistakeKind::UnknownName(sought), ..Diagnostic::nowhere(message) }
+    }
+
+    /// With this primary place, if it has none.
+    pub(crate) fn at(mut self, span: Span) -> Diagnostic {
+        if self.labels.is_empty() {
+            self.labels.push(Label { span, text: String::new() });
+        }
+        self
     }
 
     /// With a remark at the primary place.

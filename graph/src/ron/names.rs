@@ -1,7 +1,7 @@
 //! The names that a file gives, each once, and the search for those that it refers to.
 
 use super::{Leaf, Name, Reader};
-use crate::base::{Diagnostic, Span, nearest, without_quotes};
+use crate::base::{Diagnostic, Sought, Span, nearest, without_quotes};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ impl Name {
 
 /// Names of one kind of thing, in file order.
 pub struct Names {
-    what: &'static str,
+    what: Sought,
     given: Vec<Option<Name>>,
     index: HashMap<Arc<str>, usize>,
     /// Whether every name could be read.
@@ -23,9 +23,9 @@ pub struct Names {
 }
 
 impl Names {
-    /// No names yet, of things called `what`.
+    /// No names yet, of such things.
     #[must_use]
-    pub fn new(what: &'static str) -> Names {
+    pub fn new(what: Sought) -> Names {
         Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
@@ -40,11 +40,9 @@ impl Names {
         if let Some(name) = &name {
             let first = *self.index.entry(name.text.clone()).or_insert(self.given.len());
             if first < self.given.len() {
-                reader.report(
-                    Diagnostic::new(name.span, format!("`{}` is the name of more than one {}", name.text, self.what))
-                        .remark("again here")
-                        .label(self.span(first), "first here"),
-                );
+                let message = format!("`{}` is the name of more than one {}", name.text, self.what.word());
+                let again = Diagnostic::new(name.span, message).remark("again here");
+                reader.report(again.label(self.span(first), "first here"));
             }
         }
         self.complete &= name.is_some();
@@ -102,7 +100,7 @@ impl Names {
             return Some(*index);
         }
         if self.complete {
-            let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
+            let unknown = Diagnostic::unknown_name(self.what, &name.text).at(name.span);
             let fitting = (0..).zip(&self.given).filter(|(at, _)| fits(*at));
             let names = fitting.filter_map(|(_, name)| name.as_ref().map(|name| &*name.text));
             let is_far = !reader.has_many() && nearest(&name.text, names.clone()).is_none();
