@@ -3,6 +3,7 @@
 use super::Span;
 use super::shorten::bounded;
 use std::ops::Range;
+use std::panic::Location;
 
 /// The largest number of mistakes that one reading or making keeps: with most files the first mistakes explain the rest.
 pub(crate) const MOST_KEPT: usize = 256;
@@ -19,6 +20,9 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 pub struct Diagnostic {
     /// Its kind. Nobody but people reads the message.
     pub kind: MistakeKind,
+    /// The check that reports it, by its place in this program. What one check reports at one place is one mistake, whatever names and
+    /// numbers the message has.
+    pub check: Option<&'static Location<'static>>,
     /// The mistake, and what was expected, in one sentence without final stop. Not yet escaped.
     pub message: String,
     /// Where: the first is the primary place. May be empty when no file is involved.
@@ -110,6 +114,20 @@ pub struct Label {
     pub span: Span,
     /// The remark; may be empty.
     pub text: String,
+    /// Whether a fragment is used there that the mistake is in.
+    pub is_use: bool,
+}
+
+impl Label {
+    /// A place with a remark.
+    pub(crate) fn new(span: Span, text: impl Into<String>) -> Label {
+        Label { span, text: short(text.into()), is_use: false }
+    }
+
+    /// The place where a fragment is used under the name `called`.
+    pub(crate) fn of_use(span: Span, called: &str) -> Label {
+        Label { is_use: true, ..Label::new(span, format!("used here as `{called}`")) }
+    }
 }
 
 /// A line of a file that is no part of the pipeline's own text, with a remark: a complaint of a shader's compiler.
@@ -130,17 +148,21 @@ pub struct Quote {
 impl Diagnostic {
     /// A mistake that stands in no file.
     #[must_use]
+    #[track_caller]
     pub fn nowhere(message: impl Into<String>) -> Diagnostic {
-        Diagnostic { message: short(message.into()), ..Diagnostic::default() }
+        let check = Some(Location::caller());
+        Diagnostic { message: short(message.into()), check, ..Diagnostic::default() }
     }
 
     /// A mistake at `span`.
     #[must_use]
+    #[track_caller]
     pub fn new(span: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic::nowhere(message).at(span)
     }
 
     /// Nothing has this name.
+    #[track_caller]
     pub(crate) fn unknown_name(sought: Sought, name: &str) -> Diagnostic {
         let message = format!("there is no {} named `{name}`", sought.word());
         Diagnostic { kind: MistakeKind::UnknownName(sought), ..Diagnostic::nowhere(message) }
@@ -149,7 +171,7 @@ impl Diagnostic {
     /// With this primary place, if it has none.
     pub(crate) fn at(mut self, span: Span) -> Diagnostic {
         if self.labels.is_empty() {
-            self.labels.push(Label { span, text: String::new() });
+            self.labels.push(Label::new(span, ""));
         }
         self
     }
@@ -166,7 +188,7 @@ impl Diagnostic {
     /// With another place.
     #[must_use]
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label { span, text: short(text.into()) });
+        self.labels.push(Label::new(span, text));
         self
     }
 

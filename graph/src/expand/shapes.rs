@@ -30,6 +30,7 @@ const fn full(extent: [u32; 3]) -> u32 {
 }
 
 /// A mistake in a property of an image, with the decision that made the property.
+#[track_caller]
 fn at<T>(property: &Decided<T>, message: String) -> Diagnostic {
     Diagnostic::new(property.span, message).remark(property.remark())
 }

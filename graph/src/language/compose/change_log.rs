@@ -79,7 +79,7 @@ impl ChangeLog {
             let named = tree.text_at(primary).trim_matches('"');
             let missed = missed(error.kind).iter();
             let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
-            let removed = removed.map(|by| Label { span: *by, text: format!("`{named}` is removed here") });
+            let removed = removed.map(|by| Label::new(*by, format!("`{named}` is removed here")));
             error.labels.extend(changed.into_iter().chain(removed));
         }
     }
@@ -95,9 +95,9 @@ impl ChangeLog {
         let in_entry = in_entries.find_map(|at| at.copied());
         let by_change = |at: usize| {
             let Changed { name, .. } = &self.changed[at];
-            Label { span: name.span, text: format!("`{}` stands here", name.text) }
+            Label::new(name.span, format!("`{}` stands here", name.text))
         };
-        let by_entry = |at: usize| Label { span: self.changed[at].by, text: "changed here".to_owned() };
+        let by_entry = |at: usize| Label::new(self.changed[at].by, "changed here");
         match (in_change, in_entry) {
             (Some(change), Some(entry)) if entry < change => Some(by_entry(entry)),
             (Some(change), _) => Some(by_change(change)),

@@ -3,7 +3,7 @@
 use super::list::entries;
 use super::settings;
 use super::values::optional;
-use crate::base::{Diagnostic, Sought, Span, suggestion};
+use crate::base::{Diagnostic, Label, Sought, Span, suggestion};
 use crate::expression::Value;
 use crate::fields;
 use crate::language::model::{Choice, Preset, Setting, SettingKind};
@@ -100,7 +100,7 @@ fn typed(reader: &mut Reader, setting: &Setting, leaf: Leaf<'_>) -> Option<Value
         reader.wrong(leaf, format!("setting `{name}` doesn't allow `{}`", leaf.text().trim_matches('"')), "");
     }
     for error in &mut reader.errors[before..] {
-        error.labels.push(crate::base::Label { span: declared, text: format!("`{name}` is declared here") });
+        error.labels.push(Label::new(declared, format!("`{name}` is declared here")));
         let help = || match &value {
             Some(value) => setting.kind.instead_of(value),
             None => format!("it is {}", setting.kind.allowed()),

@@ -174,7 +174,7 @@ impl<'a> Views<'a> {
 fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
     let Some(Change { span, action: Action::Remove { name, .. } }) = removed else { return };
     for error in errors.iter_mut().filter(|error| error.message == FIRST_IS_THE_FRAMES) {
-        error.labels.push(Label { span: *span, text: format!("`{name}` is removed here") });
+        error.labels.push(Label::new(*span, format!("`{name}` is removed here")));
     }
 }
 
