@@ -11,7 +11,7 @@ use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
 use crate::vulkan::Aspects;
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 use std::iter::{once, successors};
 
 /// After this many mistakes the writer that was meant is no longer looked for: that would take long in a large file.
@@ -26,6 +26,30 @@ struct Check<'a> {
     errors: &'a mut Vec<Diagnostic>,
 }
 
+/// Who reads an image or buffer.
+#[derive(Clone, Copy)]
+enum Reader<'a> {
+    /// The pass of that name.
+    Pass(&'a str),
+    /// What stands in for the pass of that name.
+    StandIn(&'a str),
+    /// The frame, which gives it out.
+    Frame,
+    /// The program, which dumps it.
+    Dump,
+}
+
+impl Display for Reader<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Reader::Pass(name) => write!(f, "pass `{name}`"),
+            Reader::StandIn(name) => write!(f, "the stand-in of pass `{name}`"),
+            Reader::Frame => f.write_str("the frame"),
+            Reader::Dump => f.write_str("the dump"),
+        }
+    }
+}
+
 /// Walks through the passes in their order.
 pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Output], errors: &mut Vec<Diagnostic>) {
     let writers = Writers::find(resources, states);
@@ -35,14 +59,14 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
         let name = &resources.pipeline.passes[position].name.text;
         let before = check.errors.len();
         match state {
-            State::On(pass) => check.runs(position, pass, &format_args!("pass `{name}`"), None),
+            State::On(pass) => check.runs(position, pass, Reader::Pass(name), None),
             State::Off { stand_ins, .. } => {
                 for (pass, described) in stand_ins.iter().zip(&resources.pipeline.passes[position].otherwise) {
                     let named = match described {
                         StandIn::Forward(forward) => Some(forward.from.span),
                         StandIn::Clear { .. } => None,
                     };
-                    check.runs(position, pass, &format_args!("the stand-in of pass `{name}`"), named);
+                    check.runs(position, pass, Reader::StandIn(name), named);
                 }
             }
         }
@@ -57,22 +81,22 @@ pub(super) fn check(resources: &Resources<'_>, states: &[State], outputs: &[Outp
         for pass in state.runs().iter().filter(looks_back) {
             let name = &resources.pipeline.passes[position].name.text;
             for read in accesses::reads(resources, pass).iter().filter(|read| read.frames_ago > 0) {
-                check.needs(states.len(), read, &format_args!("pass `{name}`"));
+                check.needs(states.len(), read, Reader::Pass(name));
             }
         }
     }
     for output in outputs {
-        let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
+        let reader = if output.span == Span::NONE { Reader::Dump } else { Reader::Frame };
         if let Some(cells) = accesses::whole(resources, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
-            check.needs(states.len(), &read, &reader);
+            check.needs(states.len(), &read, reader);
         }
     }
 }
 
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
-    fn runs(&mut self, position: usize, pass: &Pass, reader: &dyn Display, named: Option<Span>) {
+    fn runs(&mut self, position: usize, pass: &Pass, reader: Reader<'_>, named: Option<Span>) {
         let resources = self.resources;
         accesses::for_each_read(resources, pass, |read| {
             if read.frames_ago == 0 {
@@ -102,13 +126,12 @@ impl Check<'_> {
     }
 
     /// Demands that the part that `reader` reads was written.
-    fn needs(&mut self, position: usize, read: &Read, reader: &dyn Display) {
+    fn needs(&mut self, position: usize, read: &Read, reader: Reader<'_>) {
         let of = read.resource;
         let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
         let what = self.words(of, &read.cells, cell);
         self.add(of, &read.cells);
         let declared = self.resources.name(of);
-        let reader = reader.to_string();
         let (name, span) = (&declared.text, read.span);
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;
@@ -118,9 +141,9 @@ impl Check<'_> {
                 .label(writer.span, "filled here, if the pass runs");
             match of {
                 Resource::Image(_) => {
-                    let narrower = match reader.strip_prefix("pass ") {
-                        Some(pass) => format!("; or give pass {pass} a `when` that is false as well"),
-                        None => String::new(),
+                    let narrower = match reader {
+                        Reader::Pass(pass) => format!("; or give pass `{pass}` a `when` that is false as well"),
+                        Reader::StandIn(_) | Reader::Frame | Reader::Dump => String::new(),
                     };
                     wrong.help(format!(
                         "say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`, or \
