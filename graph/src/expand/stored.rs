@@ -8,7 +8,7 @@ use super::state::State;
 use super::storage::{self, Kept};
 use super::written::Written;
 use super::{accesses, coverage, variant, writers};
-use crate::frame::{Remark, Resource};
+use crate::frame::{NoteKind, Remark, Resource};
 use crate::language;
 use crate::shader::declared_name;
 
@@ -37,7 +37,7 @@ pub(super) fn keep(resources: &Resources<'_>, states: &mut [State], shaders: &mu
                     resources.name(of).text,
                     coverage::at(declared.as_deref())
                 );
-                remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
+                remarks.push(Remark { kind: NoteKind::Kept, subject: pass.name.clone(), span, text });
             }
         }
         for pass in state.runs() {

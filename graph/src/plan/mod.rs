@@ -54,6 +54,7 @@ mod view;
 mod walk;
 mod work;
 
+pub use crate::frame::NoteKind;
 pub use cause::{Cause, Inserted};
 pub use entries::{About, AttachmentUse, Entry, EntryKind, Item};
 pub use ids::{BufferId, ImageId, Resource, StepId, ViewId};
