@@ -13,7 +13,6 @@ const LEAST: usize = 40;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Outline {
     /// The kind of entry that the line is, or that the lines under it are.
-    #[serde(skip)]
     pub kind: EntryKind,
     /// The line in words. Names from files stand between backticks, with control characters escaped.
     pub text: String,
