@@ -238,9 +238,8 @@ impl<'p> Telling<'p> {
     }
 
     fn resolves(self, name: &str) -> Vec<Outline> {
-        let is_one = |node: &Node| matches!(node.kind, NodeKind::Resolve | NodeKind::FoldedResolve);
         let about = |node: &Node| node.uses.iter().any(|used| self.plan.resource_name(used.resource) == name);
-        let found = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| is_one(node) && about(node));
+        let found = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| node.kind.resolves() && about(node));
         let found: Vec<Outline> = found.map(|(at, node)| self.pass(at, node)).collect();
         match found.is_empty() {
             true => self

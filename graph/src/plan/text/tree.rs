@@ -131,11 +131,10 @@ impl<'p> Text<'p> {
     fn step(&self, entry: Entry<'_>, step: &Step) -> (String, Vec<Outline>) {
         let title = match &step.work {
             Work::Render(scope) => self.scope(scope),
-            Work::Dispatch(_) => "dispatch".to_owned(),
-            Work::Custom(_) => "custom".to_owned(),
-            Work::Resolve(transfer) => self.transfer("resolve", transfer),
-            Work::Copy(transfer) => self.transfer("copy", transfer),
-            Work::Blit(transfer) => self.transfer("blit", transfer),
+            Work::Dispatch(_) | Work::Custom(_) => step.work.word().to_owned(),
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                self.transfer(step.work.word(), transfer)
+            }
             Work::Fill(fill) => {
                 let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
                 let value = fill_value(self.plan, fill);
@@ -328,15 +327,11 @@ impl<'p> Text<'p> {
 
     /// What decided about a transfer, and about the samples that it resolves.
     fn about_transfer(&self, work: &Work) -> Vec<Outline> {
-        let (name, samples) = match work {
-            Work::Resolve(transfer) => (&transfer.name, Some(transfer.source)),
-            Work::Copy(transfer) | Work::Blit(transfer) => (&transfer.name, None),
-            Work::Fill(fill) => (&fill.name, None),
-            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => (&None, None),
-        };
-        let mut lines: Vec<Outline> = name.iter().flat_map(|name| self.about_pass(name)).collect();
-        if let Some(Side::Image { image, .. }) = samples {
-            lines.extend(self.about_samples(image));
+        // Passes say it themselves.
+        let name = work.name().filter(|_| work.passes().is_empty());
+        let mut lines: Vec<Outline> = name.map(|name| self.about_pass(name)).unwrap_or_default();
+        if let Work::Resolve(Transfer { source: Side::Image { image, .. }, .. }) = work {
+            lines.extend(self.about_samples(*image));
         }
         lines
     }
