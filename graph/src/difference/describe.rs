@@ -6,6 +6,7 @@ use crate::base::Place;
 use crate::base::amount::bytes;
 use crate::frame::{Allowances, EyeForm, Stereo};
 use crate::plan::names::Shown;
+use crate::plan::text::size;
 use crate::plan::{self, Buffer, Cause, Image, Initial, Item, Moved, Note, Output, Plan, Role, View};
 use crate::vulkan::{Shape, Sharing, State, in_plan, name_of};
 
@@ -126,11 +127,9 @@ fn setting(name: &str, value: &str) -> Description {
 }
 
 fn image(plan: &Plan, image: &Image) -> Description {
-    let [width, height, depth] = image.extent;
-    let deep = if depth == 1 { String::new() } else { format!("×{depth}") };
     let mut fields = vec![
         ("format", image.format.to_string()),
-        ("size", format!("{width}×{height}{deep}")),
+        ("size", size(image.extent)),
         ("samples", image.samples.to_string()),
     ];
     if image.shape == Shape::Cube {

@@ -4,12 +4,12 @@ use super::Kind;
 use super::describe::{Description, code};
 use crate::frame::Blend;
 use crate::plan::names::Shown;
-use crate::plan::text::fill_value;
+use crate::plan::text::{bound, fill_value, size};
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, BindingKind, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan,
-    Queue, Resource, Side, Step, StepId, Transfer, Wait, Work,
+    Access, Attachment, AttachmentResolve, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, Resource,
+    Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::{Sampler, Subresources, in_plan, name_of};
+use crate::vulkan::{Subresources, in_plan, name_of};
 
 /// The step that an entry is or belongs to.
 #[derive(Clone, Copy)]
@@ -135,19 +135,7 @@ impl<'p> OfStep<'p> {
     /// All of an access to an image.
     fn access(self, access: &Access) -> String {
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
-        let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
-            let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
-            let kind = match binding.kind {
-                BindingKind::Sampled(Sampler { filter, mips, address, compare }) => {
-                    let [filter, mips, address] = [name_of(&filter), name_of(&mips), name_of(&address)];
-                    let compare = compare.map_or_else(String::new, |op| format!(", compared by {}", name_of(&op)));
-                    format!("sampled, {filter}, {mips} between mip levels, {address}{compare}")
-                }
-                BindingKind::Storage => "storage".to_owned(),
-                BindingKind::InputAttachment => "read at its own position".to_owned(),
-            };
-            format!(", {kind}{declared}")
-        });
+        let kind = access.binding.as_ref().map_or_else(String::new, |binding| format!(", {}", bound(binding)));
         let [accesses, stages, layout] = [name_of(&access.accesses), name_of(&access.stages), name_of(&access.layout)];
         format!("{}{eye}: {accesses} in {stages} as {layout}{kind}", self.part(access.image, access.range))
     }
@@ -210,9 +198,8 @@ impl<'p> OfStep<'p> {
 
     fn side(self, side: Side) -> String {
         match side {
-            Side::Image { image, range, extent: [width, height, depth], layout } => {
-                let deep = if depth == 1 { String::new() } else { format!("×{depth}") };
-                format!("{}, {width}×{height}{deep} in {}", self.part(image, range), name_of(&layout))
+            Side::Image { image, range, extent, layout } => {
+                format!("{}, {} in {}", self.part(image, range), size(extent), name_of(&layout))
             }
             Side::Buffer { buffer, bytes } => format!("{}, {bytes} bytes", self.resource(Resource::Buffer(buffer))),
         }
@@ -221,13 +208,8 @@ impl<'p> OfStep<'p> {
     /// An image, and which part of it unless it is the whole.
     fn part(self, id: ImageId, range: Subresources) -> String {
         let name = self.resource(Resource::Image(id));
-        let whole = self.plan.images.get(id.0 as usize).map(|image| Subresources {
-            aspects: image.format.aspects(),
-            base_mip: 0,
-            mips: image.mips,
-            base_layer: 0,
-            layers: image.layers,
-        });
+        let image = self.plan.images.get(id.0 as usize);
+        let whole = image.map(|image| Subresources::all(image.format, image.mips, image.layers));
         if whole == Some(range) { name } else { format!("{name} ({range})") }
     }
 }

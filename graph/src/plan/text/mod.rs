@@ -9,4 +9,4 @@ mod words;
 
 pub use outline::Outline;
 pub use tree::{Detail, Text};
-pub(crate) use words::fill_value;
+pub(crate) use words::{bound, fill_value, size};

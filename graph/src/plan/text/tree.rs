@@ -5,14 +5,14 @@ use super::decided::Decisions;
 use super::lists::{self, totals};
 use super::outline::Outline;
 use super::words::{
-    bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of, words_of_list,
+    bound, bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of_list,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
 use crate::plan::names::Shown;
 use crate::plan::{
-    About, Access, Attachment, AttachmentResolve, AttachmentUse, BindingKind, BufferAccess, Cause, Entry, EntryKind,
-    Image, ImageBarrier, ImageId, Item, MemoryBarrier, Moved, Pass, Plan, Queue, RenderScope, Resource, Side, Step,
-    StepId, Transfer, Wait, Work,
+    About, Access, Attachment, AttachmentResolve, AttachmentUse, BufferAccess, Cause, Entry, EntryKind, Image,
+    ImageBarrier, ImageId, Item, MemoryBarrier, Moved, Pass, Plan, Queue, RenderScope, Resource, Side, Step, StepId,
+    Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -283,17 +283,9 @@ impl<'p> Text<'p> {
 
     fn binding(&self, access: &Access) -> Option<Outline> {
         let binding = access.binding.as_ref()?;
-        let kind = match binding.kind {
-            BindingKind::Sampled(sampler) => {
-                let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
-                format!("sampled{declared}, {}", words_of(&sampler))
-            }
-            BindingKind::Storage => "storage".to_owned(),
-            BindingKind::InputAttachment => "read at its own position".to_owned(),
-        };
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
         let part = self.part(access.image, access.range);
-        let text = format!("{} = {part}{eye}, {kind}", Shown(&binding.name));
+        let text = format!("{} = {part}{eye}, {}", Shown(&binding.name), bound(binding));
         Some(Outline { about: Some(About::Image(access.image)), ..Outline::detail(text) })
     }
 
