@@ -76,14 +76,8 @@ impl<'p> Telling<'p> {
 
     /// The decisions about a name that no step shows.
     fn notes(self, name: &str) -> Vec<Outline> {
-        let about = |entry: &Entry<'_>| matches!(entry.item, Item::Note(note) if *note.subject == *name);
-        let mut found: Vec<Outline> = self.plan.entries().filter(about).map(|entry| self.text.line(entry)).collect();
-        // Those of shipped fragments are no entries.
-        if found.is_empty() {
-            let notes = self.plan.notes.iter().filter(|note| *note.subject == *name);
-            found.extend(notes.map(|note| Outline { at: note.at.clone(), ..line(note.text.clone(), Vec::new()) }));
-        }
-        found
+        let notes = self.plan.notes.iter().filter(|note| *note.subject == *name);
+        notes.map(|note| self.text.line(Entry { step: None, item: Item::Note(note) })).collect()
     }
 
     fn pass(self, at: u32, node: &Node) -> Outline {
