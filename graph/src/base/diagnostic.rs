@@ -66,8 +66,8 @@ pub enum Sought {
     Pass,
     /// Whatever an expression can name.
     Value,
-    /// Another thing, of this word.
-    Other(&'static str),
+    /// Another thing.
+    Other,
 }
 
 impl Sought {
@@ -82,7 +82,7 @@ impl Sought {
             Sought::ImageOrBuffer => "image or buffer",
             Sought::Pass => "pass",
             Sought::Value => "value",
-            Sought::Other(word) => word,
+            Sought::Other => "thing",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The file of a draw source's interfaces.
 
 use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, Supplied, SuppliedKind};
-use crate::base::{Diagnostic, Sought, Sources, Span};
+use crate::base::{Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
 use crate::ron::{Leaf, Names, Reader, Tree};
@@ -144,7 +144,7 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
-    let mut names = Names::new(Sought::Other("custom pass"));
+    let mut names = Names::of("custom pass");
     for leaf in reader.list(custom, "the custom passes")? {
         let name = reader.outside_name(leaf, "a custom pass");
         names.give(reader, name);

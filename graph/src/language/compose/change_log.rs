@@ -154,7 +154,7 @@ fn missed(kind: MistakeKind) -> &'static [Kind] {
             Sought::ImageOrBuffer => &[Kind::Image, Kind::Texture, Kind::Buffer],
             Sought::Pass => &[Kind::Pass],
             Sought::Value => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
-            Sought::Other(_) => &[],
+            Sought::Other => &[],
         },
         MistakeKind::Other => &[],
     }
