@@ -1,7 +1,6 @@
 //! A step turned into objects, and into the commands that recording reads.
 
 use super::command_list::{Command, CommandList};
-use super::descriptions::name_and_role;
 use super::frame::Frame;
 use super::pass::{PassPipeline, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
@@ -159,14 +158,12 @@ fn everything() -> vk::MemoryBarrier2<'static> {
 
 /// A step in words, for debuggers and messages.
 pub(crate) fn title(plan: &Plan, step: &Step) -> String {
-    let name = |resource: Resource| name_and_role(plan, resource).0;
-    match &step.work {
-        Work::Render(scope) => scope.passes.iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", "),
-        Work::Dispatch(pass) | Work::Custom(pass) => pass.name.to_string(),
-        Work::Resolve(transfer) => format!("resolve {}", name(transfer.source.resource())),
-        Work::Copy(transfer) => format!("copy {}", name(transfer.source.resource())),
-        Work::Blit(transfer) => format!("blit {}", name(transfer.source.resource())),
-        Work::Fill(fill) => format!("fill {}", name(fill.target.resource())),
-        Work::Export => "export".to_owned(),
+    let work = &step.work;
+    if !work.passes().is_empty() {
+        return work.passes().iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", ");
+    }
+    match work.sides().next() {
+        Some(side) => format!("{} {}", work.word(), plan.resource_name(side.resource())),
+        None => work.word().to_owned(),
     }
 }

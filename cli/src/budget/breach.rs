@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::findings::OVER_BUDGET;
 use crate::system::Exit;
 use framewright_graph::base::{Diagnostic, Place, Sources, Span};
-use framewright_graph::dataflow::{Dataflow, Node, NodeKind};
+use framewright_graph::dataflow::{Dataflow, Node};
 use framewright_graph::plan::Plan;
 
 impl Budget {
@@ -52,7 +52,7 @@ fn breach(
     let of_step = || flow.nodes.iter().filter(|node| Some(node.step.0 as usize) == step);
     // A resolve that a scope carries is not what its first pass says.
     let wanted = |node: &&Node| match bound {
-        Bound::Resolves | Bound::ResolvedMib => matches!(node.kind, NodeKind::Resolve | NodeKind::FoldedResolve),
+        Bound::Resolves | Bound::ResolvedMib => node.kind.resolves(),
         _ => true,
     };
     let node = of_step().find(wanted).or_else(|| of_step().next());

@@ -28,7 +28,7 @@ pub(crate) fn dot(plan: &Plan, flow: &Dataflow) -> String {
         }
         let style = match (vertex, graph.node(*vertex).map(|node| node.kind)) {
             (Vertex::Before(_) | Vertex::After(_), _) => " shape=ellipse fillcolor=\"#f4f4f4\"",
-            (_, Some(NodeKind::FoldedResolve | NodeKind::Resolve)) => " fillcolor=\"#fde8d0\"",
+            (_, Some(kind)) if kind.resolves() => " fillcolor=\"#fde8d0\"",
             (_, Some(NodeKind::Dispatch)) => " fillcolor=\"#e3f4e3\"",
             _ => "",
         };

@@ -74,10 +74,7 @@ impl<'a> Graph<'a> {
     }
 
     fn resource(&self, resource: Resource) -> String {
-        text::escape(match resource {
-            Resource::Image(id) => &self.plan.images[id.0 as usize].name,
-            Resource::Buffer(id) => &self.plan.buffers[id.0 as usize].name,
-        })
+        text::escape(self.plan.resource_name(resource))
     }
 }
 

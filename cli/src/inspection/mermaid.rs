@@ -1,7 +1,7 @@
 //! A Plan's graph in Mermaid's language, which code hosts draw in Markdown.
 
 use super::labels::{Graph, Vertex};
-use framewright_graph::dataflow::{Dataflow, NodeKind};
+use framewright_graph::dataflow::Dataflow;
 use framewright_graph::plan::Plan;
 use std::fmt::Write;
 
@@ -28,10 +28,7 @@ pub(crate) fn mermaid(plan: &Plan, flow: &Dataflow) -> (String, Vec<String>) {
         let _ = writeln!(shown, "  n{from} -->|{}| n{to}", quoted(&graph.along(resources)));
     }
     shown += "  classDef resolve fill:#fde8d0,stroke:#b5651d,color:#1c1c1c\n";
-    let is_resolve = |vertex: &Vertex| {
-        let kind = graph.node(*vertex).map(|node| node.kind);
-        matches!(kind, Some(NodeKind::Resolve | NodeKind::FoldedResolve))
-    };
+    let is_resolve = |vertex: &Vertex| graph.node(*vertex).is_some_and(|node| node.kind.resolves());
     for (index, _) in graph.vertices.iter().enumerate().filter(|(_, vertex)| is_resolve(vertex)) {
         let _ = writeln!(shown, "  class n{index} resolve");
     }

@@ -47,7 +47,7 @@ pub(crate) fn svg(plan: &Plan, flow: &Dataflow) -> String {
         let node = graph.node(*vertex);
         let class = match (vertex, node.map(|node| node.kind)) {
             (Vertex::Before(_) | Vertex::After(_), _) => "beside",
-            (_, Some(NodeKind::Resolve | NodeKind::FoldedResolve)) => "resolve",
+            (_, Some(kind)) if kind.resolves() => "resolve",
             (_, Some(NodeKind::Dispatch)) => "dispatch",
             _ => "draw",
         };

@@ -1,7 +1,7 @@
 //! Notes of a Plan for people: many of one kind are shown as a few and a count.
 
 use crate::system::text;
-use framewright_graph::plan::{Note, Stage};
+use framewright_graph::plan::{Note, NoteKind, Stage};
 use std::collections::HashMap;
 
 /// Up to this many notes of one kind are all shown; of more only the first [`FEW`].
@@ -16,14 +16,14 @@ pub(crate) fn worth_showing(notes: &[Note]) -> impl Iterator<Item = &Note> {
 
 /// One line for each note, in their order; of many of one kind only for the first few, and how many more there are.
 pub(crate) fn lines<'n>(notes: impl Iterator<Item = &'n Note>) -> Vec<String> {
-    let notes: Vec<(&Note, (Stage, String))> = notes.map(|note| (note, (note.stage, kind(&note.text)))).collect();
-    let mut counts: HashMap<&(Stage, String), (usize, usize)> = HashMap::new();
-    for (_, kind) in &notes {
-        counts.entry(kind).or_default().0 += 1;
+    let notes: Vec<&Note> = notes.collect();
+    let mut counts: HashMap<(Stage, NoteKind), (usize, usize)> = HashMap::new();
+    for note in &notes {
+        counts.entry((note.stage, note.kind)).or_default().0 += 1;
     }
     let mut lines = Vec::new();
-    for (note, kind) in &notes {
-        let Some((count, seen)) = counts.get_mut(kind) else { continue };
+    for note in &notes {
+        let Some((count, seen)) = counts.get_mut(&(note.stage, note.kind)) else { continue };
         *seen += 1;
         if *count <= MANY || *seen <= FEW {
             lines.push(shown(note));
@@ -41,32 +41,21 @@ fn shown(note: &Note) -> String {
     format!("note: `{}`: {}{at}", text::escape(&note.subject), text::escape(&note.text))
 }
 
-/// A note's words without names and numbers.
-fn kind(text: &str) -> String {
-    let outside = text.split('`').step_by(2);
-    outside.flat_map(|part| part.chars().filter(|character| !character.is_ascii_digit())).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn note(subject: &str, text: &str) -> Note {
-        Note { stage: Stage::Cull, subject: subject.into(), text: text.to_owned(), at: None }
-    }
-
-    #[test]
-    fn notes_that_differ_in_names_and_numbers_are_of_one_kind() {
-        assert_eq!(kind("beside `a` and 3 more"), kind("beside `b12` and 40 more"));
-        assert_ne!(kind("runs beside `a`"), kind("stays"));
+    fn note(kind: NoteKind, subject: &str, text: &str) -> Note {
+        Note { kind, stage: kind.stage(), subject: subject.into(), text: text.to_owned(), at: None }
     }
 
     #[test]
     fn of_many_notes_of_one_kind_the_first_few_are_shown_and_a_count_and_of_few_all() {
-        let mut notes: Vec<Note> = (0..MANY).map(|at| note(&format!("p{at}"), "does not run")).collect();
-        notes.insert(1, note("other", "is off: `x` = false"));
+        let mut notes: Vec<Note> =
+            (0..MANY).map(|at| note(NoteKind::Unneeded, &format!("p{at}"), "does not run")).collect();
+        notes.insert(1, note(NoteKind::Off, "other", "is off: `x` = false"));
         assert_eq!(lines(notes.iter()).len(), MANY + 1);
-        notes.push(note("last", "does not run"));
+        notes.push(note(NoteKind::Unneeded, "last", "does not run"));
         let expected = [
             "note: `p0`: does not run",
             "note: `other`: is off: `x` = false",

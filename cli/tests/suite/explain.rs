@@ -81,6 +81,7 @@ fn programs_read_the_same_and_unknown_things_are_told_with_a_near_name() {
     let json: Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json["explanations"][0]["text"], "`sky` draws in step 0");
     assert_eq!(json["explanations"][0]["parts"][0]["at"], "first.ron:22:16");
+    assert_eq!(json["explanations"][0]["parts"][0]["kind"], "pass");
     place.run(&["explain", "first.ron", "tonemap"]).exits(1).mentions("help: did you mean `tone_map`?");
     place.run(&["explain", "first.ron", "step:9"]).exits(1).mentions("the steps are 0 to 1");
     place.run(&["explain", "first.ron", "step:x"]).exits(1).mentions("the steps are 0 to 1");

@@ -24,7 +24,8 @@ pub(crate) fn nodes(plan: &Value) -> usize {
         Value::String(_) => 0,
         work if work.get("render").is_some() => {
             let scope = &work["render"];
-            list(scope, "passes").len() + list(scope, "attachments").iter().filter(|it| it["resolve"].is_object()).count()
+            list(scope, "passes").len()
+                + list(scope, "attachments").iter().filter(|it| it["resolve"].is_object()).count()
         }
         _ => 1,
     };

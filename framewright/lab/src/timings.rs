@@ -1,7 +1,8 @@
 //! The GPU time of each part of a frame.
 
 use crate::quantiles::median;
-use framewright_graph::plan::{ImageId, Plan, RenderScope, Resource, Transfer, Work};
+use framewright_graph::dataflow::NodeKind;
+use framewright_graph::plan::{ImageId, Plan, RenderScope, Resource};
 use framewright_vulkan::FrameReport;
 use serde::Serialize;
 
@@ -10,8 +11,8 @@ use serde::Serialize;
 pub struct Row {
     /// The Plan's step that it belongs to.
     pub step: usize,
-    /// The kind of work.
-    pub kind: WorkKind,
+    /// The kind of work; a resolve at the end of a rendering scope is one, too.
+    pub kind: NodeKind,
     /// The pass's name; of inserted work its source and target.
     pub name: String,
     /// The word for inserted work.
@@ -24,26 +25,6 @@ pub struct Row {
     /// Median of its GPU times over all frames. A resolve at the end of a rendering scope takes what its passes leave of
     /// the scope's time, stores included.
     pub gpu_milliseconds: f64,
-}
-
-/// The kind of work in a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum WorkKind {
-    /// A pass that draws.
-    Draw,
-    /// A compute pass.
-    Dispatch,
-    /// A pass that the embedding program records.
-    Custom,
-    /// A resolve, at the end of a rendering scope or by itself.
-    Resolve,
-    /// A copy.
-    Copy,
-    /// A scaled copy.
-    Blit,
-    /// A clear by transfer.
-    Fill,
 }
 
 /// Draw counts of the last frame, and medians of the times of all.
@@ -63,19 +44,13 @@ pub fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
             culled: 0,
             gpu_milliseconds,
         };
-        let moves = |kind, word, transfer: &Transfer| match &transfer.name {
-            Some(name) => pass(kind, name),
-            None => {
-                let [from, to] = [&transfer.source, &transfer.target].map(|side| name(plan, side.resource()));
-                Row { inserted: Some(word), ..pass(kind, &format!("{from} → {to}")) }
-            }
-        };
-        match &planned.work {
-            Work::Render(scope) => {
+        let work = &planned.work;
+        match work.scope() {
+            Some(scope) => {
                 for (number, drawn) in last.steps[step].passes.iter().enumerate() {
                     let gpu_milliseconds = over(&|frame| frame.steps[step].passes[number].milliseconds);
                     let (draws, culled) = (drawn.draws, drawn.culled);
-                    rows.push(Row { draws, culled, gpu_milliseconds, ..pass(WorkKind::Draw, &drawn.name) });
+                    rows.push(Row { draws, culled, gpu_milliseconds, ..pass(NodeKind::Draw, &drawn.name) });
                 }
                 if let Some(resolves) = resolves(plan, scope) {
                     let rest = over(&|frame| {
@@ -83,22 +58,16 @@ pub fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
                         step.milliseconds - step.passes.iter().map(|pass| pass.milliseconds).sum::<f64>()
                     });
                     let (inserted, gpu_milliseconds) = (Some("resolve"), rest.max(0.0));
-                    rows.push(Row { inserted, gpu_milliseconds, ..pass(WorkKind::Resolve, &resolves) });
+                    rows.push(Row { inserted, gpu_milliseconds, ..pass(NodeKind::Resolve, &resolves) });
                 }
             }
-            Work::Dispatch(planned) => rows.push(pass(WorkKind::Dispatch, &planned.name)),
-            Work::Custom(planned) => rows.push(pass(WorkKind::Custom, &planned.name)),
-            Work::Resolve(transfer) => rows.push(moves(WorkKind::Resolve, "resolve", transfer)),
-            Work::Copy(transfer) => rows.push(moves(WorkKind::Copy, "copy", transfer)),
-            Work::Blit(transfer) => rows.push(moves(WorkKind::Blit, "blit", transfer)),
-            Work::Fill(fill) => rows.push(match &fill.name {
-                Some(name) => pass(WorkKind::Fill, name),
+            None => rows.extend(NodeKind::of(work).map(|kind| match work.name() {
+                Some(name) => pass(kind, name),
                 None => {
-                    let filled = name(plan, fill.target.resource());
-                    Row { inserted: Some("fill"), ..pass(WorkKind::Fill, filled) }
+                    let sides: Vec<&str> = work.sides().map(|side| plan.resource_name(side.resource())).collect();
+                    Row { inserted: Some(work.word()), ..pass(kind, &sides.join(" → ")) }
                 }
-            }),
-            Work::Export => {}
+            })),
         }
     }
     rows
@@ -106,18 +75,11 @@ pub fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
 
 /// The resolves that a rendering scope carries, in words; `None` if there are none.
 fn resolves(plan: &Plan, scope: &RenderScope) -> Option<String> {
-    let image = |image: ImageId| name(plan, Resource::Image(image));
+    let image = |image: ImageId| plan.resource_name(Resource::Image(image));
     let resolves: Vec<String> = scope
         .attachments
         .iter()
         .filter_map(|it| Some(format!("{} → {}", image(it.image), image(it.resolve.as_ref()?.image))))
         .collect();
     (!resolves.is_empty()).then(|| resolves.join(", "))
-}
-
-fn name(plan: &Plan, resource: Resource) -> &str {
-    match resource {
-        Resource::Image(image) => plan.images.get(image.0 as usize).map_or("", |image| &image.name),
-        Resource::Buffer(buffer) => plan.buffers.get(buffer.0 as usize).map_or("", |buffer| &buffer.name),
-    }
 }

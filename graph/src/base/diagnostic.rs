@@ -3,6 +3,7 @@
 use super::Span;
 use super::shorten::bounded;
 use std::ops::Range;
+use std::panic::Location;
 
 /// The largest number of mistakes that one reading or making keeps: with most files the first mistakes explain the rest.
 pub(crate) const MOST_KEPT: usize = 256;
@@ -17,6 +18,11 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 /// One mistake.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Its kind. Nobody but people reads the message.
+    pub kind: MistakeKind,
+    /// The check that reports it, by its place in this program. What one check reports at one place is one mistake, whatever names and
+    /// numbers the message has.
+    pub check: Option<&'static Location<'static>>,
     /// The mistake, and what was expected, in one sentence without final stop. Not yet escaped.
     pub message: String,
     /// Where: the first is the primary place. May be empty when no file is involved.
@@ -29,6 +35,56 @@ pub struct Diagnostic {
     pub choice: Option<OutsideChoice>,
     /// Whether nothing is wrong with the files: the machine doesn't let one be read, or lacks something.
     pub of_machine: bool,
+}
+
+/// The kind of a mistake: what the program itself tells mistakes apart by. A stable code of a mistake belongs to its kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum MistakeKind {
+    /// Any other.
+    #[default]
+    Other,
+    /// Nothing has the name that stands at the primary place.
+    UnknownName(Sought),
+}
+
+/// What a name that nothing has was to name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sought {
+    /// A setting.
+    Setting,
+    /// A preset.
+    Preset,
+    /// A view.
+    View,
+    /// An image or texture.
+    Image,
+    /// A buffer.
+    Buffer,
+    /// An image, texture or buffer.
+    ImageOrBuffer,
+    /// A pass.
+    Pass,
+    /// Whatever an expression can name.
+    Value,
+    /// Another thing.
+    Other,
+}
+
+impl Sought {
+    /// Its word in messages.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Sought::Setting => "setting",
+            Sought::Preset => "preset",
+            Sought::View => "view",
+            Sought::Image => "image",
+            Sought::Buffer => "buffer",
+            Sought::ImageOrBuffer => "image or buffer",
+            Sought::Pass => "pass",
+            Sought::Value => "value",
+            Sought::Other => "thing",
+        }
+    }
 }
 
 /// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
@@ -58,6 +114,20 @@ pub struct Label {
     pub span: Span,
     /// The remark; may be empty.
     pub text: String,
+    /// Whether a fragment is used there that the mistake is in.
+    pub is_use: bool,
+}
+
+impl Label {
+    /// A place with a remark.
+    pub(crate) fn new(span: Span, text: impl Into<String>) -> Label {
+        Label { span, text: short(text.into()), is_use: false }
+    }
+
+    /// The place where a fragment is used under the name `called`.
+    pub(crate) fn of_use(span: Span, called: &str) -> Label {
+        Label { is_use: true, ..Label::new(span, format!("used here as `{called}`")) }
+    }
 }
 
 /// A line of a file that is no part of the pipeline's own text, with a remark: a complaint of a shader's compiler.
@@ -78,14 +148,32 @@ pub struct Quote {
 impl Diagnostic {
     /// A mistake that stands in no file.
     #[must_use]
+    #[track_caller]
     pub fn nowhere(message: impl Into<String>) -> Diagnostic {
-        Diagnostic { message: short(message.into()), ..Diagnostic::default() }
+        let check = Some(Location::caller());
+        Diagnostic { message: short(message.into()), check, ..Diagnostic::default() }
     }
 
     /// A mistake at `span`.
     #[must_use]
+    #[track_caller]
     pub fn new(span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic { labels: vec![Label { span, text: String::new() }], ..Diagnostic::nowhere(message) }
+        Diagnostic::nowhere(message).at(span)
+    }
+
+    /// Nothing has this name.
+    #[track_caller]
+    pub(crate) fn unknown_name(sought: Sought, name: &str) -> Diagnostic {
+        let message = format!("there is no {} named `{name}`", sought.word());
+        Diagnostic { kind: MistakeKind::UnknownName(sought), ..Diagnostic::nowhere(message) }
+    }
+
+    /// With this primary place, if it has none.
+    pub(crate) fn at(mut self, span: Span) -> Diagnostic {
+        if self.labels.is_empty() {
+            self.labels.push(Label::new(span, ""));
+        }
+        self
     }
 
     /// With a remark at the primary place.
@@ -100,7 +188,7 @@ impl Diagnostic {
     /// With another place.
     #[must_use]
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label { span, text: short(text.into()) });
+        self.labels.push(Label::new(span, text));
         self
     }
 

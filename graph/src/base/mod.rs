@@ -15,7 +15,7 @@ mod root;
 mod shorten;
 mod source;
 
-pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
+pub use diagnostic::{Diagnostic, Label, MistakeKind, OutsideChoice, Quote, Sought};
 pub(crate) use diagnostic::{MOST_KEPT, keep};
 pub use encoding::{NoText, other_encoding, text_of, without_mark};
 pub use file_path::{FilePath, for_shell};

@@ -8,7 +8,7 @@ mod contents;
 mod uses;
 
 use crate::base::Place;
-use crate::plan::{Cause, Plan, Resource, StepId};
+use crate::plan::{Plan, Resource, StepId, Work};
 use crate::vulkan::Subresources;
 use serde::Serialize;
 
@@ -58,6 +58,37 @@ pub enum NodeKind {
     Blit,
     /// A clear by transfer.
     Fill,
+}
+
+impl NodeKind {
+    /// The kind of a step's work; `None`: it is none.
+    #[must_use]
+    pub const fn of(work: &Work) -> Option<NodeKind> {
+        match work {
+            Work::Render(_) => Some(NodeKind::Draw),
+            Work::Dispatch(_) => Some(NodeKind::Dispatch),
+            Work::Custom(_) => Some(NodeKind::Custom),
+            Work::Resolve(_) => Some(NodeKind::Resolve),
+            Work::Copy(_) => Some(NodeKind::Copy),
+            Work::Blit(_) => Some(NodeKind::Blit),
+            Work::Fill(_) => Some(NodeKind::Fill),
+            Work::Export => None,
+        }
+    }
+
+    /// Whether it makes one value of samples.
+    #[must_use]
+    pub const fn resolves(self) -> bool {
+        match self {
+            NodeKind::FoldedResolve | NodeKind::Resolve => true,
+            NodeKind::Draw
+            | NodeKind::Dispatch
+            | NodeKind::Custom
+            | NodeKind::Copy
+            | NodeKind::Blit
+            | NodeKind::Fill => false,
+        }
+    }
 }
 
 /// A use of an image or buffer.
@@ -119,13 +150,5 @@ impl Dataflow {
         let nodes = uses::nodes(plan);
         let edges = contents::edges(plan, &nodes);
         Dataflow { nodes, edges }
-    }
-}
-
-/// The words and the place of a cause.
-fn reason(cause: &Cause) -> (Option<String>, Option<Place>) {
-    match cause {
-        Cause::Written(at) => (None, at.clone()),
-        Cause::Inserted(why) => (Some(why.because.clone()), why.at.clone()),
     }
 }

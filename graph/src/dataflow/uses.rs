@@ -1,9 +1,9 @@
 //! The nodes of a Plan's dataflow, and what each uses.
 
-use super::{Node, NodeKind, Use, UseRole, reason};
+use super::{Node, NodeKind, Use, UseRole};
 use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, Cause, ImageId, Pass, Plan, RenderScope, Resource, Side, StepId,
-    Transfer, Work,
+    Work,
 };
 use crate::vulkan::{AccessKind, Accesses, LoadOp, Subresources};
 
@@ -11,45 +11,33 @@ use crate::vulkan::{AccessKind, Accesses, LoadOp, Subresources};
 pub(super) fn nodes(plan: &Plan) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(plan.steps.len());
     for (step, work) in (0..).map(StepId).zip(plan.steps.iter().map(|step| &step.work)) {
-        match work {
-            Work::Render(scope) => of_scope(plan, step, scope, &mut nodes),
-            Work::Dispatch(pass) => nodes.push(of_pass(step, NodeKind::Dispatch, pass, of_accesses(pass))),
-            Work::Custom(pass) => nodes.push(of_pass(step, NodeKind::Custom, pass, of_accesses(pass))),
-            Work::Resolve(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Resolve, transfer)),
-            Work::Copy(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Copy, transfer)),
-            Work::Blit(transfer) => nodes.push(of_transfer(plan, step, NodeKind::Blit, transfer)),
-            Work::Fill(fill) => {
-                let name = fill.name.as_ref().map(ToString::to_string);
-                let name = name.unwrap_or_else(|| format!("fill {}", plan.resource_name(fill.target.resource())));
-                let uses = vec![of_side(&fill.target, UseRole::Target)];
-                nodes.push(node(step, NodeKind::Fill, name, &fill.cause, uses));
+        let Some(kind) = NodeKind::of(work) else { continue };
+        match work.scope() {
+            Some(scope) => of_scope(plan, step, scope, &mut nodes),
+            None => {
+                nodes.extend(work.passes().iter().map(|pass| of_pass(step, kind, pass, of_accesses(pass))));
+                nodes.extend(of_transfer(plan, step, kind, work));
             }
-            Work::Export => {}
         }
     }
     nodes
 }
 
 fn node(step: StepId, kind: NodeKind, name: String, cause: &Cause, uses: Vec<Use>) -> Node {
-    let (because, at) = reason(cause);
-    Node { step, kind, name, because, at, uses }
+    Node { step, kind, name, because: cause.because().map(str::to_owned), at: cause.at().cloned(), uses }
 }
 
 fn of_pass(step: StepId, kind: NodeKind, pass: &Pass, uses: Vec<Use>) -> Node {
     node(step, kind, pass.name.to_string(), &pass.cause, uses)
 }
 
-fn of_transfer(plan: &Plan, step: StepId, kind: NodeKind, transfer: &Transfer) -> Node {
-    let source = plan.resource_name(transfer.source.resource());
-    let name = transfer.name.as_ref().map(ToString::to_string);
-    let word = match kind {
-        NodeKind::Resolve => "resolve",
-        NodeKind::Blit => "blit",
-        _ => "copy",
-    };
-    let name = name.unwrap_or_else(|| format!("{word} {source}"));
-    let uses = vec![of_side(&transfer.source, UseRole::Source), of_side(&transfer.target, UseRole::Target)];
-    node(step, kind, name, &transfer.cause, uses)
+fn of_transfer(plan: &Plan, step: StepId, kind: NodeKind, work: &Work) -> Option<Node> {
+    let sides: Vec<&Side> = work.sides().collect();
+    let (target, source) = sides.split_last()?;
+    let unnamed = || format!("{} {}", work.word(), plan.resource_name(sides[0].resource()));
+    let name = work.name().map_or_else(unnamed, ToString::to_string);
+    let uses = source.iter().map(|side| of_side(side, UseRole::Source)).chain([of_side(target, UseRole::Target)]);
+    Some(node(step, kind, name, work.cause()?, uses.collect()))
 }
 
 fn of_scope(plan: &Plan, step: StepId, scope: &RenderScope, nodes: &mut Vec<Node>) {

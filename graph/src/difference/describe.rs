@@ -1,12 +1,13 @@
 //! A Plan as a list of entries that can be compared by their names.
 
-use super::steps::Described;
+use super::steps::OfStep;
 use super::{Change, Entry, Field, Kind};
 use crate::base::Place;
 use crate::base::amount::bytes;
 use crate::frame::{Allowances, EyeForm, Stereo};
 use crate::plan::names::Shown;
-use crate::plan::{Buffer, Cause, Image, Initial, Moved, Output, Plan, Role, StepId, View};
+use crate::plan::text::size;
+use crate::plan::{self, Buffer, Cause, Image, Initial, Item, Moved, Note, Output, Plan, Role, View};
 use crate::vulkan::{Shape, Sharing, State, in_plan, name_of};
 
 /// An entry of one Plan.
@@ -30,13 +31,9 @@ impl Description {
         Description { of_itself: Some(of_itself), ..self }
     }
 
-    pub(super) fn caused(self, cause: &Cause) -> Description {
-        match cause {
-            Cause::Written(at) => Description { at: at.clone(), ..self },
-            Cause::Inserted(why) => {
-                Description { because: Some(Shown(&why.because).to_string()), at: why.at.clone(), ..self }
-            }
-        }
+    fn caused(self, cause: &Cause) -> Description {
+        let because = cause.because().map(|because| Shown(because).to_string());
+        Description { because, at: cause.at().cloned(), ..self }
     }
 
     pub(super) fn entry(self, change: impl FnOnce(Vec<(&'static str, String)>) -> Change) -> Entry {
@@ -82,27 +79,42 @@ pub(super) fn figures(plan: &Plan) -> [(&'static str, bool, u64); 18] {
 
 /// Everything in a Plan that has a name.
 pub(super) fn describe(plan: &Plan) -> Vec<Description> {
-    let setting = |name: &str, value: &str| {
-        Description::new(Kind::Setting, code(name), vec![("value", Shown(value).to_string())])
-    };
-    let mut all: Vec<Description> = plan.settings.iter().map(|used| setting(&used.name, &used.value)).collect();
+    let entries = plan.entries().flat_map(|entry| std::iter::once(entry).chain(entry.parts()));
+    let mut all: Vec<Description> = entries.flat_map(|entry| of_entry(plan, entry)).collect();
     let [width, height] = plan.extent;
     all.push(setting("size of the output", &format!("{width}×{height}")));
     if plan.stereo != Stereo::Off {
         all.push(setting("two eyes", plan.stereo.name()));
     }
-    all.extend(plan.views.iter().map(view));
-    all.extend(plan.images.iter().map(|it| image(plan, it)));
-    all.extend(plan.buffers.iter().map(|it| buffer(plan, it)));
-    all.extend(plan.outputs.iter().map(|it| output(plan, it)));
-    for (id, step) in (0..).map(StepId).zip(&plan.steps) {
-        Described { plan, id, step }.add(&mut all);
-    }
-    all.extend(plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(|note| Description {
-        at: note.at.clone(),
-        ..Description::new(Kind::Note, format!("{}: {}", code(&note.subject), Shown(&note.text)), Vec::new())
-    }));
     all
+}
+
+/// An entry, if it has a name. A memory barrier is one for each image and buffer.
+fn of_entry(plan: &Plan, entry: plan::Entry<'_>) -> Vec<Description> {
+    let of_step = OfStep { plan, id: entry.step };
+    let described = match entry.item {
+        Item::Setting(used) => setting(&used.name, &used.value),
+        Item::View(it) => view(it),
+        Item::Step(step) => match of_step.transfer(&step.work) {
+            Some(transfer) => transfer,
+            None => return Vec::new(),
+        },
+        Item::Wait(wait) => of_step.wait(wait),
+        Item::MemoryBarrier(barrier) => return of_step.memory_barrier(barrier),
+        Item::ImageBarrier(barrier) => of_step.image_barrier(barrier),
+        Item::Attachment(_, attachment) => of_step.attachment(attachment),
+        Item::Pass(pass) => of_step.pass(pass),
+        Item::Resolve(attachment, resolve) => of_step.resolve(attachment, resolve),
+        Item::Image(it) => image(plan, it),
+        Item::Buffer(it) => buffer(plan, it),
+        Item::Output(it) => output(plan, it),
+        Item::Note(it) => note(it),
+        Item::Change(_) => return Vec::new(),
+    };
+    vec![match entry.cause() {
+        Some(cause) => described.caused(cause),
+        None => described,
+    }]
 }
 
 /// A name from a file.
@@ -110,12 +122,14 @@ pub(super) fn code(name: &str) -> String {
     format!("`{}`", Shown(name))
 }
 
+fn setting(name: &str, value: &str) -> Description {
+    Description::new(Kind::Setting, code(name), vec![("value", Shown(value).to_string())])
+}
+
 fn image(plan: &Plan, image: &Image) -> Description {
-    let [width, height, depth] = image.extent;
-    let deep = if depth == 1 { String::new() } else { format!("×{depth}") };
     let mut fields = vec![
         ("format", image.format.to_string()),
-        ("size", format!("{width}×{height}{deep}")),
+        ("size", size(image.extent)),
         ("samples", image.samples.to_string()),
     ];
     if image.shape == Shape::Cube {
@@ -143,7 +157,7 @@ fn image(plan: &Plan, image: &Image) -> Description {
     fields.push(("usage", name_of(&image.usage)));
     fields.extend(shared(image.sharing));
     fields.extend(states(&image.role));
-    Description::new(Kind::Image, code(&image.name), fields).caused(&image.cause)
+    Description::new(Kind::Image, code(&image.name), fields)
 }
 
 fn buffer(plan: &Plan, buffer: &Buffer) -> Description {
@@ -151,7 +165,7 @@ fn buffer(plan: &Plan, buffer: &Buffer) -> Description {
     fields.push(("usage", name_of(&buffer.usage)));
     fields.extend(shared(buffer.sharing));
     fields.extend(states(&buffer.role));
-    Description::new(Kind::Buffer, code(&buffer.name), fields).caused(&buffer.cause)
+    Description::new(Kind::Buffer, code(&buffer.name), fields)
 }
 
 fn memory(plan: &Plan, role: &Role) -> String {
@@ -174,15 +188,11 @@ fn shared(sharing: Sharing) -> Option<(&'static str, String)> {
 
 /// The states in which a frame finds and leaves what outlives it.
 fn states(role: &Role) -> Vec<(&'static str, String)> {
-    match role {
-        Role::Transient(_) => Vec::new(),
-        Role::Persistent { before, after, .. } | Role::External { before, after } => {
-            let words = |state: &State| {
-                format!("{}, {} in {}", name_of(&state.layout), name_of(&state.accesses), name_of(&state.stages))
-            };
-            vec![("state before", words(before)), ("state after", words(after))]
-        }
-    }
+    let words = |state: &State| {
+        format!("{}, {} in {}", name_of(&state.layout), name_of(&state.accesses), name_of(&state.stages))
+    };
+    let named = |[before, after]: [&State; 2]| vec![("state before", words(before)), ("state after", words(after))];
+    role.states().map(named).unwrap_or_default()
 }
 
 fn view(view: &View) -> Description {
@@ -203,4 +213,9 @@ fn output(plan: &Plan, output: &Output) -> Description {
     fields.extend(output.encoded.iter().map(|place| ("encoded", Shown(place).to_string())));
     fields.extend(output.eye.iter().map(|eye| ("eye", eye.name().to_owned())));
     Description::new(Kind::Output, code(&output.name), fields)
+}
+
+fn note(note: &Note) -> Description {
+    let name = format!("{}: {}", code(&note.subject), Shown(&note.text));
+    Description { at: note.at.clone(), ..Description::new(Kind::Note, name, Vec::new()) }
 }

@@ -1,6 +1,6 @@
 //! Differences as Markdown, for a pull request.
 
-use super::text::{heading, line, more, of, shown};
+use super::text::{line, more, of, shown};
 use super::{Change, Differences, Kind};
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ impl Differences {
         for entries in self.entries.chunk_by(|one, next| one.kind == next.kind) {
             let kind = entries[0].kind;
             let folded = kind > Kind::Transfer;
-            let title = format!("{} ({})", heading(kind), entries.len());
+            let title = format!("{} ({})", kind.heading(), entries.len());
             text += &if folded {
                 format!("\n<details><summary>{title}</summary>\n\n")
             } else {

@@ -16,6 +16,8 @@ use describe::{Description, describe, figures};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+pub use crate::plan::EntryKind as Kind;
+
 /// The version of the JSON form of [`Differences`].
 pub const FORMAT_VERSION: u32 = 1;
 
@@ -72,36 +74,6 @@ pub struct Entry {
     pub because: Option<String>,
     /// The line that says so or caused it.
     pub at: Option<Place>,
-}
-
-/// The kind of an entry. They are told in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// A setting.
-    Setting,
-    /// A view.
-    View,
-    /// A pass, an inserted one too.
-    Pass,
-    /// A resolve.
-    Resolve,
-    /// A copy, blit or fill.
-    Transfer,
-    /// The load and store operation of an attachment.
-    Attachment,
-    /// An image.
-    Image,
-    /// A buffer.
-    Buffer,
-    /// An output.
-    Output,
-    /// A barrier.
-    Barrier,
-    /// A wait for another queue.
-    Wait,
-    /// A note of the compiler.
-    Note,
 }
 
 /// How an entry differs.

@@ -4,82 +4,58 @@ use super::Kind;
 use super::describe::{Description, code};
 use crate::frame::Blend;
 use crate::plan::names::Shown;
-use crate::plan::text::fill_value;
+use crate::plan::text::{bound, fill_value, size};
 use crate::plan::{
-    Access, Attachment, BindingKind, Fill, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Transfer, Work,
+    Access, Attachment, AttachmentResolve, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, Resource,
+    Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::{Sampler, Subresources, in_plan, name_of};
+use crate::vulkan::{Subresources, in_plan, name_of};
 
-/// A step that is described.
+/// The step that an entry is or belongs to.
 #[derive(Clone, Copy)]
-pub(super) struct Described<'p> {
+pub(super) struct OfStep<'p> {
     pub(super) plan: &'p Plan,
-    pub(super) id: StepId,
-    pub(super) step: &'p Step,
+    pub(super) id: Option<StepId>,
 }
 
-impl Described<'_> {
-    /// Adds its passes, attachments, transfers, barriers and waits.
-    pub(super) fn add(self, all: &mut Vec<Description>) {
-        match &self.step.work {
-            Work::Render(scope) => self.scope(scope, all),
-            Work::Dispatch(pass) | Work::Custom(pass) => all.push(self.pass(pass, Vec::new())),
-            Work::Resolve(transfer) => all.push(self.transfer(Kind::Resolve, "resolve", transfer)),
-            Work::Copy(transfer) => all.push(self.transfer(Kind::Transfer, "copy", transfer)),
-            Work::Blit(transfer) => all.push(self.transfer(Kind::Transfer, "blit", transfer)),
-            Work::Fill(fill) => all.push(self.fill(fill)),
-            Work::Export => {}
-        }
-        let barriers = self.step.image_barriers.iter().chain(&self.step.releases);
-        all.extend(barriers.map(|barrier| self.image_barrier(barrier)));
-        for barrier in &self.step.memory_barriers {
-            self.memory_barrier(barrier, all);
-        }
-        for wait in &self.step.waits {
-            let frame = if wait.frames_ago == 0 { "" } else { " of a frame before" };
-            let waited_for = format!("for {}{frame}", self.plan.step_name(wait.step));
-            let name = format!("{} {waited_for}", self.name(None));
-            all.push(Description::new(Kind::Wait, name, vec![("stages", name_of(&wait.stages))]).of_step(waited_for));
-        }
+impl<'p> OfStep<'p> {
+    fn step(self) -> Option<&'p Step> {
+        self.plan.steps.get(self.id?.0 as usize)
     }
 
-    /// The step that needs a barrier: a later one, or this one.
+    /// The name of the step that needs a barrier: a later one, or this one.
     fn name(self, needed_by: Option<StepId>) -> String {
-        self.plan.step_name(needed_by.unwrap_or(self.id))
+        needed_by.or(self.id).map_or_else(String::new, |id| self.plan.step_name(id))
     }
 
-    fn scope(self, scope: &RenderScope, all: &mut Vec<Description>) {
-        let first = scope.passes.first().map_or_else(String::new, |pass| code(&pass.name));
-        for (at, pass) in scope.passes.iter().enumerate() {
-            let [width, height] = scope.extent;
-            let shared = if at == 0 { "its own".to_owned() } else { format!("that of {first}") };
-            let mut fields = vec![
-                ("rendering scope", shared),
-                ("size", format!("{width}×{height}")),
-                ("samples", scope.samples.to_string()),
-            ];
-            if scope.layers > 1 {
-                fields.push(("layers", scope.layers.to_string()));
-            }
-            all.push(self.pass(pass, fields));
-        }
-        for attachment in &scope.attachments {
-            all.push(self.attachment(attachment, &first));
-            if let Some(resolve) = &attachment.resolve {
-                let sides = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
-                let [from, to] = sides.map(|(image, range)| self.part(image, range));
-                let fields = vec![
-                    ("mode", name_of(&resolve.mode)),
-                    ("done", "at the end of a scope".to_owned()),
-                    ("layout", name_of(&resolve.layout)),
-                ];
-                all.push(Description::new(Kind::Resolve, format!("{from} → {to}"), fields).caused(&resolve.cause));
-            }
-        }
+    /// The first pass of the rendering scope.
+    fn first(self) -> Option<&'p Pass> {
+        self.step()?.work.scope()?.passes.first()
     }
 
-    fn attachment(self, attachment: &Attachment, first: &str) -> Description {
+    fn name_of_first(self) -> String {
+        self.first().map_or_else(String::new, |pass| code(&pass.name))
+    }
+
+    pub(super) fn wait(self, wait: &Wait) -> Description {
+        let frame = if wait.frames_ago == 0 { "" } else { " of a frame before" };
+        let waited_for = format!("for {}{frame}", self.plan.step_name(wait.step));
+        let name = format!("{} {waited_for}", self.name(None));
+        Description::new(Kind::Wait, name, vec![("stages", name_of(&wait.stages))]).of_step(waited_for)
+    }
+
+    pub(super) fn resolve(self, attachment: &Attachment, resolve: &AttachmentResolve) -> Description {
+        let sides = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
+        let [from, to] = sides.map(|(image, range)| self.part(image, range));
+        let fields = vec![
+            ("mode", name_of(&resolve.mode)),
+            ("done", "at the end of a scope".to_owned()),
+            ("layout", name_of(&resolve.layout)),
+        ];
+        Description::new(Kind::Resolve, format!("{from} → {to}"), fields)
+    }
+
+    pub(super) fn attachment(self, attachment: &Attachment) -> Description {
         let image = self.part(attachment.image, attachment.range);
         let mut fields = vec![("load", name_of(&attachment.load)), ("store", name_of(&attachment.store))];
         if let Some(clear) = attachment.clear {
@@ -87,16 +63,27 @@ impl Described<'_> {
         }
         fields.push(("layout", name_of(&attachment.layout)));
         let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
-        let name = format!("{of_itself}, of the scope of {first}");
+        let name = format!("{of_itself}, of the scope of {}", self.name_of_first());
         let because = Some(Shown(&attachment.because.to_string()).to_string());
         Description { because, ..Description::new(Kind::Attachment, name, fields).of_step(of_itself) }
     }
 
-    fn pass(self, pass: &Pass, mut fields: Vec<(&'static str, String)>) -> Description {
-        fields.push(("shader", code(&pass.shader)));
-        if self.step.queue != Queue::Graphics {
-            fields.push(("queue", name_of(&self.step.queue)));
+    pub(super) fn pass(self, pass: &Pass) -> Description {
+        let mut fields = Vec::new();
+        if let Some(scope) = self.step().and_then(|step| step.work.scope()) {
+            let [width, height] = scope.extent;
+            let is_first = self.first().is_some_and(|first| first.name == pass.name);
+            let shared = if is_first { "its own".to_owned() } else { format!("that of {}", self.name_of_first()) };
+            fields.push(("rendering scope", shared));
+            fields.push(("size", format!("{width}×{height}")));
+            fields.push(("samples", scope.samples.to_string()));
+            if scope.layers > 1 {
+                fields.push(("layers", scope.layers.to_string()));
+            }
         }
+        fields.push(("shader", code(&pass.shader)));
+        let queue = self.step().map(|step| step.queue).filter(|queue| *queue != Queue::Graphics);
+        fields.extend(queue.iter().map(|queue| ("queue", name_of(queue))));
         fields.extend(pass.draw.iter().map(|draw| ("draw", in_plan(draw))));
         fields.extend(pass.groups.iter().map(|groups| ("workgroups", in_plan(groups))));
         fields.extend(pass.stencil.iter().map(|stencil| ("stencil", in_plan(stencil))));
@@ -142,50 +129,40 @@ impl Described<'_> {
                 pass.accesses.iter().map(|access| self.access(access)).collect::<Vec<_>>().join("; "),
             ));
         }
-        Description::new(Kind::Pass, code(&pass.name), fields).caused(&pass.cause)
+        Description::new(Kind::Pass, code(&pass.name), fields)
     }
 
     /// All of an access to an image.
     fn access(self, access: &Access) -> String {
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
-        let kind = access.binding.as_ref().map_or_else(String::new, |binding| {
-            let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
-            let kind = match binding.kind {
-                BindingKind::Sampled(Sampler { filter, mips, address, compare }) => {
-                    let [filter, mips, address] = [name_of(&filter), name_of(&mips), name_of(&address)];
-                    let compare = compare.map_or_else(String::new, |op| format!(", compared by {}", name_of(&op)));
-                    format!("sampled, {filter}, {mips} between mip levels, {address}{compare}")
-                }
-                BindingKind::Storage => "storage".to_owned(),
-                BindingKind::InputAttachment => "read at its own position".to_owned(),
-            };
-            format!(", {kind}{declared}")
-        });
+        let kind = access.binding.as_ref().map_or_else(String::new, |binding| format!(", {}", bound(binding)));
         let [accesses, stages, layout] = [name_of(&access.accesses), name_of(&access.stages), name_of(&access.layout)];
         format!("{}{eye}: {accesses} in {stages} as {layout}{kind}", self.part(access.image, access.range))
     }
 
-    fn transfer(self, kind: Kind, word: &str, transfer: &Transfer) -> Description {
-        let [from, to] = [transfer.source, transfer.target].map(|side| self.side(side));
-        let mut fields = match kind {
-            Kind::Resolve => {
-                let mode = name_of(&self.plan.mode_of(transfer));
-                vec![("mode", mode), ("done", "by a step of its own".to_owned())]
-            }
-            _ => vec![("work", word.to_owned())],
+    /// The work of a step, if it is a transfer.
+    pub(super) fn transfer(self, work: &Work) -> Option<Description> {
+        let between = |kind, transfer: &Transfer, mut fields: Vec<(&'static str, String)>| {
+            let [from, to] = [transfer.source, transfer.target].map(|side| self.side(side));
+            fields.extend(transfer.filter.iter().map(|filter| ("filter", name_of(filter))));
+            Some(Description::new(kind, format!("{from} → {to}"), fields))
         };
-        if let Some(filter) = &transfer.filter {
-            fields.push(("filter", name_of(filter)));
+        match work {
+            Work::Resolve(resolve) => {
+                let mode = name_of(&self.plan.mode_of(resolve));
+                between(Kind::Resolve, resolve, vec![("mode", mode), ("done", "by a step of its own".to_owned())])
+            }
+            Work::Copy(copy) => between(Kind::Transfer, copy, vec![("work", "copy".to_owned())]),
+            Work::Blit(blit) => between(Kind::Transfer, blit, vec![("work", "blit".to_owned())]),
+            Work::Fill(fill) => {
+                let fields = vec![("work", "fill".to_owned()), ("value", fill_value(self.plan, fill))];
+                Some(Description::new(Kind::Transfer, self.side(fill.target), fields))
+            }
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
         }
-        Description::new(kind, format!("{from} → {to}"), fields).caused(&transfer.cause)
     }
 
-    fn fill(self, fill: &Fill) -> Description {
-        let fields = vec![("work", "fill".to_owned()), ("value", fill_value(self.plan, fill))];
-        Description::new(Kind::Transfer, self.side(fill.target), fields).caused(&fill.cause)
-    }
-
-    fn image_barrier(self, barrier: &ImageBarrier) -> Description {
+    pub(super) fn image_barrier(self, barrier: &ImageBarrier) -> Description {
         let image = self.part(barrier.image, barrier.range);
         let name = format!("{image} before {}: {}", self.name(barrier.needed_by), words(barrier.hazard));
         let [from, to] = [&barrier.old_layout, &barrier.new_layout].map(name_of);
@@ -197,21 +174,22 @@ impl Described<'_> {
         Description::new(Kind::Barrier, name, fields).of_step(format!("{image}: {}", words(barrier.hazard)))
     }
 
-    fn memory_barrier(self, barrier: &MemoryBarrier, all: &mut Vec<Description>) {
+    pub(super) fn memory_barrier(self, barrier: &MemoryBarrier) -> Vec<Description> {
         let fields = scopes(
             [name_of(&barrier.src_stages), name_of(&barrier.dst_stages)],
             [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
         );
         let described = |name: String| Description::new(Kind::Barrier, name, fields.to_vec());
-        for [before, after] in &barrier.hand_overs {
-            let [before, after] = [before, after].map(|resource| self.resource(*resource));
-            all.push(described(format!("memory of {before} becomes that of {after}")));
-        }
-        for hazard in &barrier.buffers {
+        let hands = barrier.hand_overs.iter().map(|sides| {
+            let [before, after] = sides.map(|resource| self.resource(resource));
+            described(format!("memory of {before} becomes that of {after}"))
+        });
+        let buffers = barrier.buffers.iter().map(|hazard| {
             let buffer = self.resource(Resource::Buffer(hazard.buffer));
             let name = format!("{buffer} before {}: {}", self.name(hazard.needed_by), words(hazard.hazard));
-            all.push(described(name).of_step(format!("{buffer}: {}", words(hazard.hazard))));
-        }
+            described(name).of_step(format!("{buffer}: {}", words(hazard.hazard)))
+        });
+        hands.chain(buffers).collect()
     }
 
     fn resource(self, resource: Resource) -> String {
@@ -220,9 +198,8 @@ impl Described<'_> {
 
     fn side(self, side: Side) -> String {
         match side {
-            Side::Image { image, range, extent: [width, height, depth], layout } => {
-                let deep = if depth == 1 { String::new() } else { format!("×{depth}") };
-                format!("{}, {width}×{height}{deep} in {}", self.part(image, range), name_of(&layout))
+            Side::Image { image, range, extent, layout } => {
+                format!("{}, {} in {}", self.part(image, range), size(extent), name_of(&layout))
             }
             Side::Buffer { buffer, bytes } => format!("{}, {bytes} bytes", self.resource(Resource::Buffer(buffer))),
         }
@@ -231,13 +208,8 @@ impl Described<'_> {
     /// An image, and which part of it unless it is the whole.
     fn part(self, id: ImageId, range: Subresources) -> String {
         let name = self.resource(Resource::Image(id));
-        let whole = self.plan.images.get(id.0 as usize).map(|image| Subresources {
-            aspects: image.format.aspects(),
-            base_mip: 0,
-            mips: image.mips,
-            base_layer: 0,
-            layers: image.layers,
-        });
+        let image = self.plan.images.get(id.0 as usize);
+        let whole = image.map(|image| Subresources::all(image.format, image.mips, image.layers));
         if whole == Some(range) { name } else { format!("{name} ({range})") }
     }
 }

@@ -1,6 +1,6 @@
 //! Differences for people, as lines.
 
-use super::{Change, Differences, Entry, Field, Figure, Kind, Side};
+use super::{Change, Differences, Entry, Field, Figure, Side};
 use crate::base::{Place, amount};
 use crate::plan::names::Shown;
 use std::fmt::Write;
@@ -30,7 +30,7 @@ impl Differences {
         for entry in &self.entries {
             if kind != Some(entry.kind) {
                 kind = Some(entry.kind);
-                writeln!(text, "\n{}", heading(entry.kind)).expect("a string takes everything");
+                writeln!(text, "\n{}", entry.kind.heading()).expect("a string takes everything");
             }
             let sign = match entry.change {
                 Change::Added { .. } => '+',
@@ -46,23 +46,6 @@ impl Differences {
 /// The name of a Plan, and its device.
 pub(super) fn of(side: &Side) -> String {
     format!("{} on {}", Shown(&side.name), Shown(&side.device.name))
-}
-
-pub(super) fn heading(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Setting => "settings",
-        Kind::View => "views",
-        Kind::Pass => "passes",
-        Kind::Resolve => "resolves",
-        Kind::Transfer => "copies, blits and fills",
-        Kind::Attachment => "attachments",
-        Kind::Image => "images",
-        Kind::Buffer => "buffers",
-        Kind::Output => "outputs",
-        Kind::Barrier => "barriers",
-        Kind::Wait => "waits between queues",
-        Kind::Note => "notes",
-    }
 }
 
 /// A figure's value.

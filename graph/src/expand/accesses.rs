@@ -67,7 +67,7 @@ pub(super) fn for_each_use(resources: &Resources<'_>, pass: &Pass, mut see: impl
             let part = tracked::part_of(image, range);
             see(Use { resource, part, span, attaches, reads, writes: writes || attaches });
         });
-    });
+    }
 }
 
 /// What `pass` uses of this frame, as [`for_each_use`] shows it.

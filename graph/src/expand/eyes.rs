@@ -7,7 +7,9 @@
 mod at_once;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Allowances, Draw, Eye, EyeForm, ImageIndex, Remark, Resource, Stereo, ViewEye, ViewIndex};
+use crate::frame::{
+    Allowances, Draw, Eye, EyeForm, ImageIndex, NoteKind, Remark, Resource, Stereo, ViewEye, ViewIndex,
+};
 use crate::language::{
     self, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
 };
@@ -63,10 +65,10 @@ pub(super) fn split(
         let mut mistakes = Vec::new();
         let found = whose(&own, pass, &pipeline.images, &mut mistakes);
         for_one.extend(mistakes.into_iter().map(|mistake| Remark {
+            kind: NoteKind::NotForTwoEyes,
             subject: pass.name.text.clone(),
             span: mistake.labels.first().map_or(pass.name.span, |label| label.span),
             text: format!("can't be drawn for two eyes: {}", mistake.message),
-            instead: false,
         }));
         found
     };
@@ -107,7 +109,7 @@ fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
     let remark = |(at, image): (usize, &Arc<Image>)| {
         let why = apart.why(at)?;
         let text = format!("is drawn for one eye after the other: {why}");
-        Some(Remark { subject: image.name.text.clone(), span: image.name.span, text, instead: false })
+        Some(Remark { kind: NoteKind::EyesApart, subject: image.name.text.clone(), span: image.name.span, text })
     };
     images.filter_map(remark).collect()
 }
@@ -130,7 +132,7 @@ fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
         let text = format!(
             "draws `{name}` once for both eyes, and what each eye sees is made of it: say `per_eye: true` of it"
         );
-        Some(Remark { subject: pass.name.text.clone(), span: shared.span, text, instead: false })
+        Some(Remark { kind: NoteKind::SharedByEyes, subject: pass.name.text.clone(), span: shared.span, text })
     };
     passes().filter(|(pass, whose)| **whose == For::Both && sees(pass)).filter_map(|(pass, _)| remark(pass)).collect()
 }

@@ -82,9 +82,9 @@ fn expand_so(
     let stereo = inputs.stereo;
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
-    let mut said = once::Said::default();
+    let mut reported = once::Reported::default();
     let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
-    said.each_once(&mut errors, 0);
+    reported.each_once(&mut errors, 0);
 
     let mut checked = shader::Checked::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
@@ -110,7 +110,7 @@ fn expand_so(
             }
             None => State::On(passes::lower(&resources, pass, &mut checked, &mut errors)),
         });
-        said.once(&mut errors, before);
+        reported.once(&mut errors, before);
         if errors.len() >= MOST_KEPT {
             return Err(told(document, &sources, errors));
         }
@@ -124,7 +124,7 @@ fn expand_so(
     let parts = cut.parts();
     let stored = stored::keep(&resources, &mut states, &parts, &mut checked);
     order::check(&resources, &states, &outputs, &parts, &mut errors);
-    said.each_once(&mut errors, before);
+    reported.each_once(&mut errors, before);
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }

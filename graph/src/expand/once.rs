@@ -3,17 +3,18 @@
 
 use crate::base::{Diagnostic, Span};
 use std::collections::HashMap;
+use std::panic::Location;
 
-/// Mistakes that were reported already, by place and wording, each with the number of the item that it was reported for.
+/// Mistakes that were reported already, by place and check, each with the number of the item that it was reported for.
 #[derive(Default)]
-pub(super) struct Said {
-    by: HashMap<(Span, String), u32>,
+pub(super) struct Reported {
+    by: HashMap<(Span, Option<&'static Location<'static>>), u32>,
     next: u32,
 }
 
-impl Said {
+impl Reported {
     /// Removes repeated mistakes of one image, buffer or pass, which stand in `errors` from `start` on: those that another item
-    /// of the same declaration has. They have the same place and the same words but for names and numbers.
+    /// of the same declaration has. The same check found them at the same place.
     pub(super) fn once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         if errors.len() == start {
             return;
@@ -22,11 +23,11 @@ impl Said {
         let new: Vec<Diagnostic> = errors.drain(start..).collect();
         errors.extend(new.into_iter().filter(|error| {
             let Some(at) = error.labels.first() else { return true };
-            *self.by.entry((at.span, wording(&error.message))).or_insert(self.next) == self.next
+            *self.by.entry((at.span, error.check)).or_insert(self.next) == self.next
         }));
     }
 
-    /// Removes repeated mistakes as [`Said::once`] does, where each mistake belongs to another image, buffer or pass.
+    /// Removes repeated mistakes as [`Reported::once`] does, where each mistake belongs to another image, buffer or pass.
     pub(super) fn each_once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         let new: Vec<Diagnostic> = errors.drain(start..).collect();
         for error in new {
@@ -35,10 +36,4 @@ impl Said {
             self.once(errors, at);
         }
     }
-}
-
-/// A message without its quotes in backticks, and without digits.
-fn wording(message: &str) -> String {
-    let outside = message.split('`').step_by(2);
-    outside.flat_map(str::chars).filter(|c| !c.is_ascii_digit()).collect()
 }

@@ -11,7 +11,7 @@ use crate::frame::tracked::Parts;
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
 use crate::vulkan::{Aspects, Subresources};
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 use std::iter::{once, successors};
 
 /// After this many mistakes the writer that was meant is no longer looked for: that would take long in a large file.
@@ -23,6 +23,30 @@ struct Check<'a> {
     parts: &'a Parts<'a>,
     writers: Writers,
     errors: &'a mut Vec<Diagnostic>,
+}
+
+/// Who reads an image or buffer.
+#[derive(Clone, Copy)]
+enum Reader<'a> {
+    /// The pass of that name.
+    Pass(&'a str),
+    /// What stands in for the pass of that name.
+    StandIn(&'a str),
+    /// The frame, which gives it out.
+    Frame,
+    /// The program, which dumps it.
+    Dump,
+}
+
+impl Display for Reader<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Reader::Pass(name) => write!(f, "pass `{name}`"),
+            Reader::StandIn(name) => write!(f, "the stand-in of pass `{name}`"),
+            Reader::Frame => f.write_str("the frame"),
+            Reader::Dump => f.write_str("the dump"),
+        }
+    }
 }
 
 /// Follows contents through the passes in their order.
@@ -42,7 +66,7 @@ pub(super) fn check(
         match state {
             State::On(pass) => {
                 for found in contents.pass(pass, number) {
-                    check.unwritten(position, pass, &found, &format_args!("pass `{name}`"));
+                    check.unwritten(position, pass, &found, Reader::Pass(name));
                 }
             }
             State::Off { stand_ins, .. } => {
@@ -52,8 +76,7 @@ pub(super) fn check(
                             StandIn::Forward(forward) => forward.from.span,
                             StandIn::Clear { .. } => found.span,
                         };
-                        let reader = format_args!("the stand-in of pass `{name}`");
-                        check.needs(position, &Unwritten { span, ..found }, &reader);
+                        check.needs(position, &Unwritten { span, ..found }, Reader::StandIn(name));
                     }
                 }
             }
@@ -62,19 +85,19 @@ pub(super) fn check(
     }
     for (state, described) in states.iter().zip(&resources.pipeline.passes) {
         for found in state.runs().iter().flat_map(|pass| contents.earlier(pass)).collect::<Vec<_>>() {
-            check.needs(states.len(), &found, &format_args!("pass `{}`", described.name.text));
+            check.needs(states.len(), &found, Reader::Pass(&described.name.text));
         }
     }
     for output in outputs {
-        let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
+        let reader = if output.span == Span::NONE { Reader::Dump } else { Reader::Frame };
         if let Some(found) = contents.output(output.resource, output.span) {
-            check.needs(states.len(), &found, &reader);
+            check.needs(states.len(), &found, reader);
         }
     }
 }
 
 impl Check<'_> {
-    fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: &dyn Display) {
+    fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: Reader<'_>) {
         match found.demand {
             Demand::Color | Demand::Depth => self.continues(position, pass, found),
             Demand::Read | Demand::Earlier | Demand::Output => self.needs(position, found, reader),
@@ -82,11 +105,10 @@ impl Check<'_> {
     }
 
     /// `reader` reads a part that nothing has written.
-    fn needs(&mut self, position: usize, found: &Unwritten, reader: &dyn Display) {
+    fn needs(&mut self, position: usize, found: &Unwritten, reader: Reader<'_>) {
         let Unwritten { of, span, .. } = *found;
         let what = self.words(found);
         let declared = self.resources.name(of);
-        let reader = reader.to_string();
         let name = &declared.text;
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;
@@ -96,9 +118,9 @@ impl Check<'_> {
                 .label(writer.span, "filled here, if the pass runs");
             match of {
                 Resource::Image(_) => {
-                    let narrower = match reader.strip_prefix("pass ") {
-                        Some(pass) => format!("; or give pass {pass} a `when` that is false as well"),
-                        None => String::new(),
+                    let narrower = match reader {
+                        Reader::Pass(pass) => format!("; or give pass `{pass}` a `when` that is false as well"),
+                        Reader::StandIn(_) | Reader::Frame | Reader::Dump => String::new(),
                     };
                     wrong.help(format!(
                         "say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`, or \

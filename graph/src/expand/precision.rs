@@ -7,7 +7,7 @@
 use super::resources::Resources;
 use super::state::State;
 use crate::base::Span;
-use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource};
+use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, NoteKind, Output, Pass, Remark, Resource};
 use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
@@ -109,13 +109,13 @@ pub(super) fn choose(
         let alpha = group.iter().find_map(|at| keeps_alpha(&pipeline.images[*at as usize])).filter(|_| no_alpha);
         if let Some(Hindrance { why, span }) = group.iter().find_map(|at| fixed[*at as usize].clone()).or(alpha) {
             let text = format!("{} is taken in spite of {}: {why}", choice.usual, choice.because);
-            remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
+            remarks.push(Remark { kind: NoteKind::PolicyHindered, subject: described.name.text.clone(), span, text });
             continue;
         }
         if let Some(coarse) = too_coarse {
             let text = format!("{format} is taken in spite of {}: {}", choice.because, too_coarse_for(coarse, range));
             let span = described.format.span;
-            remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
+            remarks.push(Remark { kind: NoteKind::PolicyTooCoarse, subject: described.name.text.clone(), span, text });
         }
         if format == choice.usual {
             continue;
@@ -140,10 +140,10 @@ pub(super) fn too_coarse(depth_range: Option<f64>, resources: &Resources<'_>, st
         let described = &resources.pipeline.images[at as usize];
         // Formats that a policy chooses reach as far as they must.
         (range > reach(format)).then(|| Remark {
+            kind: NoteKind::TooCoarse,
             subject: described.name.text.clone(),
             span: described.format.span,
             text: format!("{}; `Depth` in its place reaches any distance", too_coarse_for(format, range)),
-            instead: true,
         })
     });
     remarks.collect()

@@ -1,7 +1,7 @@
 //! Draws of the file's own vertices for two eyes: what places them may be the same for both.
 
 use super::resources::Resources;
-use crate::frame::{Draw, Remark};
+use crate::frame::{Draw, NoteKind, Remark};
 use crate::language;
 use crate::shader::ShaderInterface;
 
@@ -21,7 +21,7 @@ pub(super) fn note(
         "draws for each eye by `{block}`, which holds a matrix and is the same for both eyes: they see no parallax; let the buffer hold \
          a matrix for each, and choose by `eye_index` of `include/stereo.glsl`"
     );
-    remarks.push(Remark { subject: pass.name.text.clone(), span, text, instead: true });
+    remarks.push(Remark { kind: NoteKind::SeenAlike, subject: pass.name.text.clone(), span, text });
 }
 
 /// Whether it draws into what each eye has of its own, for either eye alike.

@@ -6,8 +6,8 @@ use super::shader::Checked;
 use super::state::State;
 use super::storage::{self, Kept};
 use super::{accesses, coverage, variant};
-use crate::frame::Remark;
 use crate::frame::tracked::Parts;
+use crate::frame::{NoteKind, Remark};
 use crate::language;
 use crate::shader::declared_name;
 
@@ -36,7 +36,7 @@ pub(super) fn keep(
                     resources.name(of).text,
                     coverage::at(declared.as_deref())
                 );
-                remarks.push(Remark { subject: pass.name.clone(), span, text, instead: false });
+                remarks.push(Remark { kind: NoteKind::Kept, subject: pass.name.clone(), span, text });
             }
         }
         state.runs().iter().for_each(|pass| contents.write(pass, number));

@@ -5,7 +5,7 @@ use super::resources::Resources;
 use super::{coverage, fills, parts};
 use crate::base::Diagnostic;
 use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
-use crate::frame::{Blend, Remark};
+use crate::frame::{Blend, NoteKind, Remark};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::ron::Name;
 use crate::shader::{ShaderInterface, Unset};
@@ -120,7 +120,7 @@ pub(super) fn set(pass: &language::Pass, interface: &ShaderInterface, errors: &m
             let text = format!(
                 "{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`"
             );
-            remarks.push(Remark { subject: pass.name.text.clone(), span: *span, text, instead: false });
+            remarks.push(Remark { kind: NoteKind::Unset, subject: pass.name.text.clone(), span: *span, text });
         }
     }
     remarks
@@ -145,7 +145,7 @@ pub(super) fn untaken(pass: &language::Pass, interface: &ShaderInterface, remark
         shader.text,
         names.join(" and ")
     );
-    remarks.push(Remark { subject: pass.name.text.clone(), span: shader.span, text, instead: false });
+    remarks.push(Remark { kind: NoteKind::Untaken, subject: pass.name.text.clone(), span: shader.span, text });
 }
 
 /// Every colour target is fed by an output of the same type.

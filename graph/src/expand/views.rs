@@ -1,6 +1,6 @@
 //! Passes that draw a view into images that are for another.
 
-use crate::frame::{Draw, Remark, ViewIndex};
+use crate::frame::{Draw, NoteKind, Remark, ViewIndex};
 use crate::language::{Pass, Pipeline};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn remark(pipeline: &Pipeline, pass: &Pass) -> Option<Remark> {
              over it; say `view: \"{own}\"` of the image too, or of neither",
             image.name.text
         );
-        Some(Remark { subject: pass.name.text.clone(), span: part.image.span, text, instead: false })
+        Some(Remark { kind: NoteKind::OtherView, subject: pass.name.text.clone(), span: part.image.span, text })
     })
 }
 

@@ -5,7 +5,7 @@ use super::environment::{Bound, Declarations, Found, Origin, Symbol};
 use super::functions::{Callee, Function};
 use super::program::{Binary, Operation, Program, shown};
 use super::types::{Type, Value, Wanted};
-use crate::base::{Diagnostic, Span, nearest, suggestion, without_quotes};
+use crate::base::{Diagnostic, MistakeKind, Sought, Span, nearest, suggestion, without_quotes};
 use crate::vulkan::{Format, vulkans_name};
 
 /// Binds the names of a program, and checks its types and its value's.
@@ -93,7 +93,9 @@ impl Check<'_> {
                     None => {
                         let message = format!("there is nothing named {}", shown(name));
                         let help = unknown(name, self.declarations, wanted, alone);
-                        self.errors.push(Diagnostic { help, ..self.program.text.mistake(range.clone(), message) });
+                        let unknown = self.program.text.mistake(range.clone(), message);
+                        let kind = MistakeKind::UnknownName(Sought::Value);
+                        self.errors.push(Diagnostic { kind, help, ..unknown });
                         Name::Unknown(self.errors.len() - 1)
                     }
                 },

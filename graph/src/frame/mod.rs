@@ -13,6 +13,7 @@ mod draw;
 mod exact;
 mod index;
 mod jitter;
+mod note_kind;
 mod output;
 mod param;
 mod part;
@@ -30,6 +31,7 @@ pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
+pub use note_kind::NoteKind;
 pub use output::Output;
 pub use param::ParamValue;
 pub(crate) use part::TargetShape;
@@ -93,14 +95,14 @@ impl Frame {
 /// A warning about a pass or an image: allowed, but probably a mistake.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
+    /// Its kind.
+    pub kind: NoteKind,
     /// The name of the pass or the image.
     pub subject: Arc<str>,
     /// The place of the pass or the image.
     pub span: Span,
     /// The warning in words.
     pub text: String,
-    /// Whether it may show in the picture, so that who draws the frame is told too.
-    pub instead: bool,
 }
 
 /// A pass, or an image that it samples, that a condition switched off.

@@ -3,7 +3,7 @@
 //! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
 //! or ends, and each piece of that grid is a part.
 
-use super::{Access, BufferIndex, Effect, Image, ImageIndex, Pass, Resource, SAMPLING, VisitAccess};
+use super::{Access, BufferIndex, Effect, Image, ImageIndex, Pass, Resource, VisitAccess};
 use crate::vulkan::{Aspects, Subresources};
 use std::ops::Range;
 use std::sync::Arc;

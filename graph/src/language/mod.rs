@@ -32,7 +32,7 @@ mod scope;
 mod settings_file;
 
 pub use compose::files::{Files, Found, LANGUAGE_VERSION, LARGEST_FILE, NoFiles, Unread};
-pub(crate) use compose::origins::{USED_HERE, users_first};
+pub(crate) use compose::origins::users_first;
 pub use compose::pipeline_files::{PipelineFiles, Shipped};
 pub use document::Document;
 pub(crate) use entries::buffers::LARGEST_BUFFER;

@@ -72,8 +72,7 @@ fn said(reader: &mut Reader, all: Leaf<'_>, settings: &[Setting], presets: &[Pre
         let name = reader.reference(leaf, "a preset")?;
         let found = presets.iter().position(|preset| preset.name.text == name.text);
         if found.is_none() {
-            let Diagnostic { message, help, .. } = unknown_preset(&name.text, presets);
-            reader.report(Diagnostic { help, ..Diagnostic::new(name.span, message) });
+            reader.report(unknown_preset(&name.text, presets).at(name.span));
         }
         found
     });

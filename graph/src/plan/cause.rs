@@ -21,3 +21,23 @@ pub struct Inserted {
     /// The place that made it necessary.
     pub at: Option<Place>,
 }
+
+impl Cause {
+    /// The place that says so or made it necessary.
+    #[must_use]
+    pub fn at(&self) -> Option<&Place> {
+        match self {
+            Cause::Written(at) => at.as_ref(),
+            Cause::Inserted(why) => why.at.as_ref(),
+        }
+    }
+
+    /// Why the compiler inserted it; `None`: the pipeline says so.
+    #[must_use]
+    pub fn because(&self) -> Option<&str> {
+        match self {
+            Cause::Written(_) => None,
+            Cause::Inserted(why) => Some(&why.because),
+        }
+    }
+}

@@ -34,6 +34,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 mod cause;
+mod entries;
 mod ids;
 mod json;
 mod moved;
@@ -53,7 +54,9 @@ mod view;
 mod walk;
 mod work;
 
+pub use crate::frame::NoteKind;
 pub use cause::{Cause, Inserted};
+pub use entries::{About, Entry, EntryKind, Item};
 pub use ids::{BufferId, ImageId, Resource, StepId, ViewId};
 pub use json::PlanError;
 pub use moved::Moved;
@@ -62,7 +65,7 @@ pub use output::Output;
 pub use reason::{NextUse, Reason};
 pub use resources::{Buffer, ChosenFormat, Heap, Image, Initial, Placement, Role};
 pub use step::{BufferHazard, Hazard, ImageBarrier, MemoryBarrier, Queue, Step, Wait};
-pub use text::{About, Detail, Outline};
+pub use text::{Detail, Outline, Text};
 pub use totals::Totals;
 pub use view::{View, ViewEye};
 pub use work::{

@@ -1,6 +1,6 @@
 //! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
 
-use super::{BufferId, ImageId, Plan, Resource, Side, StepId, Transfer, Work};
+use super::{BufferId, ImageId, Plan, Resource, StepId};
 use crate::vulkan::{Subresources, name_of};
 use std::fmt;
 use std::fmt::{Display, Formatter, Write};
@@ -36,36 +36,26 @@ impl Plan {
     /// The name of a step for people: its passes' names, or its source and target. Escaped; empty if there is no such step.
     pub(crate) fn step_name(&self, step: StepId) -> String {
         const MOST: usize = 3;
-        let side = |side: &Side| Shown(self.resource_name(side.resource()));
-        let transfer = |word: &str, transfer: &Transfer| match &transfer.name {
-            Some(name) => format!("`{}`", Shown(name)),
-            None => format!("{word} `{}` to `{}`", side(&transfer.source), side(&transfer.target)),
-        };
-        match self.steps.get(step.0 as usize).map(|step| &step.work) {
-            None => String::new(),
-            Some(Work::Render(scope)) => {
-                let names: Vec<_> =
-                    scope.passes.iter().take(MOST).map(|pass| format!("`{}`", Shown(&pass.name))).collect();
-                match scope.passes.len() {
-                    0 => "without passes".to_owned(),
-                    more if more > MOST => format!("{} and {} more", names.join(", "), more - MOST),
-                    _ => names.join(", "),
-                }
-            }
-            Some(Work::Dispatch(pass) | Work::Custom(pass)) => format!("`{}`", Shown(&pass.name)),
-            Some(Work::Resolve(it)) => transfer("resolve", it),
-            Some(Work::Copy(it)) => transfer("copy", it),
-            Some(Work::Blit(it)) => transfer("blit", it),
-            Some(Work::Fill(fill)) => match &fill.name {
-                Some(name) => format!("`{}`", Shown(name)),
-                None => format!("fill `{}`", side(&fill.target)),
-            },
-            Some(Work::Export) => "export".to_owned(),
+        let quoted = |name: &str| format!("`{}`", Shown(name));
+        let Some(work) = self.steps.get(step.0 as usize).map(|step| &step.work) else { return String::new() };
+        if let Some(scope) = work.scope() {
+            let names: Vec<_> = scope.passes.iter().take(MOST).map(|pass| quoted(&pass.name)).collect();
+            return match scope.passes.len() {
+                0 => "without passes".to_owned(),
+                more if more > MOST => format!("{} and {} more", names.join(", "), more - MOST),
+                _ => names.join(", "),
+            };
         }
+        if let Some(name) = work.name() {
+            return quoted(name);
+        }
+        let sides: Vec<_> = work.sides().map(|side| quoted(self.resource_name(side.resource()))).collect();
+        if sides.is_empty() { work.word().to_owned() } else { format!("{} {}", work.word(), sides.join(" to ")) }
     }
 
     /// The name of an image or buffer, as it stands in the file; empty if there is none.
-    pub(crate) fn resource_name(&self, resource: Resource) -> &str {
+    #[must_use]
+    pub fn resource_name(&self, resource: Resource) -> &str {
         match resource {
             Resource::Image(ImageId(id)) => self.images.get(id as usize).map_or("", |image| &image.name),
             Resource::Buffer(BufferId(id)) => self.buffers.get(id as usize).map_or("", |buffer| &buffer.name),

@@ -1,13 +1,17 @@
 //! Notes of the compiler's stages: decisions that no step shows.
 
 use crate::base::{FilePath, Place};
+use crate::frame::NoteKind;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A decision that no step shows.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+/// A decision that no step shows. Notes are equal if their forms are, which hold no kinds.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Note {
+    /// Its kind, which the form of a Plan doesn't hold.
+    #[serde(skip)]
+    pub kind: NoteKind,
     /// Which stage decided.
     pub stage: Stage,
     /// The subject of the decision: a pass or an image.
@@ -18,7 +22,18 @@ pub struct Note {
     pub at: Option<Place>,
 }
 
+impl PartialEq for Note {
+    fn eq(&self, other: &Note) -> bool {
+        let Note { kind: _, stage, subject, text, at } = self;
+        (*stage, subject, text, at) == (other.stage, &other.subject, &other.text, &other.at)
+    }
+}
+
 impl Note {
+    pub(crate) fn new(kind: NoteKind, subject: Arc<str>, text: impl Into<String>, at: Option<Place>) -> Note {
+        Note { kind, stage: kind.stage(), subject, text: text.into(), at }
+    }
+
     /// Whether the note tells which passes a shipped fragment switches off by itself: users of the fragment can do nothing
     /// about that, and need not.
     #[must_use]
@@ -26,6 +41,44 @@ impl Note {
         let shipped =
             self.at.as_ref().is_some_and(|place| matches!(FilePath::of_text(&place.file), FilePath::Shipped(_)));
         shipped && self.subject.contains('.') && self.stage == Stage::Expand
+    }
+}
+
+impl NoteKind {
+    /// The stage that decides so. Who draws the frame is told of what may show in the picture, as of formats.
+    #[must_use]
+    pub const fn stage(self) -> Stage {
+        match self {
+            NoteKind::Unknown
+            | NoteKind::Off
+            | NoteKind::LeftOut
+            | NoteKind::NotForTwoEyes
+            | NoteKind::EyesApart
+            | NoteKind::SharedByEyes
+            | NoteKind::Kept
+            | NoteKind::OtherView
+            | NoteKind::Unset
+            | NoteKind::Untaken => Stage::Expand,
+            NoteKind::Unneeded => Stage::Cull,
+            NoteKind::SeenAlike
+            | NoteKind::PolicyHindered
+            | NoteKind::PolicyTooCoarse
+            | NoteKind::TooCoarse
+            | NoteKind::OtherFormat
+            | NoteKind::OtherSamples
+            | NoteKind::UnknownSpirv
+            | NoteKind::FirstInstance => Stage::Fit,
+            NoteKind::NoAlphaToCoverage
+            | NoteKind::NotResolved
+            | NoteKind::Untouched
+            | NoteKind::OneImage
+            | NoteKind::OneSample
+            | NoteKind::SeveralSamples => Stage::Adapt,
+            NoteKind::GraphicsOnly | NoteKind::SharedWithQueue | NoteKind::QueueUndecided | NoteKind::QueueWeighed => {
+                Stage::Schedule
+            }
+            NoteKind::ResolvedAlone | NoteKind::OwnScope | NoteKind::ReadFromMemory => Stage::Scope,
+        }
     }
 }
 

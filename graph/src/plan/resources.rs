@@ -111,6 +111,17 @@ pub enum Role {
     },
 }
 
+impl Role {
+    /// The states in which a frame finds and leaves what outlives it.
+    #[must_use]
+    pub const fn states(&self) -> Option<[&State; 2]> {
+        match self {
+            Role::Transient(_) => None,
+            Role::Persistent { before, after, .. } | Role::External { before, after } => Some([before, after]),
+        }
+    }
+}
+
 /// Contents of a persistent image or buffer before the first frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

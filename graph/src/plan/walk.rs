@@ -1,8 +1,9 @@
 //! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
 
-use super::{Attachment, AttachmentKind, Pass, RenderScope, Resource, Side, Step, Work};
+use super::{Attachment, AttachmentKind, Cause, Pass, RenderScope, Resource, Side, Step, Work};
 use crate::vulkan::Subresources;
 use std::slice;
+use std::sync::Arc;
 
 impl RenderScope {
     /// Colour attachments by location.
@@ -87,6 +88,41 @@ impl Work {
             Work::Render(scope) => &mut scope.passes,
             Work::Dispatch(pass) | Work::Custom(pass) => slice::from_mut(pass),
             Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &mut [],
+        }
+    }
+
+    /// The word for it.
+    #[must_use]
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Work::Render(_) => "draw",
+            Work::Dispatch(_) => "dispatch",
+            Work::Custom(_) => "custom",
+            Work::Resolve(_) => "resolve",
+            Work::Copy(_) => "copy",
+            Work::Blit(_) => "blit",
+            Work::Fill(_) => "fill",
+            Work::Export => "export",
+        }
+    }
+
+    /// The name of the pass that it is: none of a rendering scope, and none of a transfer that the compiler inserted.
+    #[must_use]
+    pub const fn name(&self) -> Option<&Arc<str>> {
+        match self {
+            Work::Dispatch(pass) | Work::Custom(pass) => Some(&pass.name),
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => transfer.name.as_ref(),
+            Work::Fill(fill) => fill.name.as_ref(),
+            Work::Render(_) | Work::Export => None,
+        }
+    }
+
+    /// Why a transfer is there.
+    pub(crate) fn cause(&self) -> Option<&Cause> {
+        match self {
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => Some(&transfer.cause),
+            Work::Fill(fill) => Some(&fill.cause),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! The names that a file gives, each once, and the search for those that it refers to.
 
 use super::{Leaf, Name, Reader};
-use crate::base::{Diagnostic, Span, nearest, without_quotes};
+use crate::base::{Diagnostic, MistakeKind, Sought, Span, nearest, without_quotes};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ impl Name {
 
 /// Names of one kind of thing, in file order.
 pub struct Names {
+    sought: Sought,
+    /// The word for one.
     what: &'static str,
     given: Vec<Option<Name>>,
     index: HashMap<Arc<str>, usize>,
@@ -23,10 +25,16 @@ pub struct Names {
 }
 
 impl Names {
-    /// No names yet, of things called `what`.
+    /// No names yet, of such things.
     #[must_use]
-    pub fn new(what: &'static str) -> Names {
-        Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
+    pub fn new(sought: Sought) -> Names {
+        Names { sought, what: sought.word(), given: Vec::new(), index: HashMap::new(), complete: true }
+    }
+
+    /// No names yet, of other things called `what`.
+    #[must_use]
+    pub fn of(what: &'static str) -> Names {
+        Names { what, ..Names::new(Sought::Other) }
     }
 
     /// Makes room for `more` things.
@@ -40,11 +48,9 @@ impl Names {
         if let Some(name) = &name {
             let first = *self.index.entry(name.text.clone()).or_insert(self.given.len());
             if first < self.given.len() {
-                reader.report(
-                    Diagnostic::new(name.span, format!("`{}` is the name of more than one {}", name.text, self.what))
-                        .remark("again here")
-                        .label(self.span(first), "first here"),
-                );
+                let message = format!("`{}` is the name of more than one {}", name.text, self.what);
+                let again = Diagnostic::new(name.span, message).remark("again here");
+                reader.report(again.label(self.span(first), "first here"));
             }
         }
         self.complete &= name.is_some();
@@ -102,6 +108,7 @@ impl Names {
             return Some(*index);
         }
         if self.complete {
+            let kind = MistakeKind::UnknownName(self.sought);
             let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
             let fitting = (0..).zip(&self.given).filter(|(at, _)| fits(*at));
             let names = fitting.filter_map(|(_, name)| name.as_ref().map(|name| &*name.text));
@@ -111,7 +118,7 @@ impl Names {
                 Some(literal) => Some(without_quotes(literal, help)),
                 None => help,
             };
-            reader.report(Diagnostic { help, ..unknown });
+            reader.report(Diagnostic { kind, help, ..unknown });
         }
         None
     }

@@ -144,7 +144,7 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
-    let mut names = Names::new("custom pass");
+    let mut names = Names::of("custom pass");
     for leaf in reader.list(custom, "the custom passes")? {
         let name = reader.outside_name(leaf, "a custom pass");
         names.give(reader, name);

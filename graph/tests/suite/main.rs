@@ -13,6 +13,7 @@ mod depth_ladder;
 mod difference;
 mod draw_interfaces;
 mod encodings;
+mod entries;
 mod expression;
 mod format_fallback;
 mod golden_plans;

@@ -15,7 +15,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "Work", within: "", owners: &["graph/src/frame/", "graph/src/plan/"], others: 48 },
     Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 13 },
     Kind { name: "Role", within: "graph/src/compile/", owners: &["graph/src/compile/model.rs"], others: 16 },
-    Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 19 },
+    Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 9 },
     Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 9 },
     Kind { name: "Stages", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 20 },
     Kind { name: "Accesses", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 10 },

@@ -1,9 +1,11 @@
-//! What a Plan says about one thing: its own lines of the outline, what it needs and is needed by, and its memory.
+//! What a Plan says about one thing: the lines of its own entries, what it needs and is needed by, and its memory.
 
 use crate::system::text;
 use framewright_graph::base;
 use framewright_graph::dataflow::{Dataflow, Edge, Node, NodeKind};
-use framewright_graph::plan::{About, Detail, ImageId, Outline, Placement, Plan, Queue, Resource, Role, StepId};
+use framewright_graph::plan::{
+    About, Detail, Entry, EntryKind, ImageId, Item, Outline, Placement, Plan, Queue, Resource, Role, StepId, Text,
+};
 use framewright_graph::vulkan::Usage;
 use std::collections::BTreeSet;
 
@@ -20,8 +22,8 @@ const PAGE: &str = "`framewright inspect … --format html`, which shows it amon
 /// What there is to say about `thing`, if the Plan knows it.
 pub(super) fn explained(plan: &Plan, thing: &str) -> Option<Explained> {
     let flow = Dataflow::of(plan);
-    let outline = plan.outline(Detail { verbose: true, ..Detail::default() });
-    let told = Telling { plan, flow: &flow, outline: &outline };
+    let text = Text::of(plan, Detail { verbose: true, ..Detail::default() });
+    let told = Telling { plan, flow: &flow, text: &text };
     let (explanations, read_on) = match thing.split_once(':') {
         Some(("step", number)) => (told.step(number), vec![SYNCHRONIZATION, PAGE]),
         Some(("resolve", name)) => (told.resolves(name), vec![PLANS, PAGE]),
@@ -51,10 +53,10 @@ pub(super) fn names_near(plan: &Plan, thing: &str) -> Option<String> {
 struct Telling<'p> {
     plan: &'p Plan,
     flow: &'p Dataflow,
-    outline: &'p Outline,
+    text: &'p Text<'p>,
 }
 
-impl Telling<'_> {
+impl<'p> Telling<'p> {
     /// Passes, images and buffers of a name, and passes that were left out.
     fn named(self, name: &str) -> Vec<Outline> {
         let passes = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| node.name == name);
@@ -74,28 +76,17 @@ impl Telling<'_> {
 
     /// The decisions about a name that no step shows.
     fn notes(self, name: &str) -> Vec<Outline> {
-        let lists = self.outline.parts.iter().filter(|part| part.text == "notes");
-        let about = |note: &&Outline| {
-            note.text
-                .split_once('`')
-                .is_some_and(|(_, rest)| rest.strip_prefix(name).is_some_and(|rest| rest.starts_with("`: ")))
-        };
-        let mut found: Vec<Outline> = lists.flat_map(|list| list.parts.iter().filter(about)).cloned().collect();
-        // Those of shipped fragments are no part of the outline.
-        if found.is_empty() {
-            let notes = self.plan.notes.iter().filter(|note| *note.subject == *name);
-            found.extend(notes.map(|note| Outline { at: note.at.clone(), ..line(note.text.clone(), Vec::new()) }));
-        }
-        found
+        let notes = self.plan.notes.iter().filter(|note| *note.subject == *name);
+        notes.map(|note| self.text.line(Entry { step: None, item: Item::Note(note) })).collect()
     }
 
     fn pass(self, at: u32, node: &Node) -> Outline {
-        let own = self.lines(|about| matches!(about, About::Pass(name) if **name == *node.name));
-        let mut parts = own.clone();
+        let is_own = |entry: &Entry<'_>| matches!(entry.item, Item::Pass(pass) if *pass.name == *node.name);
+        let mut parts = self.in_steps(is_own);
         if parts.is_empty() {
-            parts.extend(self.resolve_line(node));
+            parts = self.folded_resolve(node);
         }
-        parts.extend(node.because.iter().map(|because| line(format!("it was inserted: {because}"), Vec::new())));
+        parts.extend(node.because.iter().map(|because| leaf(format!("it was inserted: {because}"))));
         let edges = |pick: fn(&Edge) -> Option<u32>, other: fn(&Edge) -> Option<u32>, beside: &str| {
             let found = self.flow.edges.iter().filter(|edge| pick(edge) == Some(at));
             let named = found.map(|edge| {
@@ -103,16 +94,16 @@ impl Telling<'_> {
                     other(edge).map_or_else(|| beside.to_owned(), |node| code(&self.flow.nodes[node as usize].name));
                 format!("{name} for {}", self.name(edge.resource))
             });
-            named.collect::<BTreeSet<String>>().into_iter().map(|text| line(text, Vec::new())).collect::<Vec<_>>()
+            named.collect::<BTreeSet<String>>().into_iter().map(leaf).collect::<Vec<_>>()
         };
         let needs = edges(|edge| edge.to, |edge| edge.from, "what came before the frame");
         let needed = edges(|edge| edge.from, |edge| edge.to, "what comes after the frame");
         parts.push(match needs.is_empty() {
-            true => line("needs nothing that came before", Vec::new()),
+            true => leaf("needs nothing that came before"),
             false => line("needs", needs),
         });
         parts.push(match needed.is_empty() {
-            true => line("nothing needs what it leaves", Vec::new()),
+            true => leaf("nothing needs what it leaves"),
             false => line("is needed by", needed),
         });
         parts.extend(self.cost(node.step));
@@ -130,23 +121,20 @@ impl Telling<'_> {
     }
 
     /// The line of the resolve that a scope carries.
-    fn resolve_line(self, node: &Node) -> Vec<Outline> {
-        let steps = self.lines(|about| *about == About::Step(node.step));
-        let written = node.uses.iter().find(|used| used.writes).map(|used| self.name(used.resource));
-        let lines = steps.into_iter().flat_map(|step| step.parts);
-        lines
-            .filter(|line| {
-                line.text.starts_with("resolve ")
-                    && written.as_ref().is_some_and(|name| line.text.contains(&format!("→ {name}")))
-            })
-            .collect()
+    fn folded_resolve(self, node: &Node) -> Vec<Outline> {
+        let written = node.uses.iter().find(|used| used.writes).map(|used| used.resource);
+        self.in_steps(|entry| {
+            let into = |image| written == Some(Resource::Image(image));
+            let is_one = matches!(entry.item, Item::Resolve(_, resolve) if into(resolve.image));
+            entry.step == Some(node.step) && is_one
+        })
     }
 
     /// What the step of a pass moves, and what stays on the chip.
     fn cost(self, step: StepId) -> Vec<Outline> {
         let Some(step) = self.plan.steps.get(step.0 as usize) else { return Vec::new() };
         let shown = |amount: u64, before: &str, after: &str| {
-            (amount > 0).then(|| line(format!("its step {before} {}{after}", text::bytes(amount)), Vec::new()))
+            (amount > 0).then(|| leaf(format!("its step {before} {}{after}", text::bytes(amount))))
         };
         let moved = shown(self.plan.moved_by(step).sum(), "moves", "");
         let kept = shown(self.plan.on_chip_in(step), "keeps", " on the chip, neither loaded nor stored");
@@ -154,13 +142,12 @@ impl Telling<'_> {
     }
 
     fn resource(self, resource: Resource, role: &Role) -> Outline {
-        let is_own = |about: &About| match resource {
-            Resource::Image(id) => *about == About::Image(id),
-            Resource::Buffer(id) => *about == About::Buffer(id),
+        let about = match resource {
+            Resource::Image(id) => About::Image(id),
+            Resource::Buffer(id) => About::Buffer(id),
         };
-        let lists = self.outline.parts.iter().filter(|part| matches!(&*part.text, "images" | "buffers"));
-        let own = lists.flat_map(|list| list.parts.iter().filter(|part| part.about.as_ref().is_some_and(is_own)));
-        let mut parts: Vec<Outline> = own.cloned().collect();
+        let own = self.plan.entries().filter(|entry| entry.about().as_ref() == Some(&about));
+        let mut parts: Vec<Outline> = own.map(|entry| self.text.line(entry)).collect();
         let users = self.flow.nodes.iter().filter_map(|node| {
             let uses: Vec<_> = node.uses.iter().filter(|used| used.resource == resource).collect();
             let how = match (uses.iter().any(|used| used.reads), uses.iter().any(|used| used.writes)) {
@@ -169,18 +156,16 @@ impl Telling<'_> {
                 (false, true) => "writes it",
                 (false, false) => return None,
             };
-            Some(line(format!("{} in step {} {how}", code(&node.name), node.step.0), Vec::new()))
+            Some(leaf(format!("{} in step {} {how}", code(&node.name), node.step.0)))
         });
         parts.push(line("used by", users.collect()));
         match role {
             Role::Transient(placement) => parts.push(self.shared(resource, placement)),
-            Role::Persistent { .. } => {
-                parts.push(line("it has memory of its own: it is kept from frame to frame", Vec::new()))
-            }
-            Role::External { .. } => parts.push(line("its memory is the program's: it comes from outside", Vec::new())),
+            Role::Persistent { .. } => parts.push(leaf("it has memory of its own: it is kept from frame to frame")),
+            Role::External { .. } => parts.push(leaf("its memory is the program's: it comes from outside")),
         }
         if let Resource::Image(id) = resource {
-            parts.push(line(self.on_chip(id), Vec::new()));
+            parts.push(leaf(self.on_chip(id)));
         }
         line(self.name(resource), parts)
     }
@@ -197,20 +182,17 @@ impl Telling<'_> {
         let others: Vec<Outline> = others
             .map(|(other, placement)| {
                 let [first, last] = placement.lifetime.map(|step| step.0);
-                line(format!("{}, alive in steps {first}–{last}", self.name(other)), Vec::new())
+                leaf(format!("{}, alive in steps {first}–{last}", self.name(other)))
             })
             .collect();
         match others.is_empty() {
             true => {
                 let free =
                     self.placements().filter(|(_, it)| it.lifetime[1].0 < first || it.lifetime[0].0 > last).count();
-                line(
-                    match free {
-                        0 => "its memory isn't shared: everything else is alive at the same time".to_owned(),
-                        _ => "its memory isn't shared: what is alive at other times fits elsewhere".to_owned(),
-                    },
-                    Vec::new(),
-                )
+                leaf(match free {
+                    0 => "its memory isn't shared: everything else is alive at the same time".to_owned(),
+                    _ => "its memory isn't shared: what is alive at other times fits elsewhere".to_owned(),
+                })
             }
             false => line("its memory is shared with", others),
         }
@@ -250,9 +232,8 @@ impl Telling<'_> {
     }
 
     fn resolves(self, name: &str) -> Vec<Outline> {
-        let is_one = |node: &Node| matches!(node.kind, NodeKind::Resolve | NodeKind::FoldedResolve);
-        let about = |node: &Node| node.uses.iter().any(|used| self.plain(used.resource) == name);
-        let found = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| is_one(node) && about(node));
+        let about = |node: &Node| node.uses.iter().any(|used| self.plan.resource_name(used.resource) == name);
+        let found = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| node.kind.resolves() && about(node));
         let found: Vec<Outline> = found.map(|(at, node)| self.pass(at, node)).collect();
         match found.is_empty() {
             true => self
@@ -265,23 +246,26 @@ impl Telling<'_> {
     }
 
     fn barriers(self, name: &str) -> Vec<Outline> {
-        let steps = self.outline.parts.iter().filter(|part| matches!(part.about, Some(About::Step(_))));
-        let told = steps.filter_map(|step| {
-            let shown = format!("`{name}`");
-            let barriers =
-                step.parts.iter().filter(|part| part.text.starts_with("barrier: ") && part.text.contains(&shown));
-            let barriers: Vec<Outline> = barriers.cloned().collect();
-            (!barriers.is_empty()).then(|| line(step.text.clone(), barriers))
-        });
-        told.collect()
+        let names = |(resource, needed_by): (Resource, Option<StepId>)| {
+            let needing = self.plan.needing(needed_by, resource);
+            self.plan.resource_name(resource) == name || needing.is_some_and(|pass| *pass.name == *name)
+        };
+        let of_step = |step: Entry<'_>| {
+            let barriers = step.parts().filter(|entry| match entry.item {
+                Item::ImageBarrier(barrier) => names((Resource::Image(barrier.image), barrier.needed_by)),
+                Item::MemoryBarrier(barrier) => barrier.guarded().any(names),
+                _ => false,
+            });
+            let barriers: Vec<Outline> = barriers.map(|entry| self.text.line(entry)).collect();
+            (!barriers.is_empty()).then(|| line(self.text.line(step).text, barriers))
+        };
+        self.steps().filter_map(of_step).collect()
     }
 
     fn step(self, number: &str) -> Vec<Outline> {
-        let Ok(number) = number.parse() else { return Vec::new() };
-        self.lines(|about| *about == About::Step(StepId(number)))
-            .into_iter()
-            .filter(|it| it.text.starts_with("step "))
-            .collect()
+        let number = number.parse().ok().map(StepId);
+        let steps = self.steps().filter(|step| number.is_some() && step.step == number);
+        steps.map(|step| self.text.line(step)).collect()
     }
 
     fn heap(self, number: &str) -> Vec<Outline> {
@@ -295,7 +279,7 @@ impl Telling<'_> {
         let lines = inside.into_iter().map(|(resource, Placement { offset, bytes, lifetime, .. })| {
             let [first, last] = lifetime.map(|step| step.0);
             let [offset, bytes] = [*offset, *bytes].map(text::bytes);
-            line(format!("{}: {bytes} at {offset}, steps {first}–{last}", self.name(resource)), Vec::new())
+            leaf(format!("{}: {bytes} at {offset}, steps {first}–{last}", self.name(resource)))
         });
         vec![line(format!("heap {number}: {}", text::bytes(heap.bytes)), lines.collect())]
     }
@@ -307,30 +291,24 @@ impl Telling<'_> {
             "transfer" => Queue::Transfer,
             _ => return Vec::new(),
         };
-        let on_it =
-            |about: &About| matches!(about, About::Step(step) if self.plan.steps[step.0 as usize].queue == wanted);
-        let steps = self.outline.parts.iter().filter(|part| part.about.as_ref().is_some_and(on_it));
-        let steps: Vec<Outline> = steps
-            .map(|step| {
-                let waits = step.parts.iter().filter(|part| part.text.starts_with("waits ")).cloned().collect();
-                Outline { parts: waits, ..step.clone() }
-            })
-            .collect();
+        let on_it = |step: &Entry<'_>| matches!(step.item, Item::Step(step) if step.queue == wanted);
+        let steps = self.steps().filter(on_it).map(|step| {
+            let waits = step.parts().filter(|entry| entry.kind() == EntryKind::Wait);
+            Outline { parts: waits.map(|entry| self.text.line(entry)).collect(), ..self.text.line(step) }
+        });
+        let steps: Vec<Outline> = steps.collect();
         let number = text::count(steps.len(), "step runs", "steps run");
         vec![line(format!("{number} on the {name} queue"), steps)]
     }
 
-    /// The lines that are about something, wherever they stand, but for those under another such line.
-    fn lines(self, about: impl Fn(&About) -> bool) -> Vec<Outline> {
-        fn walk(line: &Outline, about: &dyn Fn(&About) -> bool, found: &mut Vec<Outline>) {
-            match &line.about {
-                Some(it) if about(it) => found.push(line.clone()),
-                _ => line.parts.iter().for_each(|part| walk(part, about, found)),
-            }
-        }
-        let mut found = Vec::new();
-        walk(self.outline, &about, &mut found);
-        found
+    fn steps(self) -> impl Iterator<Item = Entry<'p>> {
+        self.plan.entries().filter(|entry| entry.kind() == EntryKind::Step)
+    }
+
+    /// The lines of the entries within steps that `is_one` picks.
+    fn in_steps(self, is_one: impl Fn(&Entry<'_>) -> bool) -> Vec<Outline> {
+        let entries = self.steps().flat_map(Entry::parts).filter(is_one);
+        entries.map(|entry| self.text.line(entry)).collect()
     }
 
     fn placements(&self) -> impl Iterator<Item = (Resource, &Placement)> {
@@ -342,15 +320,8 @@ impl Telling<'_> {
         })
     }
 
-    fn plain(&self, resource: Resource) -> &str {
-        match resource {
-            Resource::Image(id) => &self.plan.images[id.0 as usize].name,
-            Resource::Buffer(id) => &self.plan.buffers[id.0 as usize].name,
-        }
-    }
-
     fn name(&self, resource: Resource) -> String {
-        code(self.plain(resource))
+        code(self.plan.resource_name(resource))
     }
 }
 
@@ -358,6 +329,10 @@ fn code(name: &str) -> String {
     format!("`{}`", text::escape(name))
 }
 
+fn leaf(text: impl Into<String>) -> Outline {
+    line(text, Vec::new())
+}
+
 fn line(text: impl Into<String>, parts: Vec<Outline>) -> Outline {
-    Outline { text: text.into(), about: None, at: None, parts }
+    Outline::new(text, parts)
 }

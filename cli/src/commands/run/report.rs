@@ -3,8 +3,9 @@
 use crate::system::text;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
+use framewright_graph::dataflow::NodeKind;
 use framewright_graph::plan::{Note, SettingUsed, Totals};
-use framewright_lab::timings::{Row, WorkKind};
+use framewright_lab::timings::Row;
 use framewright_vulkan::{Canary, DeviceSummary, Message, MessageKind, Severity};
 use serde::Serialize;
 
@@ -201,7 +202,7 @@ impl Report {
                 Some(word) => format!("({word} {})", text::cell(&row.name)),
                 None => text::cell(&row.name),
             };
-            let count = |count: u32| if row.kind == WorkKind::Draw { count.to_string() } else { String::new() };
+            let count = |count: u32| if row.kind == NodeKind::Draw { count.to_string() } else { String::new() };
             let (draws, culled) = (count(row.draws), count(row.culled));
             table.add_row([row.step.to_string(), name, draws, culled, format!("{:.2}", row.gpu_milliseconds)]);
         }

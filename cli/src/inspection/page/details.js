@@ -38,7 +38,7 @@ function aboutPass(model, { node }) {
   const needed = edges((edge) => edge.from === node.at_index, "to", "what comes after the frame");
   const lines = (model.lines.get("pass:" + node.name) || []).map(({ line }) => line);
   const folded = node.kind === "folded_resolve" || node.kind === "resolve";
-  const resolves = folded ? (step.step && (model.lines.get(model.stepKey(node.step)) || []).flatMap(({ line }) => [line, ...line.parts]).filter((line) => line.text.includes("resolve ") && line.at === node.at)) : [];
+  const resolves = folded ? (step.step && (model.lines.get(model.stepKey(node.step)) || []).flatMap(({ line }) => [line, ...line.parts]).filter((line) => (line.kind === "resolve" || line.kind === "step" && node.kind === "resolve") && line.at === node.at)) : [];
   return [element("h2", {}, node.name), element("p", {}, node.kind.replace("_", " ") + " in ", link(model.stepKey(node.step), "step " + node.step), " ", placeLink(model, node.at)),
     node.because ? [heading("Why it is there"), element("p", { class: "because" }, withLinks(node.because))] : null,
     lines.length > 0 ? [heading("In the Plan"), outlineList(model, lines)] : null,
@@ -100,8 +100,13 @@ function aboutResource(model, { image, buffer }) {
   const sharing = place ? model.resources().filter((other) => other !== one && other.role.transient && other.role.transient.heap === place.heap
     && other.role.transient.offset < place.offset + place.bytes && place.offset < other.role.transient.offset + other.role.transient.bytes) : [];
   const lines = model.lines.get(key) || [];
-  const own = lines.filter(({ above }) => ["images", "buffers"].includes(above.at(-1).text)).map(({ line }) => line);
-  const barriers = lines.filter(({ line }) => line.text.startsWith("barrier: ")).map(({ line, above }) => ({ ...line, text: above[1].text.split(":")[0] + ": " + line.text }));
+  const own = lines.filter(({ line }) => ["image", "buffer"].includes(line.kind)).map(({ line }) => line);
+  const inStep = ({ line, above }) => {
+    const { queue } = model.plan.steps[above[1].about.step];
+    const where = queue === "GRAPHICS" ? "" : ` on the ${queue.toLowerCase()} queue`;
+    return { ...line, text: `step ${above[1].about.step}${where}: ${line.text}` };
+  };
+  const barriers = lines.filter(({ line }) => line.kind === "barrier").map(inStep);
   return [element("h2", {}, one.name), outlineList(model, own),
     heading("Used by"), list(users.map((node) => {
       const uses = node.uses.filter((use) => model.resourceKey(use.resource) === key);

@@ -62,7 +62,7 @@ function imagesView(model) {
 /** What the compiler decided that no step shows: work that was left out, not merged, not folded, and why. */
 function notesView(model) {
   const notes = model.plan ? model.plan.notes : [];
-  const parts = model.outline.parts.filter((line) => !line.about && ["changes", "views", "outputs", "totals"].includes(line.text) || line.text.startsWith("settings: "));
+  const parts = model.outline.parts.filter((line) => ["setting", "change", "view", "output", "total"].includes(line.kind));
   const stages = [...new Set(notes.map((note) => note.stage))];
   return element("div", {}, parts.map((line) => [element("h2", {}, withLinks(line.text)), outlineList(model, line.parts)]),
     stages.length > 0 ? element("h2", {}, "Decisions that no step shows") : null,

@@ -125,7 +125,7 @@ function showData(data) {
   document.title = models.map((model) => model.name).join(" | ");
   const names = models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : ""));
   document.getElementById("title").replaceChildren(visible(names.join("  |  ")));
-  const totals = models.map((model) => model.outline.parts.find((line) => line.text === "totals")?.parts.map((line) => line.text).join("; ") ?? "");
+  const totals = models.map((model) => model.outline.parts.find((line) => line.kind === "total")?.parts.map((line) => line.text).join("; ") ?? "");
   document.getElementById("totals").replaceChildren(...totals.map((text, at) => element("span", { class: "faint" }, (models.length > 1 ? models[at].letter.toUpperCase() + ": " : "") + text + " ")));
   for (const view of VIEWS) {
     view.tab = element("button", { type: "button", role: "tab", id: "tab-" + view.name, "aria-controls": "view-" + view.name, onclick: () => { showView(view.name); writeHash(); } }, view.title);

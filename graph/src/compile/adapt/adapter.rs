@@ -7,7 +7,7 @@ use super::last_accesses::LastAccesses;
 use crate::base::{Diagnostic, Place, Span};
 use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, SubresourceIndex, Use};
 use crate::frame::{ImageIndex, ResolveWay};
-use crate::plan::{Inserted, Note, Stage};
+use crate::plan::{Inserted, Note, NoteKind};
 use crate::vulkan::Subresources;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -206,8 +206,8 @@ impl<'a> Adapter<'a> {
         Box::new(Inserted { because, at: self.place(span) })
     }
 
-    pub(super) fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {
+    pub(super) fn note(&mut self, kind: NoteKind, subject: &Arc<str>, text: String, span: Span) {
         let at = self.place(span);
-        self.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
+        self.notes.push(Note::new(kind, subject.clone(), text, at));
     }
 }

@@ -3,7 +3,7 @@
 
 use super::input::Input;
 use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, ResolveWay, Resource};
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, NoteKind};
 use std::collections::BTreeSet;
 
 /// Which draws move, and what is worth saying about images that need no resolve.
@@ -105,16 +105,12 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
     for (number, image) in &demotions.moved {
         let pass = &frame.passes[*number as usize];
         let name = &frame.images[image.0 as usize].name;
-        notes.push(Note {
-            stage: Stage::Adapt,
-            subject: pass.name.clone(),
-            text: format!(
-                "draws `{name}` with 1 sample instead of {}: it covers every pixel, and no geometry is drawn onto it \
-                 afterwards",
-                negotiated.samples(*image)
-            ),
-            at: frame.sources.place(pass.span),
-        });
+        let text = format!(
+            "draws `{name}` with 1 sample instead of {}: it covers every pixel, and no geometry is drawn onto it \
+             afterwards",
+            negotiated.samples(*image)
+        );
+        notes.push(Note::new(NoteKind::OneSample, pass.name.clone(), text, frame.sources.place(pass.span)));
     }
     demotions
 }
@@ -133,12 +129,8 @@ fn stays(input: &Input<'_>, pass: &Pass, image: ImageIndex, why: Needs) -> Note 
         Needs::Edges(later) => format!("`{}` draws onto it afterwards", frame.passes[later as usize].name),
         Needs::Samples(later) => format!("`{}` reads its single samples", frame.passes[later as usize].name),
     };
-    Note {
-        stage: Stage::Adapt,
-        subject: pass.name.clone(),
-        text: format!("draws `{name}` with {} samples: {because}", input.negotiated.samples(image)),
-        at: frame.sources.place(pass.span),
-    }
+    let text = format!("draws `{name}` with {} samples: {because}", input.negotiated.samples(image));
+    Note::new(NoteKind::SeveralSamples, pass.name.clone(), text, frame.sources.place(pass.span))
 }
 
 /// Whether a pass copies into images sample by sample: then it reads single samples, too.

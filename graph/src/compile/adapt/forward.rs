@@ -5,7 +5,7 @@ use super::adapter::Adapter;
 use crate::base::Diagnostic;
 use crate::compile::model::{OpKind, PhysicalIndex, Use};
 use crate::device::ImageDescriptor;
-use crate::frame::{Image, ImageIndex, Pass, Resource};
+use crate::frame::{Image, ImageIndex, NoteKind, Pass, Resource};
 use crate::vulkan::{Filter, Rotation};
 
 impl Adapter<'_> {
@@ -14,7 +14,12 @@ impl Adapter<'_> {
         let frame = self.input.frame;
         if from == to {
             let name = &frame.images[to.0 as usize].name;
-            return self.note(name, format!("`{}` is off ({because}) and leaves it as it is", pass.name), pass.span);
+            return self.note(
+                NoteKind::Untouched,
+                name,
+                format!("`{}` is off ({because}) and leaves it as it is", pass.name),
+                pass.span,
+            );
         }
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let count = self.current_samples(from);
@@ -61,7 +66,7 @@ impl Adapter<'_> {
             self.renamed = true;
             self.resource_of[to.0 as usize] = Some(source);
             let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
-            return self.note(&name, format!("{why}: {what}"), pass.span);
+            return self.note(NoteKind::OneImage, &name, format!("{why}: {what}"), pass.span);
         }
         if same {
             let why = self.reason(format!("{why}; one of them is used again later"), pass.span);

@@ -4,7 +4,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::Diagnostic;
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
-use crate::frame::{Face, ImageIndex, Pass, Sampled, Work};
+use crate::frame::{Face, ImageIndex, NoteKind, Pass, Sampled, Work};
 use crate::vulkan::{Aspects, Subresources};
 
 impl Adapter<'_> {
@@ -76,7 +76,7 @@ impl Adapter<'_> {
         }
         if pass.alpha_to_coverage && !access::has_samples(&self.adapted, self.uses_of_pass()) {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
-            self.note(&pass.name, text, pass.span);
+            self.note(NoteKind::NoAlphaToCoverage, &pass.name, text, pass.span);
         }
         let kind = if pass.work.is_draw() { OpKind::Draw(number) } else { OpKind::Pass(number) };
         self.push_pass(kind, pass.side_effect);
@@ -109,7 +109,8 @@ impl Adapter<'_> {
 
     fn note_one_sample(&mut self, pass: &Pass, sampled: &Sampled) {
         let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
-        self.note(&self.input.frame.images[sampled.image.0 as usize].name, text, sampled.span);
+        let image = &self.input.frame.images[sampled.image.0 as usize];
+        self.note(NoteKind::NotResolved, &image.name, text, sampled.span);
     }
 
     /// The image that it reads of an earlier frame, or where samples are to be read or resolved.

@@ -3,7 +3,7 @@
 use crate::base::Diagnostic;
 use crate::device::{Abilities, Limit, NeedKind, Profile};
 use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass};
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, NoteKind};
 use crate::vulkan::State;
 
 /// Vulkan's name of the feature that draws with counts in a buffer need, if their first instance isn't 0.
@@ -14,11 +14,11 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
     let (mut errors, mut notes) = (Vec::new(), Vec::new());
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         if !pass.needs.is_empty() {
-            needs(pass, device, &mut errors, |text| notes.push(note(frame, pass, text)));
+            needs(pass, device, &mut errors, |text| notes.push(note(NoteKind::UnknownSpirv, frame, pass, text)));
         }
         if pass.work.draws(Draw::is_indirect) && !device.has_feature(FIRST_INSTANCE) {
             let text = format!("the first instance in its counts must be 0: `{}` lacks {FIRST_INSTANCE}", device.name);
-            notes.push(note(frame, pass, text));
+            notes.push(note(NoteKind::FirstInstance, frame, pass, text));
         }
     }
     buffers(frame, live, device, &mut errors);
@@ -41,8 +41,8 @@ fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: 
     }
 }
 
-fn note(frame: &Frame, pass: &Pass, text: String) -> Note {
-    Note { stage: Stage::Fit, subject: pass.name.clone(), text, at: frame.sources.place(pass.span) }
+fn note(kind: NoteKind, frame: &Frame, pass: &Pass, text: String) -> Note {
+    Note::new(kind, pass.name.clone(), text, frame.sources.place(pass.span))
 }
 
 /// Reports states in which images and buffers come and go, if they name what the device doesn't have.

@@ -8,7 +8,7 @@
 use super::needs::{Needs, Supports};
 use crate::device::Profile;
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, NoteKind};
 use crate::vulkan::Encoding;
 use crate::vulkan::Format::{self, *};
 use petgraph::unionfind::UnionFind;
@@ -177,5 +177,5 @@ fn note(frame: &Frame, image: usize, made: Format, why: &str) -> Note {
         _ => "",
     };
     let text = format!("{} was asked for, {made} is made: {why}{gains}", declared.format);
-    Note { stage: Stage::Fit, subject: declared.name.clone(), text, at: frame.sources.place(declared.span) }
+    Note::new(NoteKind::OtherFormat, declared.name.clone(), text, frame.sources.place(declared.span))
 }

@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;
 use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource};
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, NoteKind};
 use crate::vulkan::{Filter, Format, Sampler, Shape, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
@@ -206,11 +206,8 @@ fn lower(frame: &Frame, group: &[usize], supports: &Supports<'_>, negotiated: &m
             .collect();
         let last = offered.pop().unwrap_or_default();
         let offered = if offered.is_empty() { last } else { format!("{} and {last}", offered.join(", ")) };
-        negotiated.notes.push(Note {
-            stage: Stage::Fit,
-            subject: first.name.clone(),
-            text: format!("{got} instead of {wanted}: `{}` offers {offered} for {formats}", supports.device.name),
-            at: frame.sources.place(first.span),
-        });
+        let text = format!("{got} instead of {wanted}: `{}` offers {offered} for {formats}", supports.device.name);
+        let at = frame.sources.place(first.span);
+        negotiated.notes.push(Note::new(NoteKind::OtherSamples, first.name.clone(), text, at));
     }
 }

@@ -6,7 +6,7 @@ use crate::base::amount::bytes;
 use crate::compile::model::{Adapted, OpKind};
 use crate::compile::scope::{Step, op_name, resource_name};
 use crate::frame::Frame;
-use crate::plan::{Note, Queue, Stage};
+use crate::plan::{Note, NoteKind, Queue};
 
 /// Why a step runs on its queue.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +19,17 @@ pub(super) enum Why {
     Split,
     /// That was not found out.
     Undecided,
+}
+
+impl Why {
+    const fn kind(self) -> NoteKind {
+        match self {
+            Why::GraphicsOnly(_) => NoteKind::GraphicsOnly,
+            Why::Balance(_) => NoteKind::QueueWeighed,
+            Why::Split => NoteKind::SharedWithQueue,
+            Why::Undecided => NoteKind::QueueUndecided,
+        }
+    }
 }
 
 /// The notes of all passes that are steps of their own.
@@ -34,10 +45,11 @@ pub(super) fn notes(
         let Step::Single(op) = step else { continue };
         let OpKind::Pass(pass) = adapted.ops[*op as usize].kind else { continue };
         let name = |step: u32| first_name(frame, adapted, &steps[step as usize]);
-        let Some(text) = why.and_then(|why| words(*queue, why, name)) else { continue };
+        let Some(why) = why else { continue };
+        let Some(text) = words(*queue, *why, name) else { continue };
         let declared = &frame.passes[pass as usize];
         let (subject, at) = (declared.name.clone(), frame.sources.place(declared.span));
-        notes.push(Note { stage: Stage::Schedule, subject, text, at });
+        notes.push(Note::new(why.kind(), subject, text, at));
     }
     notes
 }

@@ -8,7 +8,7 @@ use super::trace::{Trace, Ways};
 use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
 use crate::frame::Frame;
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, NoteKind};
 
 pub(super) struct Builder<'a> {
     frame: &'a Frame,
@@ -45,7 +45,7 @@ impl<'a> Builder<'a> {
                 Err(why) => {
                     let subject = self.name(self.adapted.uses(op)[0].resource).into();
                     let text = format!("is resolved by a step of its own: {why}");
-                    self.notes.push(Note { stage: Stage::Scope, subject, text, at: None });
+                    self.notes.push(Note::new(NoteKind::ResolvedAlone, subject, text, None));
                     self.single(op);
                 }
             },
@@ -181,12 +181,9 @@ impl<'a> Builder<'a> {
             Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", resource(image)),
         };
         let OpKind::Draw(pass) = self.adapted.ops[op as usize].kind else { return };
-        self.notes.push(Note {
-            stage: Stage::Scope,
-            subject: name.clone(),
-            text: format!("opens a rendering scope of its own: {why}"),
-            at: self.frame.sources.place(self.frame.passes[pass as usize].span),
-        });
+        let text = format!("opens a rendering scope of its own: {why}");
+        let at = self.frame.sources.place(self.frame.passes[pass as usize].span);
+        self.notes.push(Note::new(NoteKind::OwnScope, name.clone(), text, at));
     }
 
     /// Lets the scope that wrote the source last take the resolve, or says why it can't.
@@ -230,7 +227,7 @@ impl<'a> Builder<'a> {
         };
         let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.resource));
         let at = self.frame.sources.place(sampled.span);
-        self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
+        self.notes.push(Note::new(NoteKind::ReadFromMemory, subject.clone(), text, at));
     }
 }
 

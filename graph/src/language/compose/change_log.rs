@@ -1,6 +1,6 @@
 //! The change log: changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
 
-use crate::base::{Diagnostic, Label, Span};
+use crate::base::{Diagnostic, Label, MistakeKind, Sought, Span};
 use crate::frame::change::{Action, Change, Kind};
 use crate::language::model::RemovedPass;
 use crate::ron::{Name, Tree};
@@ -77,9 +77,9 @@ impl ChangeLog {
             let Some(primary) = error.labels.first().map(|label| label.span) else { continue };
             let changed = self.beside(&places, error);
             let named = tree.text_at(primary).trim_matches('"');
-            let missed = missed(&error.message, named).iter();
+            let missed = missed(error.kind).iter();
             let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
-            let removed = removed.map(|by| Label { span: *by, text: format!("`{named}` is removed here") });
+            let removed = removed.map(|by| Label::new(*by, format!("`{named}` is removed here")));
             error.labels.extend(changed.into_iter().chain(removed));
         }
     }
@@ -95,9 +95,9 @@ impl ChangeLog {
         let in_entry = in_entries.find_map(|at| at.copied());
         let by_change = |at: usize| {
             let Changed { name, .. } = &self.changed[at];
-            Label { span: name.span, text: format!("`{}` stands here", name.text) }
+            Label::new(name.span, format!("`{}` stands here", name.text))
         };
-        let by_entry = |at: usize| Label { span: self.changed[at].by, text: "changed here".to_owned() };
+        let by_entry = |at: usize| Label::new(self.changed[at].by, "changed here");
         match (in_change, in_entry) {
             (Some(change), Some(entry)) if entry < change => Some(by_entry(entry)),
             (Some(change), _) => Some(by_change(change)),
@@ -142,23 +142,21 @@ fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[u
     before.map_or(&[], |(_, numbers)| numbers)
 }
 
-/// The kinds of thing that a mistake misses under the name `named`. Only the words of its message tell them.
-fn missed(message: &str, named: &str) -> &'static [Kind] {
-    if message.starts_with("texts in expressions stand in single quotes") {
-        return &[Kind::Setting];
-    }
-    let what = message.strip_prefix("there is ").and_then(|rest| rest.strip_suffix(&format!(" named `{named}`")));
-    match what.unwrap_or_default() {
-        "no pass" => &[Kind::Pass],
-        "no image" => &[Kind::Image, Kind::Texture],
-        "no buffer" => &[Kind::Buffer],
-        "no image or buffer" => &[Kind::Image, Kind::Texture, Kind::Buffer],
-        "no setting" => &[Kind::Setting],
-        "no preset" => &[Kind::Preset],
-        "no view" => &[Kind::View],
-        // In an expression.
-        "nothing" => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
-        _ => &[],
+/// The kinds of thing that a mistake misses.
+fn missed(kind: MistakeKind) -> &'static [Kind] {
+    match kind {
+        MistakeKind::UnknownName(sought) => match sought {
+            Sought::Setting => &[Kind::Setting],
+            Sought::Preset => &[Kind::Preset],
+            Sought::View => &[Kind::View],
+            Sought::Image => &[Kind::Image, Kind::Texture],
+            Sought::Buffer => &[Kind::Buffer],
+            Sought::ImageOrBuffer => &[Kind::Image, Kind::Texture, Kind::Buffer],
+            Sought::Pass => &[Kind::Pass],
+            Sought::Value => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
+            Sought::Other => &[],
+        },
+        MistakeKind::Other => &[],
     }
 }
 

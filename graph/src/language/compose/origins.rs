@@ -38,14 +38,11 @@ impl Origins {
                 if error.labels.iter().any(|label| label.span.file() == file) {
                     break;
                 }
-                error.labels.push(Label { span: origin.span, text: origin.words.to_owned() });
+                error.labels.push(Label::new(origin.span, origin.words));
             }
         }
     }
 }
-
-/// The words of labels at the use of a fragment, before the name of the use.
-pub(crate) const USED_HERE: &str = "used here as ";
 
 /// Lets mistakes that come to light in a shipped file begin with the place in the user's own file that led there: only that
 /// can be mended.
@@ -55,7 +52,7 @@ pub(crate) fn users_first(sources: &Sources, errors: &mut [Diagnostic]) {
         file.is_some_and(|file| matches!(FilePath::of_text(&file.relative), FilePath::Shipped(_)))
     };
     for error in errors.iter_mut().filter(|error| error.labels.first().is_some_and(shipped)) {
-        let used = |label: &Label| !shipped(label) && label.text.starts_with(USED_HERE);
+        let used = |label: &Label| !shipped(label) && label.is_use;
         let own = error.labels.iter().position(used);
         let Some(own) = own.or_else(|| error.labels.iter().position(|label| !shipped(label))) else { continue };
         if error.labels[0].text.is_empty() {

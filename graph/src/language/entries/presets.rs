@@ -3,7 +3,7 @@
 use super::list::entries;
 use super::settings;
 use super::values::optional;
-use crate::base::{Diagnostic, Span, suggestion};
+use crate::base::{Diagnostic, Label, Sought, Span, suggestion};
 use crate::expression::Value;
 use crate::fields;
 use crate::language::model::{Choice, Preset, Setting, SettingKind};
@@ -38,7 +38,8 @@ pub(crate) fn presets(
     list: Option<Leaf<'_>>,
     settings: &[Option<Setting>],
 ) -> Vec<Option<Preset>> {
-    let list: Vec<Option<PresetFields<'_>>> = entries(reader, list, "`presets`", "preset", &mut Names::new("preset"));
+    let list: Vec<Option<PresetFields<'_>>> =
+        entries(reader, list, "`presets`", "preset", &mut Names::new(Sought::Preset));
     let read = |fields: Option<PresetFields<'_>>| {
         let fields = fields?;
         let name = reader.name(fields.name, "a preset");
@@ -82,7 +83,7 @@ fn unknown_setting(name: &Name, settings: &[Option<Setting>], given: &HashSet<&s
     let help = suggestion(&name.text, all.clone().filter(|name| !given.contains(name)))
         .or_else(|| suggestion(&name.text, all))
         .or_else(|| Some("this pipeline has no settings".to_owned()));
-    Diagnostic { help, ..Diagnostic::new(name.span, format!("there is no setting named `{}`", name.text)) }
+    Diagnostic { help, ..Diagnostic::unknown_name(Sought::Setting, &name.text).at(name.span) }
 }
 
 /// A value that `setting` allows.
@@ -99,7 +100,7 @@ fn typed(reader: &mut Reader, setting: &Setting, leaf: Leaf<'_>) -> Option<Value
         reader.wrong(leaf, format!("setting `{name}` doesn't allow `{}`", leaf.text().trim_matches('"')), "");
     }
     for error in &mut reader.errors[before..] {
-        error.labels.push(crate::base::Label { span: declared, text: format!("`{name}` is declared here") });
+        error.labels.push(Label::new(declared, format!("`{name}` is declared here")));
         let help = || match &value {
             Some(value) => setting.kind.instead_of(value),
             None => format!("it is {}", setting.kind.allowed()),

@@ -1,6 +1,7 @@
 //! `settings`: values that a user may choose.
 
 use super::list::entries;
+use crate::base::Sought;
 use crate::fields;
 use crate::language::model::{Setting, SettingKind};
 use crate::ron::{Described, Form, Leaf, Names, Plain, Reader, Shape, Takes, Word, Words};
@@ -113,7 +114,7 @@ pub(crate) const SETTINGS: Form = Form::List(&Form::Fields(SettingFields::<'stat
 
 /// A list of settings and their names; `None` where one couldn't be read.
 pub(crate) fn list(reader: &mut Reader, list: Option<Leaf<'_>>) -> (Names, Vec<Option<Setting>>) {
-    let mut names = Names::new("setting");
+    let mut names = Names::new(Sought::Setting);
     let listed: Vec<Option<SettingFields<'_>>> = entries(reader, list, "`settings`", "setting", &mut names);
     let read = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| setting(reader, fields));
     (names, listed.iter().map(read).collect())

@@ -6,7 +6,7 @@ use super::fragments::Fragments;
 use super::repeat::REPEAT;
 use super::stand_ins::{OTHERWISE, Otherwise};
 use super::{parameters, views};
-use crate::base::{Diagnostic, Span, enumerated};
+use crate::base::{Diagnostic, MistakeKind, Sought, Span, enumerated};
 use crate::expression::{Expression, Outcome, Type, Value, Wanted};
 use crate::fields;
 use crate::language::model::SettingKind;
@@ -171,7 +171,10 @@ impl Context<'_> {
         let meant: Vec<_> = of.iter().filter(|text| !known || ***text == *word).collect();
         let all = enumerated(meant.iter().map(|text| format!("`\"'{text}'\"`")));
         let message = format!("texts in expressions stand in single quotes, found `{word}`");
-        self.reader.wrong(leaf, message, &format!("write it in single quotes inside the quotes: {all}"));
+        let unquoted = Diagnostic::new(leaf.span(), message);
+        let unquoted = unquoted.help(format!("write it in single quotes inside the quotes: {all}"));
+        // A setting of that name may have been meant.
+        self.reader.report(Diagnostic { kind: MistakeKind::UnknownName(Sought::Setting), ..unquoted });
         None
     }
 

@@ -2,7 +2,7 @@
 
 use super::values::optional;
 use super::{list, presets, sizes};
-use crate::base::{Diagnostic, Label, OutsideChoice, shown_number};
+use crate::base::{Diagnostic, Label, OutsideChoice, Sought, shown_number};
 use crate::fields;
 use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
@@ -103,7 +103,7 @@ impl ViewEntries {
         list: Option<Leaf<'_>>,
         removed: Option<&Change>,
     ) -> ViewEntries {
-        let (mut names, before) = (Names::new("view"), context.reader.errors.len());
+        let (mut names, before) = (Names::new(Sought::View), context.reader.errors.len());
         let fields: Vec<Option<ViewFields<'_>>> = list::entries(context.reader, list, "`views`", "view", &mut names);
         if let Some(list) = list.filter(|_| fields.is_empty() && context.reader.errors.is_empty()) {
             context.reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
@@ -122,7 +122,7 @@ impl ViewEntries {
     pub(crate) fn find(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<ViewIndex> {
         let name = reader.reference(leaf, "a view")?;
         if self.list.is_empty() && self.names.complete() {
-            let unknown = Diagnostic::new(name.span, format!("there is no view named `{}`", name.text));
+            let unknown = Diagnostic::unknown_name(Sought::View, &name.text).at(name.span);
             reader.report(unknown.help(format!(
                 "list the views of the frame, the main one first: `views: [(name: \"main\"), (name: \"{}\")]`",
                 name.text
@@ -174,7 +174,7 @@ impl<'a> Views<'a> {
 fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
     let Some(Change { span, action: Action::Remove { name, .. } }) = removed else { return };
     for error in errors.iter_mut().filter(|error| error.message == FIRST_IS_THE_FRAMES) {
-        error.labels.push(Label { span: *span, text: format!("`{name}` is removed here") });
+        error.labels.push(Label::new(*span, format!("`{name}` is removed here")));
     }
 }
 

@@ -1,10 +1,9 @@
 //! A use of a fragment: the fragment's images, buffers and passes are made under the name of the use.
 
 use super::evaluation::{Evaluation, Level, Purpose};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Diagnostic, Label, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
-use crate::language::compose::origins::USED_HERE;
 use crate::language::entries::condition::Condition;
 use crate::language::entries::stand_ins::{self, Of};
 use crate::language::entries::uses::{Argument, UseEntry};
@@ -149,13 +148,14 @@ impl<'a> Evaluation<'a> {
     /// Adds the use of the fragment to mistakes from `start` on. Mistakes that an earlier use showed are taken out.
     fn used_here(&mut self, reader: &mut Reader, start: usize, name: &Name) {
         let new: Vec<Diagnostic> = reader.errors.drain(start..).collect();
-        for error in new {
+        for mut error in new {
             let known = error.labels.first().map(|label| (label.span, error.message.clone()));
-            let nested = error.labels.iter().filter(|label| label.text.starts_with(USED_HERE)).count();
+            let nested = error.labels.iter().filter(|label| label.is_use).count();
             if nested >= MOST_SHOWN && !self.path.is_empty() {
                 reader.report(error);
             } else if nested > 0 || known.is_none_or(|known| self.reported.insert(known)) {
-                reader.report(error.label(name.span, format!("{USED_HERE}`{}`", name.text)));
+                error.labels.push(Label::of_use(name.span, &name.text));
+                reader.report(error);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::field_value::FieldValue;
-use crate::base::Diagnostic;
+use crate::base::{Diagnostic, Sought};
 use crate::expression::{Expression, Type, Wanted};
 use crate::frame::Resource;
 use crate::language::model::{BufferRef, ImageRef, ResourceRef};
@@ -72,15 +72,14 @@ impl Context<'_> {
         }
         let no_buffers = self.scope.symbols.buffers.in_order().next().is_none();
         let what = match (image, buffer) {
-            (true, true) if !no_buffers => "image or buffer",
-            (true, _) => "image",
-            _ => "buffer",
+            (true, true) if !no_buffers => Sought::ImageOrBuffer,
+            (true, _) => Sought::Image,
+            _ => Sought::Buffer,
         };
         let images = if image { Some(self.scope.symbols.all_of(Type::Image)) } else { None };
         let buffers = if buffer { Some(self.scope.symbols.all_of(Type::Buffer)) } else { None };
         let known = images.into_iter().flatten().chain(buffers.into_iter().flatten());
         let help = self.reader.known(&name.text, known);
-        let unknown = Diagnostic::new(name.span, format!("there is no {what} named `{}`", name.text));
-        self.reader.report(Diagnostic { help, ..unknown });
+        self.reader.report(Diagnostic { help, ..Diagnostic::unknown_name(what, &name.text).at(name.span) });
     }
 }

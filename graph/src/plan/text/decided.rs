@@ -7,6 +7,7 @@ use crate::plan::names::Shown;
 use std::collections::HashMap;
 
 /// The decisions of a Plan, by what they are about.
+#[derive(Debug)]
 pub(super) struct Decisions<'p>(HashMap<&'p Subject, Vec<&'p Decided>>);
 
 impl<'p> Decisions<'p> {
@@ -30,7 +31,7 @@ impl<'p> Decisions<'p> {
 
     fn lines(&self, subject: &Subject, shows: impl Fn(&Decided) -> bool) -> Vec<Outline> {
         let decided = self.0.get(subject).into_iter().flatten();
-        decided.filter(|decided| shows(decided)).map(|decided| Outline::leaf(line(decided))).collect()
+        decided.filter(|decided| shows(decided)).map(|decided| Outline::detail(line(decided))).collect()
     }
 }
 

@@ -1,13 +1,15 @@
 //! Lists of a Plan beside its steps: views, images, buffers, outputs, notes and totals.
 
-use super::outline::{About, Outline};
+use super::outline::Outline;
 use super::words::{bytes, cause, count, held, place, samples, size};
 use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
 use crate::plan::names::Shown;
-use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
+use crate::plan::{
+    Buffer, ChosenFormat, EntryKind, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye,
+};
 use crate::vulkan::{Encoding, Format, name_of};
 
-pub(super) fn view(view: &View) -> Outline {
+pub(super) fn view(view: &View) -> String {
     let [width, height] = view.extent;
     let camera =
         view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
@@ -17,7 +19,7 @@ pub(super) fn view(view: &View) -> Outline {
     let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
     let eye = view.eye.map_or_else(String::new, |ViewEye { eye, .. }| format!(", {} eye", eye.name()));
     let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
-    Outline::leaf(format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name)))
+    format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name))
 }
 
 fn jitter(jitter: &Jitter) -> String {
@@ -25,11 +27,10 @@ fn jitter(jitter: &Jitter) -> String {
     format!(", shifted in turn by {} parts of a texel of {width}×{height}", jitter.offsets.len())
 }
 
-pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Outline {
+pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> String {
     let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
-    let text =
-        format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, None, next));
-    Outline::leaf(text + &cause(&buffer.cause)).about(About::Buffer(buffer.id)).caused(&buffer.cause)
+    let role = role(&buffer.role, &buffer.name, None, next);
+    format!("`{}` {}{role}{}", Shown(&buffer.name), bytes(buffer.bytes), cause(&buffer.cause))
 }
 
 /// Where the memory of the image or buffer `name` comes from; `format`: that of an image.
@@ -61,7 +62,7 @@ fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) 
     }
 }
 
-pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Outline>) -> Outline {
+pub(super) fn image(plan: &Plan, image: &Image) -> String {
     let whole = image.allocated.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
     let mut text = format!("`{}` {} {}{whole}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
@@ -80,12 +81,10 @@ pub(super) fn image(plan: &Plan, image: &Image, decided: Vec<Outline>) -> Outlin
     }
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
     text += &role(&image.role, &image.name, Some(image.format), next);
-    Outline::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).chain(decided).collect())
-        .about(About::Image(image.id))
-        .caused(&image.cause)
+    text + &cause(&image.cause)
 }
 
-fn chosen(chosen: &ChosenFormat) -> Outline {
+pub(super) fn chosen(chosen: &ChosenFormat) -> Outline {
     let ChosenFormat { because, usual, more_bytes } = chosen;
     let amount = bytes(more_bytes.unsigned_abs());
     let comes_to = match more_bytes {
@@ -93,17 +92,17 @@ fn chosen(chosen: &ChosenFormat) -> Outline {
         1.. => format!("{amount} more than"),
         ..0 => format!("{amount} fewer than"),
     };
-    Outline::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
+    Outline::detail(format!("{}: {comes_to} in {usual}", Shown(because)))
 }
 
-pub(super) fn output(plan: &Plan, output: &Output) -> Option<Outline> {
+pub(super) fn output(plan: &Plan, output: &Output) -> String {
     let resource = output.resource;
-    let role = match resource {
-        Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
-        Resource::Buffer(id) => &plan.buffers.get(id.0 as usize)?.role,
-    };
-    let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
     let name = Shown(plan.resource_name(resource));
+    let role = match resource {
+        Resource::Image(id) => plan.images.get(id.0 as usize).map(|image| &image.role),
+        Resource::Buffer(id) => plan.buffers.get(id.0 as usize).map(|buffer| &buffer.role),
+    };
+    let Some([_, after]) = role.and_then(Role::states) else { return format!("`{name}`") };
     let [layout, stages, accesses] = [name_of(&after.layout), name_of(&after.stages), name_of(&after.accesses)];
     let encoded = output.encoding.map_or_else(String::new, |encoding| {
         let by = output.encoded.as_deref().unwrap_or("");
@@ -114,15 +113,14 @@ pub(super) fn output(plan: &Plan, output: &Output) -> Option<Outline> {
             Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
         }
     });
-    Some(Outline::leaf(match resource {
+    match resource {
         Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}{encoded}"),
         Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
-    }))
+    }
 }
 
-pub(super) fn note(note: &Note) -> Outline {
-    let text = format!("{} `{}`: {}{}", name_of(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
-    Outline { at: note.at.clone(), ..Outline::leaf(text) }
+pub(super) fn note(note: &Note) -> String {
+    format!("{} `{}`: {}{}", name_of(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at))
 }
 
 pub(super) fn totals(totals: &Totals) -> Outline {
@@ -149,5 +147,5 @@ pub(super) fn totals(totals: &Totals) -> Outline {
     );
     let [transient, placed, kept] = [transient_bytes, placed_bytes, kept_bytes].map(bytes);
     let memory = format!("transient {transient} placed in {placed}{ratio}, kept {kept}");
-    Outline::new("totals", [work, barriers, memory].map(Outline::leaf).into())
+    Outline::of(EntryKind::Total, EntryKind::Total.heading(), [work, barriers, memory].map(Outline::detail).into())
 }

@@ -7,6 +7,6 @@ mod outline;
 mod tree;
 mod words;
 
-pub use outline::{About, Outline};
-pub use tree::Detail;
-pub(crate) use words::fill_value;
+pub use outline::Outline;
+pub use tree::{Detail, Text};
+pub(crate) use words::{bound, fill_value, size};

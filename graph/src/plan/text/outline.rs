@@ -1,9 +1,8 @@
 //! An outline: a heading, and its parts under it. It is drawn with lines for a terminal.
 
 use crate::base::Place;
-use crate::plan::{BufferId, Cause, ImageId, StepId};
+use crate::plan::{About, EntryKind};
 use serde::Serialize;
-use std::sync::Arc;
 
 /// Columns that text is kept within, as far as its words allow.
 const COLUMNS: usize = 120;
@@ -13,6 +12,8 @@ const LEAST: usize = 40;
 /// A line about a Plan, with the lines under it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Outline {
+    /// The kind of entry that the line is, or that the lines under it are.
+    pub kind: EntryKind,
     /// The line in words. Names from files stand between backticks, with control characters escaped.
     pub text: String,
     /// The part of the Plan that it is about, if it is about one.
@@ -23,40 +24,19 @@ pub struct Outline {
     pub parts: Vec<Outline>,
 }
 
-/// The part of a Plan that a line is about.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum About {
-    /// A step.
-    Step(StepId),
-    /// A pass, by its name.
-    Pass(Arc<str>),
-    /// An image.
-    Image(ImageId),
-    /// A buffer.
-    Buffer(BufferId),
-}
-
 impl Outline {
-    pub(super) fn leaf(text: impl Into<String>) -> Outline {
+    /// A line that says something beside the one that it stands under, with others under it.
+    #[must_use]
+    pub fn new(text: impl Into<String>, parts: Vec<Outline>) -> Outline {
+        Outline::of(EntryKind::Detail, text, parts)
+    }
+
+    pub(super) fn detail(text: impl Into<String>) -> Outline {
         Outline::new(text, Vec::new())
     }
 
-    pub(super) fn new(text: impl Into<String>, parts: Vec<Outline>) -> Outline {
-        Outline { text: text.into(), about: None, at: None, parts }
-    }
-
-    pub(super) fn about(self, about: About) -> Outline {
-        Outline { about: Some(about), ..self }
-    }
-
-    /// With the place of a cause.
-    pub(super) fn caused(self, cause: &Cause) -> Outline {
-        let at = match cause {
-            Cause::Written(at) => at,
-            Cause::Inserted(why) => &why.at,
-        };
-        Outline { at: at.clone(), ..self }
+    pub(super) fn of(kind: EntryKind, text: impl Into<String>, parts: Vec<Outline>) -> Outline {
+        Outline { kind, text: text.into(), about: None, at: None, parts }
     }
 
     /// The whole outline, with a final line break.

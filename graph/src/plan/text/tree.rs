@@ -1,17 +1,18 @@
-//! The tree form of a Plan, for people: the steps in order, with inserted work at its place and why.
+//! The entries of a Plan in words, and its tree form: the steps in order, with inserted work at its place and why.
 
 use super::changes;
 use super::decided::Decisions;
-use super::lists::{buffer, image, note, output, totals, view};
-use super::outline::{About, Outline};
+use super::lists::{self, totals};
+use super::outline::Outline;
 use super::words::{
-    bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of, words_of_list,
+    bound, bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of_list,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, AttachmentKind, BindingKind, BufferAccess, Image, ImageBarrier, ImageId, MemoryBarrier, Pass,
-    Plan, Queue, RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
+    About, Access, Attachment, AttachmentKind, AttachmentResolve, BufferAccess, Cause, Entry, EntryKind, Image,
+    ImageBarrier, ImageId, Item, MemoryBarrier, Moved, Pass, Plan, Queue, RenderScope, Resource, Side, Step, StepId,
+    Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -30,7 +31,7 @@ impl Plan {
     /// The lines of the tree form, which [`Outline::draw`] draws.
     #[must_use]
     pub fn outline(&self, detail: Detail<'_>) -> Outline {
-        outline(self, detail)
+        Text::of(self, detail).outline()
     }
 }
 
@@ -50,105 +51,129 @@ impl fmt::Debug for Detail<'_> {
     }
 }
 
-fn outline(plan: &Plan, detail: Detail<'_>) -> Outline {
-    let memory = if plan.device.exact_memory { "its own memory needs" } else { "estimated memory needs" };
-    let mut parts = Vec::new();
-    if !plan.settings.is_empty() {
-        let settings = plan.settings.iter().map(|used| format!("{} = {}", Shown(&used.name), Shown(&used.value)));
-        parts.push(Outline::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
-    }
-    if !plan.changes.is_empty() {
-        parts.push(Outline::new("changes", plan.changes.iter().map(|it| Outline::leaf(changes::words(it))).collect()));
-    }
-    if !plan.views.is_empty() {
-        parts.push(Outline::new("views", plan.views.iter().map(view).collect()));
-    }
-    let decisions = &Decisions::of(plan);
-    let step = |(id, step): (StepId, &Step)| Tree { plan, detail, decisions, id }.step(step);
-    parts.extend((0..).map(StepId).zip(&plan.steps).map(step));
-    let about = |it: &Image| decisions.about(&Subject::Image(it.name.clone()));
-    parts.push(Outline::new("images", plan.images.iter().map(|it| image(plan, it, about(it))).collect()));
-    if !plan.buffers.is_empty() {
-        parts.push(Outline::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
-    }
-    parts.push(Outline::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
-    let notes: Vec<_> = plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(note).collect();
-    if !notes.is_empty() {
-        parts.push(Outline::new("notes", notes));
-    }
-    let mut totals = totals(&plan.totals);
-    if detail.verbose {
-        totals.parts.extend(moved(plan.moved()).map(Outline::leaf));
-        totals.parts.extend(on_chip(plan, &plan.steps).map(Outline::leaf));
-    }
-    parts.push(totals);
-    Outline::new(format!("Plan for {}, with {memory}", Shown(&plan.device.name)), parts)
-}
-
-/// One step of a Plan.
-#[derive(Clone, Copy)]
-struct Tree<'p> {
+/// The entries of a Plan in words.
+#[derive(Debug)]
+pub struct Text<'p> {
     plan: &'p Plan,
     detail: Detail<'p>,
-    decisions: &'p Decisions<'p>,
-    id: StepId,
+    decisions: Decisions<'p>,
 }
 
-impl Tree<'_> {
-    fn step(self, step: &Step) -> Outline {
-        let mut parts: Vec<Outline> = step.waits.iter().map(|wait| self.wait(wait)).collect();
-        parts.extend(step.memory_barriers.iter().map(|barrier| self.memory_barrier(barrier)));
-        parts.extend(step.image_barriers.iter().map(|barrier| self.image_barrier(barrier)));
+impl<'p> Text<'p> {
+    /// The words for entries of `plan`.
+    #[must_use]
+    pub fn of(plan: &'p Plan, detail: Detail<'p>) -> Text<'p> {
+        Text { plan, detail, decisions: Decisions::of(plan) }
+    }
+
+    /// The line of each entry, in their order, under a line about the Plan.
+    fn outline(&self) -> Outline {
+        let plan = self.plan;
+        let memory = if plan.device.exact_memory { "its own memory needs" } else { "estimated memory needs" };
+        let mut parts = Vec::new();
+        if !plan.settings.is_empty() {
+            let settings: Vec<String> = self.lines(EntryKind::Setting).into_iter().map(|line| line.text).collect();
+            parts.push(Outline::of(EntryKind::Setting, format!("settings: {}", settings.join(", ")), Vec::new()));
+        }
+        parts.extend([EntryKind::Change, EntryKind::View].into_iter().filter_map(|kind| self.list(kind)));
+        parts.extend(self.lines(EntryKind::Step));
+        let lists = [EntryKind::Image, EntryKind::Buffer, EntryKind::Output, EntryKind::Note];
+        parts.extend(lists.into_iter().filter_map(|kind| self.list(kind)));
+        let mut totals = totals(&plan.totals);
+        if self.detail.verbose {
+            totals.parts.extend(self.cost(&plan.steps, plan.moved()));
+        }
+        parts.push(totals);
+        let text = format!("Plan for {}, with {memory}", Shown(&plan.device.name));
+        Outline::of(EntryKind::Plan, text, parts)
+    }
+
+    /// The line of each entry of a kind that is no part of a step.
+    fn lines(&self, kind: EntryKind) -> Vec<Outline> {
+        self.plan.entries().filter(|entry| entry.kind() == kind).map(|entry| self.line(entry)).collect()
+    }
+
+    /// These lines under a heading. Where nothing of a kind is there that each Plan has, the heading says so.
+    fn list(&self, kind: EntryKind) -> Option<Outline> {
+        let lines = self.lines(kind);
+        let always = matches!(kind, EntryKind::Image | EntryKind::Output);
+        (always || !lines.is_empty()).then(|| Outline::of(kind, kind.heading(), lines))
+    }
+
+    /// The line of an entry, with those under it.
+    #[must_use]
+    pub fn line(&self, entry: Entry<'_>) -> Outline {
+        let leaf = |text| (text, Vec::new());
+        let (text, parts) = match entry.item {
+            Item::Setting(used) => leaf(format!("{} = {}", Shown(&used.name), Shown(&used.value))),
+            Item::Change(change) => leaf(changes::words(change)),
+            Item::View(view) => leaf(lists::view(view)),
+            Item::Step(step) => self.step(entry, step),
+            Item::Wait(wait) => leaf(self.wait(wait)),
+            Item::MemoryBarrier(barrier) => self.memory_barrier(entry.step, barrier),
+            Item::ImageBarrier(barrier) => self.image_barrier(entry.step, barrier),
+            Item::Attachment(used, attachment) => leaf(self.attachment(used, attachment)),
+            Item::Pass(pass) => self.pass(pass),
+            Item::Resolve(attachment, resolve) => self.resolve(attachment, resolve),
+            Item::Image(image) => {
+                let chosen = image.chosen.iter().map(lists::chosen);
+                let decided = self.decisions.about(&Subject::Image(image.name.clone()));
+                (lists::image(self.plan, image), chosen.chain(decided).collect())
+            }
+            Item::Buffer(buffer) => leaf(lists::buffer(self.plan, buffer)),
+            Item::Output(output) => leaf(lists::output(self.plan, output)),
+            Item::Note(note) => leaf(lists::note(note)),
+        };
+        let at = if let Item::Note(note) = entry.item { note.at.as_ref() } else { entry.cause().and_then(Cause::at) };
+        Outline { about: entry.about(), at: at.cloned(), ..Outline::of(entry.kind(), text, parts) }
+    }
+
+    fn step(&self, entry: Entry<'_>, step: &Step) -> (String, Vec<Outline>) {
         let title = match &step.work {
-            Work::Render(scope) => {
-                self.scope(scope, &mut parts);
-                let [width, height] = scope.extent;
-                let layers = if scope.layers == 1 { String::new() } else { format!(", {} layers", scope.layers) };
-                let eyes = self.plan.eyes(scope).map_or_else(String::new, |form| self.both_eyes(form));
-                format!("rendering scope, {width}×{height}{layers}, {}{eyes}", samples(scope.samples))
+            Work::Render(scope) => self.scope(scope),
+            Work::Dispatch(_) | Work::Custom(_) => step.work.word().to_owned(),
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                self.transfer(step.work.word(), transfer)
             }
-            Work::Dispatch(pass) => {
-                parts.push(self.pass(pass));
-                "dispatch".to_owned()
-            }
-            Work::Custom(pass) => {
-                parts.push(self.pass(pass));
-                "custom".to_owned()
-            }
-            Work::Resolve(transfer) => self.transfer("resolve", transfer, &mut parts),
-            Work::Copy(transfer) => self.transfer("copy", transfer, &mut parts),
-            Work::Blit(transfer) => self.transfer("blit", transfer, &mut parts),
             Work::Fill(fill) => {
-                parts.extend(fill.name.iter().flat_map(|name| self.about_pass(name)));
                 let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
                 let value = fill_value(self.plan, fill);
                 format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
             }
-            Work::Export if self.id.0 as usize + 1 == self.plan.steps.len() => {
+            Work::Export if entry.step.is_some_and(|StepId(id)| id as usize + 1 == self.plan.steps.len()) => {
                 "images are left in their promised states".to_owned()
             }
             Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
-        parts.extend(step.releases.iter().map(|barrier| self.image_barrier(barrier)));
+        let mut parts: Vec<Outline> = entry.parts().map(|part| self.line(part)).collect();
+        let releases = parts.len() - step.releases.len();
+        parts.splice(releases..releases, self.about_transfer(&step.work));
         if self.detail.verbose {
-            parts.extend(moved(self.plan.moved_by(step)).map(Outline::leaf));
-            parts.extend(on_chip(self.plan, std::slice::from_ref(step)).map(Outline::leaf));
+            parts.extend(self.cost(std::slice::from_ref(step), self.plan.moved_by(step)));
         }
         let queue = match step.queue {
             Queue::Graphics => "",
             Queue::Compute => " on the compute queue",
             Queue::Transfer => " on the transfer queue",
         };
-        let step_line = Outline::new(format!("step {}{queue}: {title}", self.id.0), parts).about(About::Step(self.id));
-        match &step.work {
-            Work::Resolve(it) | Work::Copy(it) | Work::Blit(it) => step_line.caused(&it.cause),
-            Work::Fill(fill) => step_line.caused(&fill.cause),
-            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => step_line,
-        }
+        let number = entry.step.map_or_else(String::new, |StepId(id)| format!(" {id}"));
+        (format!("step{number}{queue}: {title}"), parts)
+    }
+
+    /// The bytes that steps move, and those that stay on the chip.
+    fn cost(&self, steps: &[Step], sums: Moved) -> impl Iterator<Item = Outline> {
+        moved(sums).into_iter().chain(on_chip(self.plan, steps)).map(Outline::detail)
+    }
+
+    fn scope(&self, scope: &RenderScope) -> String {
+        let [width, height] = scope.extent;
+        let layers = if scope.layers == 1 { String::new() } else { format!(", {} layers", scope.layers) };
+        let eyes = self.plan.eyes(scope).map_or_else(String::new, |form| self.both_eyes(form));
+        format!("rendering scope, {width}×{height}{layers}, {}{eyes}", samples(scope.samples))
     }
 
     /// How a scope draws for both eyes.
-    fn both_eyes(self, form: EyeForm) -> String {
+    fn both_eyes(&self, form: EyeForm) -> String {
         let how = match (self.plan.stereo, form) {
             (Stereo::Instanced, EyeForm::Layers) => "twice the instances, each in the layer of its eye",
             (Stereo::Instanced, EyeForm::Halves) => "twice the instances, cut at the seam by a clip distance",
@@ -158,35 +183,26 @@ impl Tree<'_> {
         format!(", for both eyes: {how}")
     }
 
-    fn wait(self, wait: &Wait) -> Outline {
+    fn wait(&self, wait: &Wait) -> String {
         let frame = match wait.frames_ago {
             0 => String::new(),
             1 => " of the frame before".to_owned(),
             ago => format!(" of {ago} frames ago"),
         };
         let who = self.plan.step_name(wait.step);
-        Outline::leaf(format!("waits in {} for step {}{frame}: {who}", name_of(&wait.stages), wait.step.0))
-            .about(About::Step(wait.step))
+        format!("waits in {} for step {}{frame}: {who}", name_of(&wait.stages), wait.step.0)
     }
 
-    fn scope(self, scope: &RenderScope, parts: &mut Vec<Outline>) {
-        let attachments = || scope.attachments.iter();
-        parts.extend(attachments().enumerate().map(|(location, attachment)| self.attachment(location, attachment)));
-        parts.extend(scope.passes.iter().map(|pass| self.pass(pass)));
-        for attachment in attachments() {
-            if let Some(resolve) = &attachment.resolve {
-                let [from, to] = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
-                let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
-                let mode = name_of(&resolve.mode);
-                let text = format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause));
-                let resolved = Outline::new(text, self.about_samples(attachment.image));
-                parts.push(resolved.about(About::Image(resolve.image)).caused(&resolve.cause));
-            }
-        }
+    fn resolve(&self, attachment: &Attachment, resolve: &AttachmentResolve) -> (String, Vec<Outline>) {
+        let [from, to] = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
+        let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
+        let mode = name_of(&resolve.mode);
+        let text = format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause));
+        (text, self.about_samples(attachment.image))
     }
 
-    fn attachment(self, location: usize, attachment: &Attachment) -> Outline {
-        let place = match attachment.kind {
+    fn attachment(&self, location: usize, attachment: &Attachment) -> String {
+        let used_as = match attachment.kind {
             AttachmentKind::Color => format!("color {location}"),
             AttachmentKind::Depth => "depth".to_owned(),
             AttachmentKind::Stencil => "stencil".to_owned(),
@@ -198,14 +214,11 @@ impl Tree<'_> {
         };
         let part = self.part(attachment.image, attachment.range);
         let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];
-        Outline::leaf(format!(
-            "{place}: {part}, load {load}{clear}, store {store}: {}",
-            Shown(&attachment.because.to_string())
-        ))
-        .about(About::Image(attachment.image))
+        let because = attachment.because.to_string();
+        format!("{used_as}: {part}, load {load}{clear}, store {store}: {}", Shown(&because))
     }
 
-    fn pass(self, pass: &Pass) -> Outline {
+    fn pass(&self, pass: &Pass) -> (String, Vec<Outline>) {
         let work = match (pass.draw, pass.groups) {
             (Some(Draw::Objects(list)), _) => format!("draws {}", self.objects(list)),
             (Some(Draw::Casters(cascade)), _) => {
@@ -254,37 +267,29 @@ impl Tree<'_> {
         parts.extend(pass.accesses.iter().filter_map(|access| self.binding(access)));
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
         for param in &pass.params {
-            parts.push(Outline::leaf(format!("{} = {}", Shown(&param.name), param.value)));
+            parts.push(Outline::detail(format!("{} = {}", Shown(&param.name), param.value)));
         }
         if let Some(merged) = &pass.merged {
-            parts.push(Outline::leaf(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
+            parts.push(Outline::detail(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
         }
-        Outline::new(text, parts).about(About::Pass(pass.name.clone())).caused(&pass.cause)
+        (text, parts)
     }
 
     /// The objects of a draw, at most. Objects outside of the picture aren't drawn, but no Plan knows those.
-    fn objects(self, list: DrawList) -> String {
+    fn objects(&self, list: DrawList) -> String {
         let most = self.detail.objects.map_or_else(String::new, |objects| format!("up to {} ", objects(list)));
         format!("{most}{} objects", words_of_list(list))
     }
 
-    fn binding(self, access: &Access) -> Option<Outline> {
+    fn binding(&self, access: &Access) -> Option<Outline> {
         let binding = access.binding.as_ref()?;
-        let kind = match binding.kind {
-            BindingKind::Sampled(sampler) => {
-                let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
-                format!("sampled{declared}, {}", words_of(&sampler))
-            }
-            BindingKind::Storage => "storage".to_owned(),
-            BindingKind::InputAttachment => "read at its own position".to_owned(),
-        };
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
         let part = self.part(access.image, access.range);
-        let text = format!("{} = {part}{eye}, {kind}", Shown(&binding.name));
-        Some(Outline::leaf(text).about(About::Image(access.image)))
+        let text = format!("{} = {part}{eye}, {}", Shown(&binding.name), bound(binding));
+        Some(Outline { about: Some(About::Image(access.image)), ..Outline::detail(text) })
     }
 
-    fn buffer(self, access: &BufferAccess) -> Outline {
+    fn buffer(&self, access: &BufferAccess) -> Outline {
         let kind = match access.role {
             Some(BufferRole::Uniform) => "uniform",
             Some(BufferRole::Storage { write: false, .. }) => "storage, read",
@@ -297,33 +302,40 @@ impl Tree<'_> {
         };
         let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
         let text = format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer)));
-        Outline::leaf(text).about(About::Buffer(access.buffer))
+        Outline { about: Some(About::Buffer(access.buffer)), ..Outline::detail(text) }
     }
 
     /// The settings and facts that decided about a pass.
-    fn about_pass(self, name: &Arc<str>) -> Vec<Outline> {
+    fn about_pass(&self, name: &Arc<str>) -> Vec<Outline> {
         self.decisions.about(&Subject::Pass(name.clone()))
     }
 
     /// The settings and facts that decided how many samples an image has, and so whether it is resolved.
-    fn about_samples(self, image: ImageId) -> Vec<Outline> {
+    fn about_samples(&self, image: ImageId) -> Vec<Outline> {
         let image = self.plan.images.get(image.0 as usize);
         let about = |image: &Image| self.decisions.about_one(&Subject::Image(image.name.clone()), Property::Samples);
         image.map(about).unwrap_or_default()
     }
 
-    fn transfer(self, word: &str, transfer: &Transfer, parts: &mut Vec<Outline>) -> String {
-        parts.extend(transfer.name.iter().flat_map(|name| self.about_pass(name)));
-        if let ("resolve", Side::Image { image, .. }) = (word, transfer.source) {
-            parts.extend(self.about_samples(image));
+    /// What decided about a transfer, and about the samples that it resolves.
+    fn about_transfer(&self, work: &Work) -> Vec<Outline> {
+        // Passes say it themselves.
+        let name = work.name().filter(|_| work.passes().is_empty());
+        let mut lines: Vec<Outline> = name.map(|name| self.about_pass(name)).unwrap_or_default();
+        if let Work::Resolve(Transfer { source: Side::Image { image, .. }, .. }) = work {
+            lines.extend(self.about_samples(*image));
         }
+        lines
+    }
+
+    fn transfer(&self, word: &str, transfer: &Transfer) -> String {
         let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", Shown(name)));
         let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", name_of(&filter)));
         let [from, to] = [self.side(&transfer.source), self.side(&transfer.target)];
         format!("{name}{word} {from} → {to}{filter}{}", cause(&transfer.cause))
     }
 
-    fn side(self, side: &Side) -> String {
+    fn side(&self, side: &Side) -> String {
         match side {
             Side::Image { image, range, extent, .. } => format!("{} {}", self.part(*image, *range), size(*extent)),
             Side::Buffer { bytes: taken, .. } => format!("{} {}", self.resource(side.resource()), bytes(*taken)),
@@ -331,17 +343,17 @@ impl Tree<'_> {
     }
 
     /// The stages and accesses of a barrier, if the outline is to say them.
-    fn scopes(self, source: (Stages, Accesses), target: (Stages, Accesses)) -> Vec<Outline> {
+    fn scopes(&self, source: (Stages, Accesses), target: (Stages, Accesses)) -> Vec<Outline> {
         let scope = |(stages, accesses): (Stages, Accesses)| match (stages.is_empty(), accesses.is_empty()) {
             (true, _) => "nothing".to_owned(),
             (false, true) => name_of(&stages),
             (false, false) => format!("{} in {}", name_of(&accesses), name_of(&stages)),
         };
         let line = || format!("waits for {}, before {}", scope(source), scope(target));
-        self.detail.verbose.then(|| Outline::leaf(line())).into_iter().collect()
+        self.detail.verbose.then(|| Outline::detail(line())).into_iter().collect()
     }
 
-    fn memory_barrier(self, barrier: &MemoryBarrier) -> Outline {
+    fn memory_barrier(&self, step: Option<StepId>, barrier: &MemoryBarrier) -> (String, Vec<Outline>) {
         let hands = barrier.hand_overs.iter().map(|[from, to]| [from, to].map(|it| self.resource(*it)).join(" → "));
         let hands: Vec<String> = hands.collect();
         let mut reasons = Vec::new();
@@ -349,20 +361,19 @@ impl Tree<'_> {
             reasons.push(format!("memory changes hands, {}", hands.join(", ")));
         }
         reasons.extend(barrier.buffers.iter().map(|buffer| {
-            let of_it = |pass: &Pass| pass.buffers.iter().any(|access| access.buffer == buffer.buffer);
-            let who = self.who(buffer.needed_by, of_it);
-            let reason = hazard(&who, buffer.hazard, buffer.after);
-            format!("{}: {reason}", self.resource(Resource::Buffer(buffer.buffer)))
+            let resource = Resource::Buffer(buffer.buffer);
+            let who = self.who(step, buffer.needed_by, resource);
+            format!("{}: {}", self.resource(resource), hazard(&who, buffer.hazard, buffer.after))
         }));
         if reasons.is_empty() {
             reasons.push("all memory".to_owned());
         }
         let MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, .. } = *barrier;
         let scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
-        Outline::new(format!("barrier: {}", reasons.join("; ")), scopes)
+        (format!("barrier: {}", reasons.join("; ")), scopes)
     }
 
-    fn image_barrier(self, barrier: &ImageBarrier) -> Outline {
+    fn image_barrier(&self, step: Option<StepId>, barrier: &ImageBarrier) -> (String, Vec<Outline>) {
         let [old, new] = [name_of(&barrier.old_layout), name_of(&barrier.new_layout)];
         let layouts = if old == new { format!("stays {new}") } else { format!("{old} → {new}") };
         let part = self.part(barrier.image, barrier.range);
@@ -370,35 +381,36 @@ impl Tree<'_> {
             Some([from, to]) => format!(", from the {} queue to the {} queue", name_of(&from), name_of(&to)),
             None => String::new(),
         };
-        let who = self.who(barrier.needed_by, |pass| pass.accesses.iter().any(|access| access.image == barrier.image));
+        let who = self.who(step, barrier.needed_by, Resource::Image(barrier.image));
         let ImageBarrier { src_stages, src_accesses, dst_stages, dst_accesses, .. } = *barrier;
         let mut scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
-        scopes.extend(self.detail.verbose.then(|| Outline::leaf(needless_if(barrier.hazard))));
-        let text = format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after));
-        Outline::new(text, scopes).about(About::Image(barrier.image))
+        scopes.extend(self.detail.verbose.then(|| Outline::detail(needless_if(barrier.hazard))));
+        (format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)), scopes)
     }
 
-    /// The user that needs a barrier: a pass of step `needed_by` that `accesses` picks, with the step if that is a later one.
-    fn who(self, needed_by: Option<StepId>, accesses: impl Fn(&Pass) -> bool) -> String {
-        let step_of = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
-        let Some((needed_by, step)) = needed_by.and_then(step_of) else { return "this step".to_owned() };
-        let here = needed_by == self.id;
-        match (step.work.passes().iter().find(|pass| accesses(pass)), &step.work) {
-            (Some(pass), _) if here => format!("`{}`", Shown(&pass.name)),
-            (Some(pass), _) => format!("`{}` in step {}", Shown(&pass.name), needed_by.0),
-            (None, Work::Render(_)) if here => "the end of the scope".to_owned(),
-            (None, Work::Render(_)) => format!("the end of the scope of step {}", needed_by.0),
-            (None, _) if here => "this step".to_owned(),
-            (None, _) => format!("step {}", needed_by.0),
+    /// The user that needs a barrier of a step: a pass, with its step if that is a later one, or the step.
+    fn who(&self, step: Option<StepId>, needed_by: Option<StepId>, resource: Resource) -> String {
+        let of_plan = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
+        let Some((id, needing)) = needed_by.and_then(of_plan) else { return "this step".to_owned() };
+        let here = step == needed_by;
+        match self.plan.needing(needed_by, resource) {
+            Some(pass) if here => format!("`{}`", Shown(&pass.name)),
+            Some(pass) => format!("`{}` in step {}", Shown(&pass.name), id.0),
+            None => match needing.work.scope() {
+                Some(_) if here => "the end of the scope".to_owned(),
+                Some(_) => format!("the end of the scope of step {}", id.0),
+                None if here => "this step".to_owned(),
+                None => format!("step {}", id.0),
+            },
         }
     }
 
-    fn resource(self, resource: Resource) -> String {
+    fn resource(&self, resource: Resource) -> String {
         format!("`{}`", Shown(self.plan.resource_name(resource)))
     }
 
     /// An image, with its part if that isn't all of it.
-    fn part(self, id: ImageId, range: Subresources) -> String {
+    fn part(&self, id: ImageId, range: Subresources) -> String {
         let whole = self.plan.images.get(id.0 as usize).is_some_and(|image| {
             range
                 == Subresources { aspects: range.aspects, ..Subresources::all(image.format, image.mips, image.layers) }

@@ -6,7 +6,7 @@ use crate::base::Place;
 use crate::base::amount::largest;
 use crate::frame::DrawList;
 use crate::plan::names::Shown;
-use crate::plan::{Cause, Fill, Hazard, ImageId, Moved, Plan, Side, Step, StepId};
+use crate::plan::{Binding, BindingKind, Cause, Fill, Hazard, ImageId, Moved, Plan, Side, Step, StepId};
 use crate::vulkan::{AddressMode, Aspects, FillValue, Filter, Format, Numeric, Sampler, name_of};
 use std::collections::BTreeMap;
 
@@ -45,7 +45,7 @@ pub(super) fn words_of_list(list: DrawList) -> &'static str {
 }
 
 /// A sampler in words, without its usual values.
-pub(super) fn words_of(sampler: &Sampler) -> String {
+fn words_of(sampler: &Sampler) -> String {
     let mut words = name_of(&sampler.filter);
     if sampler.mips == Filter::Linear {
         words += ", between mip levels too";
@@ -57,6 +57,18 @@ pub(super) fn words_of(sampler: &Sampler) -> String {
         words += &format!(", compared by {}", name_of(compare));
     }
     words
+}
+
+/// How an image is bound.
+pub(crate) fn bound(binding: &Binding) -> String {
+    match binding.kind {
+        BindingKind::Sampled(sampler) => {
+            let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
+            format!("sampled{declared}, {}", words_of(&sampler))
+        }
+        BindingKind::Storage => "storage".to_owned(),
+        BindingKind::InputAttachment => "read at its own position".to_owned(),
+    }
 }
 
 /// The value of a fill, as the planes that it fills hold it.
@@ -116,7 +128,7 @@ pub(super) fn on_chip(plan: &Plan, steps: &[Step]) -> Option<String> {
 }
 
 /// Width × height, and depth if there is any.
-pub(super) fn size([width, height, depth]: [u32; 3]) -> String {
+pub(crate) fn size([width, height, depth]: [u32; 3]) -> String {
     if depth == 1 { format!("{width}×{height}") } else { format!("{width}×{height}×{depth}") }
 }
 

@@ -4,6 +4,7 @@ use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{ChosenFormat, Frame};
 use framewright_graph::language::Facts;
+use framewright_graph::plan::Stage;
 use framewright_graph::vulkan::Format::{self, *};
 
 /// Colour drawn with depth, both blurred or copied into others; `policies` are the pipeline's.
@@ -225,5 +226,5 @@ fn a_depth_format_that_stands_in_the_file_and_is_too_coarse_for_the_scene_is_tol
     let facts = Facts { depth_range: Some(2000.0), ..Facts::UNKNOWN };
     let frame = right(&text, &Inputs { facts, facts_known: true, ..INPUTS });
     assert_eq!(frame.remarks.iter().map(|it| &*it.subject).collect::<Vec<_>>(), ["depth"]);
-    assert!(frame.remarks.iter().all(|it| it.instead), "who draws is told");
+    assert!(frame.remarks.iter().all(|it| it.kind.stage() == Stage::Fit), "who draws is told");
 }

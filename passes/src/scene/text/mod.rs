@@ -126,7 +126,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
 
     let exposure = fields.exposure.map_or(Some(None), |leaf| exposure(reader, leaf).map(Some));
 
-    let mut names = Names::new("material");
+    let mut names = Names::of("material");
     let mut patterns = Patterns::default();
     let mut materials = Vec::new();
     for leaf in reader.list(fields.materials, "`materials`")? {
@@ -136,7 +136,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         materials.push(entry.and_then(|entry| materials::lower(reader, &entry, &mut patterns)));
     }
     let mut objects = Objects::default();
-    let mut object_names = Names::new("object");
+    let mut object_names = Names::of("object");
     for (number, leaf) in reader.list(fields.objects, "`objects`")?.into_iter().enumerate() {
         objects.add(reader, leaf, number, &names, &mut object_names);
         if objects.full {
@@ -275,7 +275,7 @@ fields! {
 }
 
 fn cameras<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<NamedCamera>> {
-    let mut names = Names::new("camera");
+    let mut names = Names::of("camera");
     let mut cameras = Vec::new();
     for leaf in reader.list(leaf, "`cameras`")? {
         let entry: Option<NamedCameraFields<'_>> = reader.read(leaf, "this camera");

@@ -285,6 +285,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
         steps,
         outputs,
         notes: vec![Note {
+            kind: NoteKind::OwnScope,
             stage: Stage::Scope,
             subject: "tonemap".into(),
             text: "begins a scope of its own: it samples what the scope before it writes".to_owned(),
