@@ -4,7 +4,7 @@ use crate::assets::Assets;
 use crate::error::Error;
 use framewright_graph::base::{Diagnostic, Sources, Span};
 use framewright_graph::frame::{Draw, Frame};
-use framewright_graph::plan::{Pass, Plan, Work};
+use framewright_graph::plan::{Pass, Plan};
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, FrameReport};
@@ -74,7 +74,7 @@ pub fn check_cameras(plan: &Plan, frame: Option<&Frame>, scene: &Scene) -> Resul
 /// The first pass that only the program of another draw source can record.
 fn custom(plan: &Plan) -> Option<&Pass> {
     plan.steps.iter().find_map(|step| {
-        let custom = matches!(step.work, Work::Custom(_));
+        let custom = step.work.is_custom();
         step.work.passes().iter().find(|pass| custom || pass.draw.is_some_and(Draw::is_custom))
     })
 }

@@ -282,44 +282,42 @@ fn image(
     };
     let layout = convert::layout(access.layout);
     let whole = |shape, sampler| BoundResource::Image { image: access.image, range, shape, layout, sampler };
-    match (&wanted.kind, kind) {
-        (
-            shader::BindingKind::SampledImage(shape) | shader::BindingKind::ComparedDepth(shape),
-            BindingKind::Sampled(sampler),
-        ) => {
+    if let Some(other) = wanted.kind.unbindable() {
+        return Err(format!("`{name}` can't be in set 0: {}", other.what));
+    }
+    let otherwise =
+        |bound| Err(format!("`{name}` is bound as {bound}, and the shader declares {}", wanted.kind.words()));
+    match kind {
+        BindingKind::Sampled(sampler) => {
+            let Some(shape) = wanted.kind.sampled() else { return otherwise("a sampled image") };
             if wanted.kind.is_compared() != sampler.compare.is_some() {
                 return Err(format!("`{name}` is compared with a depth by only one of Plan and shader"));
             }
             samples(shape.multisampled)?;
             read(shape.component)?;
             let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();
-            let shape = view_shape(gpu, name, ImageShape { arrayed, ..*shape }, image, range)?;
+            let shape = view_shape(gpu, name, ImageShape { arrayed, ..shape }, image, range)?;
             Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
         }
-        (shader::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
+        BindingKind::Storage => {
+            let Some((shape, format)) = wanted.kind.storage_image() else { return otherwise("a storage image") };
             samples(shape.multisampled)?;
-            only_read(name, *writable, access.accesses)?;
-            if *format != Some(image.format) {
+            only_read(name, wanted.kind.is_written(), access.accesses)?;
+            if format != Some(image.format) {
                 let declared = format.map_or("no format".to_owned(), |format| format.to_string());
                 return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
             }
-            let shape = view_shape(gpu, name, *shape, image, range)?;
+            let shape = view_shape(gpu, name, shape, image, range)?;
             Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))
         }
-        (shader::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
-            samples(*multisampled)?;
-            read(*component)?;
+        BindingKind::InputAttachment => {
+            let Some((multisampled, component)) = wanted.kind.input_attachment() else {
+                return otherwise("an input attachment");
+            };
+            samples(multisampled)?;
+            read(component)?;
             let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
             Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
-        }
-        (shader::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
-        (wanted, kind) => {
-            let bound = match kind {
-                BindingKind::Sampled(_) => "a sampled image",
-                BindingKind::Storage => "a storage image",
-                BindingKind::InputAttachment => "an input attachment",
-            };
-            Err(format!("`{name}` is bound as {bound}, and the shader declares {}", wanted.words()))
         }
     }
 }

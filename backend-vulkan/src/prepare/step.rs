@@ -63,17 +63,21 @@ impl PreparedStep {
                 let memory = step.memory_barriers.iter().map(memory_barrier);
                 list.push_barriers(frame.gpu, memory, step.image_barriers.iter().map(|it| frame.image_barrier(it)));
             }
-            match (&step.work, self) {
-                (Work::Render(scope), PreparedStep::Render(made)) => push_scope(list, frame, scope, made)?,
-                (Work::Dispatch(pass), PreparedStep::Dispatch(made)) => {
-                    let dispatch = made.command(list, frame, pass)?;
-                    list.push(Command::Dispatch(dispatch));
+            match self {
+                PreparedStep::Render(made) => {
+                    let mut scopes = step.work.scope().into_iter();
+                    scopes.try_for_each(|scope| push_scope(list, frame, scope, made))?;
                 }
-                (Work::Custom(_), _) => list.push(Command::Custom),
-                (work, _) => {
-                    if let Some(transfer) = transfer(frame, work) {
-                        list.push(Command::Transfer(Box::new(transfer)));
+                PreparedStep::Dispatch(made) => {
+                    for pass in step.work.passes() {
+                        let dispatch = made.command(list, frame, pass)?;
+                        list.push(Command::Dispatch(dispatch));
                     }
+                }
+                PreparedStep::Plain if step.work.is_custom() => list.push(Command::Custom),
+                PreparedStep::Plain => {
+                    let transfer = transfer(frame, &step.work).map(|transfer| Command::Transfer(Box::new(transfer)));
+                    transfer.into_iter().for_each(|transfer| list.push(transfer));
                 }
             }
             list.push_barriers(frame.gpu, [], frame.releases(step));

@@ -148,7 +148,10 @@ fn elements(of: BindingKind) -> BindingKind {
             other("an array of blocks", "declare one storage block that holds an array")
         }
         BindingKind::InputAttachment { .. } => other("an array of input attachments", "give each a name of its own"),
-        image => image,
+        BindingKind::SampledImage(_)
+        | BindingKind::ComparedDepth(_)
+        | BindingKind::StorageImage { .. }
+        | BindingKind::Other(_) => of,
     }
 }
 

@@ -45,7 +45,7 @@ pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) ->
 pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Unturned> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
-    let mut functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
+    let functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
     let StageFacts { draws, places_vertices, .. } = stage.facts();
     if !draws {
         return Vec::new();

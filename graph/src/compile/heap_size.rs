@@ -3,7 +3,7 @@
 use crate::base::{Diagnostic, Span, amount};
 use crate::device::{Estimated, ImageDescriptor, MemoryProvider, Profile};
 use crate::frame::Frame;
-use crate::plan::{Image, Plan, Role};
+use crate::plan::{Image, Plan};
 
 /// The error for a Plan of `frame` that takes more memory than the largest heap of `device` has; `None` if it fits, or the
 /// profile doesn't know the heap's size.
@@ -43,7 +43,7 @@ fn place(frame: &Frame, name: &str) -> Span {
 
 /// The bytes of an image.
 fn bytes(image: &Image, device: &Profile) -> u64 {
-    if let Role::Transient(placement) = &image.role {
+    if let Some(placement) = image.role.placement() {
         return placement.bytes;
     }
     let Image { format, shape, mips, samples, usage, sharing, .. } = *image;

@@ -400,6 +400,36 @@ impl Role {
         }
     }
 
+    /// Whether it is a colour attachment.
+    pub(super) fn is_color(self) -> bool {
+        matches!(self, Role::Color)
+    }
+
+    /// Whether it is sampled.
+    pub(super) fn is_sampled(self) -> bool {
+        matches!(self, Role::Sampled)
+    }
+
+    /// Whether it is read as an attachment of its scope.
+    pub(super) fn is_input(self) -> bool {
+        matches!(self, Role::Input)
+    }
+
+    /// Whether shaders access it without sampling.
+    pub(super) fn is_stored(self) -> bool {
+        matches!(self, Role::Storage | Role::Buffer)
+    }
+
+    /// Whether it is a buffer.
+    pub(super) fn is_buffer(self) -> bool {
+        matches!(self, Role::Buffer)
+    }
+
+    /// Whether it is the target of a transfer.
+    pub(super) fn is_target(self) -> bool {
+        matches!(self, Role::Target)
+    }
+
     /// Whether it is an attachment of a rendering scope.
     pub(super) fn is_attachment(self) -> bool {
         self.attachment().is_some()

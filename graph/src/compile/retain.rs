@@ -3,6 +3,7 @@
 use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
+use crate::plan::AttachmentKind;
 use crate::vulkan::{AccessKind, Accesses, LoadOp, Stages, StoreOp};
 
 /// Load and store operations of one attachment of a scope.
@@ -57,7 +58,7 @@ impl AttachmentOps {
     pub(super) fn load_access(&self) -> (Stages, Accesses) {
         let loads = self.load == LoadOp::Load;
         let accesses = |kind: AccessKind| kind.accesses(loads, !loads);
-        if self.role == Role::Color {
+        if self.role.is_color() {
             return (Stages::COLOR_ATTACHMENT_OUTPUT, accesses(AccessKind::ColorAttachment));
         }
         (Stages::EARLY_FRAGMENT_TESTS, accesses(AccessKind::DepthAttachment))
@@ -65,13 +66,11 @@ impl AttachmentOps {
 
     /// Stages and accesses of its store operation; a store operation `NONE` is no access.
     pub(super) fn store_access(&self) -> Option<(Stages, Accesses)> {
-        match (self.store, self.role) {
-            (StoreOp::None, _) => None,
-            (_, Role::Color) => {
-                Some((Stages::COLOR_ATTACHMENT_OUTPUT, AccessKind::ColorAttachment.accesses(false, true)))
-            }
-            (_, _) => Some((Stages::LATE_FRAGMENT_TESTS, AccessKind::DepthAttachment.accesses(false, true))),
-        }
+        let (stages, kind) = match self.role.is_color() {
+            true => (Stages::COLOR_ATTACHMENT_OUTPUT, AccessKind::ColorAttachment),
+            false => (Stages::LATE_FRAGMENT_TESTS, AccessKind::DepthAttachment),
+        };
+        (self.store != StoreOp::None).then(|| (stages, kind.accesses(false, true)))
     }
 }
 
@@ -130,7 +129,7 @@ impl Walk<'_> {
             }
         }
         for op in &scope.ops {
-            let from_memory = |used: &&Use| !used.role.is_attachment() && used.role != Role::Input;
+            let from_memory = |used: &&Use| !used.role.is_attachment() && !used.role.is_input();
             for used in self.adapted.uses(*op).iter().filter(from_memory) {
                 self.access(*op, used);
             }
@@ -242,10 +241,9 @@ pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, load_store: &
 /// The clear value that a pass of the frame gives.
 fn clear_value(frame: &Frame, kind: &OpKind, used: &Use) -> Option<[f64; 4]> {
     let pass = &frame.passes[kind.pass()? as usize];
-    match used.role {
-        Role::Color => pass.color.get(used.entry as usize)?.clear,
-        Role::Depth => pass.depth.as_ref()?.clear.map(|value| [value, 0.0, 0.0, 0.0]),
-        Role::Stencil => pass.depth.as_ref()?.stencil?.clear.map(|value| [f64::from(value), 0.0, 0.0, 0.0]),
-        _ => None,
+    match used.role.attachment()? {
+        AttachmentKind::Color => pass.color.get(used.entry as usize)?.clear,
+        AttachmentKind::Depth => pass.depth.as_ref()?.clear.map(|value| [value, 0.0, 0.0, 0.0]),
+        AttachmentKind::Stencil => pass.depth.as_ref()?.stencil?.clear.map(|value| [f64::from(value), 0.0, 0.0, 0.0]),
     }
 }

@@ -62,6 +62,7 @@ impl<'p> OfStep<'p> {
             fields.push(("clear value", in_plan(&clear)));
         }
         fields.push(("layout", name_of(&attachment.layout)));
+        fields.push(("attached as", name_of(&attachment.kind)));
         let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
         let name = format!("{of_itself}, of the scope of {}", self.name_of_first());
         let because = Some(Shown(&attachment.because.to_string()).to_string());

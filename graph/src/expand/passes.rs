@@ -52,7 +52,7 @@ pub(super) fn lower(
         targets::untaken(pass, interface, &mut shaders.remarks);
         halves::check(resources, pass, interface, errors);
         seen_alike::note(resources, pass, interface, &mut shaders.remarks);
-    } else if let Described::Custom { .. } = pass.work {
+    } else if pass.work.callback().is_some() {
         lowered.params = params::as_written(pass);
     }
     lowered
@@ -125,14 +125,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
         let binding = Some(uniform.binding.text.clone());
         lowered.buffers.push(storage::used(&uniform.part, binding, BufferRole::Uniform, stages));
     }
-    let indirect = match &pass.work {
-        Described::Draw { counts, .. } => counts.as_ref(),
-        Described::Dispatch { groups, .. } => match &groups.value {
-            language::Groups::Indirect { buffer, .. } => Some(buffer),
-            _ => None,
-        },
-        _ => None,
-    };
+    let indirect = pass.work.counts();
     let roles = [
         (pass.vertex.as_ref(), BufferRole::Vertex),
         (pass.index.as_ref(), BufferRole::Index),

@@ -224,12 +224,21 @@ impl Work {
         }
     }
 
+    /// Source and target, if it stands in for a pass that is off, and the condition that switched the pass off.
+    #[must_use]
+    pub const fn forward(&self) -> Option<(ImageIndex, ImageIndex, &str)> {
+        match self {
+            Work::Forward { from, to, because } => Some((*from, *to, because.as_str())),
+            _ => None,
+        }
+    }
+
     /// Source and target, if it stands in for a pass that is off.
     #[must_use]
     pub const fn forwarded(&self) -> Option<[ImageIndex; 2]> {
-        match self {
-            Work::Forward { from, to, .. } => Some([*from, *to]),
-            _ => None,
+        match self.forward() {
+            Some((from, to, _)) => Some([from, to]),
+            None => None,
         }
     }
 }

@@ -112,6 +112,15 @@ pub enum Role {
 }
 
 impl Role {
+    /// The place in a heap of what lives within the frame.
+    #[must_use]
+    pub const fn placement(&self) -> Option<&Placement> {
+        match self {
+            Role::Transient(placement) => Some(placement),
+            Role::Persistent { .. } | Role::External { .. } => None,
+        }
+    }
+
     /// The states in which a frame finds and leaves what outlives it.
     #[must_use]
     pub const fn states(&self) -> Option<[&State; 2]> {

@@ -174,10 +174,37 @@ impl BindingKind {
         }
     }
 
+    /// The shape of a sampled image, compared or not; `None`: it is none.
+    #[must_use]
+    pub fn sampled(&self) -> Option<ImageShape> {
+        match self {
+            BindingKind::SampledImage(shape) | BindingKind::ComparedDepth(shape) => Some(*shape),
+            _ => None,
+        }
+    }
+
     /// Whether the shader samples it.
     #[must_use]
     pub fn is_sampled(&self) -> bool {
-        matches!(self, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_))
+        self.sampled().is_some()
+    }
+
+    /// The shape of a storage image, and the texel format that its declaration names; `None`: it is none.
+    #[must_use]
+    pub fn storage_image(&self) -> Option<(ImageShape, Option<Format>)> {
+        match self {
+            BindingKind::StorageImage { shape, format, .. } => Some((*shape, *format)),
+            _ => None,
+        }
+    }
+
+    /// Whether single samples of an input attachment are read, and the type of a component; `None`: it is none.
+    #[must_use]
+    pub fn input_attachment(&self) -> Option<(bool, Component)> {
+        match self {
+            BindingKind::InputAttachment { multisampled, component } => Some((*multisampled, *component)),
+            _ => None,
+        }
     }
 
     /// Whether sampling compares it with a depth.
@@ -189,7 +216,7 @@ impl BindingKind {
     /// Whether it is an input attachment.
     #[must_use]
     pub fn is_input_attachment(&self) -> bool {
-        matches!(self, BindingKind::InputAttachment { .. })
+        self.input_attachment().is_some()
     }
 
     /// The block, if it is a uniform block.

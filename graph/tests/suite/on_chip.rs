@@ -76,8 +76,9 @@ fn what_is_loaded_or_stored_does_not_stay() {
     for (field, operation) in [("load", "LOAD"), ("store", "STORE")] {
         let mut changed = json.clone();
         for step in changed["steps"].as_array_mut().expect("steps") {
-            if let Some(depth) = step["work"]["render"]["depth"].as_object_mut() {
-                depth.insert(field.to_owned(), operation.into());
+            let attachments = step["work"]["render"]["attachments"].as_array_mut().into_iter().flatten();
+            for depth in attachments.filter(|it| it["kind"] == "depth") {
+                depth[field] = operation.into();
             }
         }
         let changed_plan = Plan::from_json(&changed.to_string()).expect("a Plan");

@@ -27,7 +27,7 @@ pub(super) fn sampled(sampled: &Sampled, entry: u32, resource: PhysicalIndex, ra
 
 /// Gives depth that is an attachment somewhere the layouts in which it can be sampled and tested at once.
 pub(super) fn settle_depth(adapted: &mut Adapted) {
-    let attaches = |used: &Use| matches!(used.role, Role::Depth | Role::Stencil);
+    let attaches = |used: &Use| used.role.is_attachment() && !used.role.is_color();
     if !adapted.uses.iter().any(attaches) {
         return;
     }
@@ -41,7 +41,7 @@ pub(super) fn settle_depth(adapted: &mut Adapted) {
     for at in 0..adapted.uses.len() {
         let used = &adapted.uses[at];
         let Some(image) = adapted.resources[used.resource as usize].image() else { continue };
-        if used.role == Role::Sampled && attached[used.resource as usize] && image.format.is_depth() {
+        if used.role.is_sampled() && attached[used.resource as usize] && image.format.is_depth() {
             let layout = read_only(image.format, adapted.range(used).aspects);
             adapted.uses[at].layout = layout;
         }
@@ -166,6 +166,6 @@ pub(super) fn forward_draw(source: PhysicalIndex, target: PhysicalIndex) -> [Use
 
 /// Whether a pass with these uses draws colour into several samples.
 pub(crate) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
-    let mut colors = uses.iter().filter(|used| used.role == Role::Color);
+    let mut colors = uses.iter().filter(|used| used.role.is_color());
     colors.any(|used| adapted.resources[used.resource as usize].image().is_some_and(|image| image.samples > 1))
 }

@@ -4,9 +4,9 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Role, Use};
+use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Use};
 use crate::frame::{ImageIndex, ViewIndex};
-use crate::plan::Inserted;
+use crate::plan::{AttachmentKind, Inserted};
 use crate::vulkan::{Aspects, Stages, Subresources};
 use std::sync::Arc;
 
@@ -134,13 +134,13 @@ impl Adapter<'_> {
             if draw.is_indirect() || !pass.buffers.is_empty() {
                 return Err(unavailable("draws from buffers, which may have changed since"));
             }
-            if uses.iter().any(|used| used.role == Role::Stencil) {
+            if uses.iter().any(|used| used.role.attachment() == Some(AttachmentKind::Stencil)) {
                 return Err(unavailable("tests stencil as well"));
             }
             if let Some(why) = &pass.no_depth_only {
                 return Err(unavailable(why));
             }
-            let drawn = uses.iter().find(|used| used.role == Role::Depth);
+            let drawn = uses.iter().find(|used| used.role.attachment() == Some(AttachmentKind::Depth));
             let contents = drawn.map_or(InitialContents::Keep, |used| used.contents);
             if passes.is_empty() && contents == InitialContents::Keep {
                 return Err(unavailable("draws onto what was there before the frame"));

@@ -4,15 +4,15 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::Diagnostic;
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
-use crate::frame::{Face, ImageIndex, NoteKind, Pass, Sampled, Work};
+use crate::frame::{Face, ImageIndex, NoteKind, Pass, Sampled};
 use crate::vulkan::{Aspects, Subresources};
 
 impl Adapter<'_> {
     pub(super) fn pass(&mut self, number: u32) {
         let frame = self.input.frame;
         let pass = &frame.passes[number as usize];
-        if let Work::Forward { from, to, because } = &pass.work {
-            return self.forward(number, pass, *from, *to, because);
+        if let Some((from, to, because)) = pass.work.forward() {
+            return self.forward(number, pass, from, to, because);
         }
         self.copies.clear();
         let samples =

@@ -39,7 +39,7 @@ pub(super) fn scope(results: &StageResults<'_>, scope: &Scope, step: u32) -> Ren
 /// The passes of a scope with local reads. A local barrier stands before the first pass that reads a drawn or cleared target,
 /// and before a pass that draws over a target that was read, unless a barrier stands between already.
 fn local_passes(results: &StageResults<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
-    let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
+    let begun = attachments.iter().filter(|ops| ops.role.is_color() && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();
     let mut read: Vec<Target> = Vec::new();
     let mut passes = Vec::with_capacity(scope.ops.len());
@@ -128,9 +128,9 @@ fn untouched(results: &StageResults<'_>, ops: &AttachmentOps) -> Option<Arc<str>
     let untouched = pass.untouched.as_ref()?;
     let uses = results.adapted.uses(ops.first);
     let used = uses.iter().find(|used| used.role == ops.role && Target::of(results.adapted, used) == ops.target)?;
-    let replaces = match ops.role {
-        Role::Color => pass.color.get(used.entry as usize)?.blend == Blend::Replace,
-        _ => pass.depth.as_ref()?.write,
+    let replaces = match ops.role.attachment()? {
+        AttachmentKind::Color => pass.color.get(used.entry as usize)?.blend == Blend::Replace,
+        AttachmentKind::Depth | AttachmentKind::Stencil => pass.depth.as_ref()?.write,
     };
     replaces.then(|| untouched.clone())
 }

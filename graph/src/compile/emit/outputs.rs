@@ -34,9 +34,9 @@ fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
     // A copy doesn't change bits, so its source was encoded earlier.
     while let Some((at, pass)) = last_writer(frame, image, before) {
         let name = &pass.name;
-        let from = match &pass.work {
-            Work::Copy => source(pass),
-            work => work.forwarded().map(|[from, _]| from),
+        let from = match pass.work.is_copy() {
+            true => source(pass),
+            false => pass.work.forwarded().map(|[from, _]| from),
         };
         if let Some(from) =
             from.filter(|from| frame.images[from.0 as usize].format == frame.images[image.0 as usize].format)

@@ -152,7 +152,7 @@ fn view(results: &StageResults<'_>, view: ViewIndex) -> Option<ViewId> {
 fn from_source(results: &StageResults<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
     let kind = BindingKind::Sampled(Sampler::new(filter));
     let binding = || Binding { name: COPY_SOURCE.into(), kind, texture: None };
-    uses.iter().map(|used| access(results, used, (used.role == Role::Sampled).then(binding))).collect()
+    uses.iter().map(|used| access(results, used, (used.role.is_sampled()).then(binding))).collect()
 }
 
 /// A draw of the frame again, of nothing but its depth.
@@ -287,7 +287,7 @@ fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> A
 }
 
 fn buffer_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
-    let named = declared.buffers.get(used.entry as usize).filter(|_| used.role == Role::Buffer);
+    let named = declared.buffers.get(used.entry as usize).filter(|_| used.role.is_buffer());
     BufferAccess {
         buffer: BufferId(results.adapted.resources[used.resource as usize].id),
         role: named.map(|named| named.role),

@@ -3,10 +3,9 @@
 use super::stage_results::frame_work;
 use super::values::{settings, views};
 use crate::compile::model::OpKind;
-use crate::compile::scope::Step as Grouped;
 use crate::compile::stages::Decisions;
 use crate::frame::{Frame, Work as FrameWork};
-use crate::plan::{Param, Pass, Plan, Work};
+use crate::plan::{Param, Pass, Plan};
 use std::sync::Arc;
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
@@ -17,21 +16,15 @@ pub(in crate::compile) fn values(frame: &Frame, decisions: &Decisions, plan: &mu
     let Decisions { adapted, scoped, load_store, .. } = decisions;
     let kind = |op: u32| &adapted.ops[op as usize].kind;
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&scoped.steps).zip(0_u32..) {
-        match (&mut step.work, grouped) {
-            (Work::Render(planned), Grouped::Scope(scope)) => {
-                for (attachment, ops) in planned.attachments.iter_mut().zip(load_store.of(number)) {
-                    attachment.clear = ops.clear;
-                }
-                for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
-                    pass_values(frame, kind(*op), pass);
-                }
-            }
-            (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(frame, kind(*op), pass),
-            (Work::Fill(fill), Grouped::Single(op)) => {
-                let work = frame_work(frame, &adapted.ops[*op as usize]);
-                fill.value = work.and_then(FrameWork::filled).unwrap_or(fill.value);
-            }
-            _ => {}
+        for (attachment, ops) in step.work.attachments_mut().zip(load_store.of(number)) {
+            attachment.clear = ops.clear;
+        }
+        for (pass, op) in step.work.passes_mut().iter_mut().zip(grouped.ops()) {
+            pass_values(frame, kind(*op), pass);
+        }
+        if let (Some(fill), [op]) = (step.work.fill_mut(), grouped.ops()) {
+            let work = frame_work(frame, &adapted.ops[*op as usize]);
+            fill.value = work.and_then(FrameWork::filled).unwrap_or(fill.value);
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::needs::Supports;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, MemorySource, OpKind, PhysicalIndex, PhysicalResource, Role};
+use crate::compile::model::{Adapted, MemorySource, OpKind, PhysicalIndex, PhysicalResource};
 use crate::compile::scope::{Scoped, Step, resource_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
@@ -32,7 +32,7 @@ pub(crate) fn check_support(
             continue;
         }
         // A resolve that is not folded needs a format that can be an attachment.
-        let Some(target) = adapted.uses(op).iter().find(|used| used.role == Role::Target) else { continue };
+        let Some(target) = adapted.uses(op).iter().find(|used| used.role.is_target()) else { continue };
         let Some(image) = adapted.resources[target.resource as usize].image() else { continue };
         let missing = Usage::COLOR_ATTACHMENT.difference(supported(image.format));
         if !missing.is_empty() {

@@ -204,16 +204,17 @@ fn same_storage(old: &Storage, new: &Storage) -> bool {
 }
 
 fn works(old: &Work, new: &Work) -> Difference {
-    match (old, new) {
-        (Work::Dispatch { shader: a, groups: old }, Work::Dispatch { shader: b, groups: new }) if same_name(a, b) => {
-            match (old, new) {
-                (Groups::Count(_), Groups::Count(_)) | (Groups::Invocations(_), Groups::Invocations(_)) => {
-                    unless(old == new, Values)
-                }
-                _ => unless(old == new, Structure),
-            }
+    if let (Some(old), Some(new)) = (old.filled(), new.filled()) {
+        return unless(same_fill(&old, &new), Values);
+    }
+    let same_shader = || old.shader().zip(new.shader()).is_some_and(|(old, new)| same_name(old, new));
+    match (old.groups(), new.groups()) {
+        (Some(Groups::Count(_)), Some(Groups::Count(_)))
+        | (Some(Groups::Invocations(_)), Some(Groups::Invocations(_)))
+            if same_shader() =>
+        {
+            unless(old == new, Values)
         }
-        (Work::Fill { value: old }, Work::Fill { value: new }) => unless(same_fill(old, new), Values),
         _ => unless(old == new, Structure),
     }
 }

@@ -11,7 +11,7 @@
 //!   What one run has beside it, the next run of its queue doesn't have.
 
 use super::step_uses::uses_of;
-use crate::compile::model::{Adapted, Role};
+use crate::compile::model::Adapted;
 use crate::compile::scope::Step;
 use crate::plan::Queue;
 
@@ -131,7 +131,7 @@ fn follow_each_other(steps: &mut [(u32, [u32; 2])]) {
 fn work(adapted: &Adapted, step: &Step) -> u64 {
     let attachments = if let Step::Scope(scope) = step { Some(scope.targets()) } else { None };
     let attachments = attachments.into_iter().flatten().map(|target| adapted.bytes(target.resource, target.range));
-    let in_memory = uses_of(adapted, step).filter(|used| !used.role.is_attachment() && used.role != Role::Input);
+    let in_memory = uses_of(adapted, step).filter(|used| !used.role.is_attachment() && !used.role.is_input());
     let others = in_memory.map(|used| {
         let times = u64::from(used.reads) + u64::from(used.writes);
         adapted.bytes(used.resource, adapted.range(used)).saturating_mul(times)

@@ -15,7 +15,7 @@ use crate::compile::model::{Adapted, MemorySource, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
 use crate::device::Profile;
-use crate::frame::{Frame, Work as PassWork};
+use crate::frame::Frame;
 use crate::plan::{Note, Queue};
 
 /// How often all steps are weighed. Frames that people write take a few rounds.
@@ -100,7 +100,7 @@ fn wanted(frame: &Frame, adapted: &Adapted, steps: &[Step], bound: &Bound) -> Ve
 
 fn is_dispatch(frame: &Frame, adapted: &Adapted, step: &Step) -> bool {
     let pass = step.ops().first().and_then(|op| adapted.ops[*op as usize].kind.pass());
-    pass.is_some_and(|pass| matches!(frame.passes[pass as usize].work, PassWork::Dispatch { .. }))
+    pass.is_some_and(|pass| frame.passes[pass as usize].work.groups().is_some())
 }
 
 /// Imported images and buffers are used on one queue, or on graphics: the state before the frame names the stages of one queue.

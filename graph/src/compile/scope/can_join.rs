@@ -18,7 +18,7 @@ pub(super) enum Refusal {
 impl Refusal {
     /// A pass needs what the scope before it writes.
     fn needing(used: &Use) -> Refusal {
-        if used.role == Role::Sampled { Refusal::Samples(used.resource) } else { Refusal::Uses(used.resource) }
+        if used.role.is_sampled() { Refusal::Samples(used.resource) } else { Refusal::Uses(used.resource) }
     }
 }
 
@@ -68,13 +68,12 @@ impl Scope {
             return refuse(Refusal::OtherAttachments);
         }
         // A pass that keeps the scope's colour and discards its depth can stay in the scope.
-        let goes_on = uses
-            .iter()
-            .any(|used| used.role == Role::Color && used.contents == InitialContents::Keep && attached(used));
+        let goes_on =
+            uses.iter().any(|used| used.role.is_color() && used.contents == InitialContents::Keep && attached(used));
         let starts_anew = |used: &Use| match used.contents {
             InitialContents::Keep => false,
             InitialContents::Clear => true,
-            InitialContents::Discard => used.role == Role::Color || !goes_on,
+            InitialContents::Discard => used.role.is_color() || !goes_on,
         };
         for used in uses.iter().filter(|used| !local(used)) {
             if used.role.is_attachment() && starts_anew(used) && attached(used) {

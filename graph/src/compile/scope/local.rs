@@ -10,7 +10,7 @@ use crate::vulkan::{AccessKind, Stages};
 /// The entry of a use that samples only the texel at the fragment's own position.
 pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return None };
-    if used.role != Role::Sampled {
+    if !used.role.is_sampled() {
         return None;
     }
     frame.passes[pass as usize].sampled.get(used.entry as usize).filter(|sampled| sampled.own_pixel)
@@ -26,7 +26,7 @@ pub(super) fn has_own_pixel_reads(frame: &Frame, adapted: &Adapted, op: u32) -> 
 pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, attached: &[Target]) -> bool {
     let target = Target::of(adapted, used);
     let once = || {
-        let same = |other: &&Use| other.role == Role::Sampled && Target::of(adapted, other) == target;
+        let same = |other: &&Use| other.role.is_sampled() && Target::of(adapted, other) == target;
         adapted.uses(op).iter().filter(same).count() == 1
     };
     let obstacle = own_pixel(frame, adapted, op, used).map(|sampled| obstacle(adapted, sampled, used));
@@ -63,7 +63,7 @@ pub(super) fn read_locally(uses: &mut [Use], local: &[u32]) {
 impl Scope {
     /// Whether the colour attachments of a pass fit into the scope, next to those that it has.
     pub(super) fn colors_fit(&self, adapted: &Adapted, uses: &[Use], most: usize) -> bool {
-        let colors = uses.iter().filter(|used| used.role == Role::Color);
+        let colors = uses.iter().filter(|used| used.role.is_color());
         let mut new = 0;
         for used in colors {
             if !self.color.contains(&Target::of(adapted, used)) {

@@ -70,7 +70,7 @@ pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n Adapted, resource
 
 /// The colour attachments of an operation with these uses.
 pub(super) fn colors_of(adapted: &Adapted, uses: &[Use]) -> Vec<Target> {
-    uses.iter().filter(|used| used.role == Role::Color).map(|used| Target::of(adapted, used)).collect()
+    uses.iter().filter(|used| used.role.is_color()).map(|used| Target::of(adapted, used)).collect()
 }
 
 /// Its depth or its stencil attachment.

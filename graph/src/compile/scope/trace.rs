@@ -1,6 +1,6 @@
 //! The accesses of steps to subresources so far, and whether a pass can join the last step.
 
-use crate::compile::model::{Role, Use};
+use crate::compile::model::Use;
 
 /// The steps that used a subresource so far, numbered in execution order. Layouts and reads among each other make no
 /// difference here, and ways of use do: so this is no [`AccessChain`](crate::compile::access_chain::AccessChain).
@@ -30,7 +30,7 @@ impl Ways {
     /// Whether a use can't be in one scope with these.
     pub(super) fn clash(self, used: &Use) -> bool {
         let Ways { attached, sampled, stored, shaded } = self;
-        let others = if used.role == Role::Sampled { stored } else { sampled };
+        let others = if used.role.is_sampled() { stored } else { sampled };
         match used.role.is_attachment() {
             true => sampled || stored,
             false => attached || shaded || others || (used.writes && (sampled || stored)),
@@ -39,8 +39,8 @@ impl Ways {
 
     pub(super) fn add(&mut self, used: &Use) {
         self.attached |= used.role.is_attachment();
-        self.sampled |= used.role == Role::Sampled;
-        self.stored |= matches!(used.role, Role::Storage | Role::Buffer);
+        self.sampled |= used.role.is_sampled();
+        self.stored |= used.role.is_stored();
         self.shaded |= !used.role.is_attachment() && used.writes;
     }
 }

@@ -60,9 +60,9 @@ impl Walk<'_> {
         self.mixed = false;
         for op in step.ops() {
             for used in adapted.uses(*op) {
-                match used.role {
-                    Role::Input => self.read_locally(used, load_store.of(number)),
-                    _ => self.used(used),
+                match used.role.is_input() {
+                    true => self.read_locally(used, load_store.of(number)),
+                    false => self.used(used),
                 }
             }
         }

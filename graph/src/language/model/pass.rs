@@ -179,6 +179,18 @@ impl Work {
         }
     }
 
+    /// The buffer of the counts of an indirect draw or dispatch.
+    pub const fn counts(&self) -> Option<&BufferPart> {
+        match self {
+            Work::Draw { counts, .. } => counts.as_ref(),
+            Work::Dispatch { groups, .. } => match &groups.value {
+                Groups::Indirect { buffer, .. } => Some(buffer),
+                Groups::Count(_) | Groups::Invocations(_) | Groups::Texels(_) => None,
+            },
+            Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
+        }
+    }
+
     /// Source and target, if it copies.
     pub const fn copied(&self) -> Option<[&Part; 2]> {
         match self {
