@@ -55,6 +55,10 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     let busy = progress::busy("comparing");
     let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);
     drop(busy);
+    let errors = errors.ok_or_else(|| LabError::Sizes {
+        reference: (arguments.reference.clone(), reference.extent),
+        picture: (arguments.picture.clone(), test.extent),
+    })?;
     if errors.of_nothing {
         let (reference, picture) = (arguments.reference.clone(), arguments.picture.clone());
         return Err(LabError::NothingFinite { reference, picture }.into());

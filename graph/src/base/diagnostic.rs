@@ -18,7 +18,7 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 /// One mistake.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Its kind. Nobody but people reads the message.
+    /// Its kind. Code that looks for a mistake asks this; the message is for people.
     pub kind: MistakeKind,
     /// The check that reports it, by its place in this program. What one check reports at one place is one mistake, whatever names and
     /// numbers the message has.

@@ -1,6 +1,6 @@
 //! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
 
-use super::{Attachment, AttachmentKind, Cause, Fill, Pass, RenderScope, Resource, Side, Step, Work};
+use super::{Attachment, AttachmentKind, Cause, Pass, RenderScope, Resource, Side, Step, Work};
 use crate::vulkan::Subresources;
 use std::slice;
 use std::sync::Arc;
@@ -69,23 +69,6 @@ impl Work {
     /// The attachments of its rendering scope.
     pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
         self.scope().into_iter().flat_map(|scope| &scope.attachments)
-    }
-
-    /// The attachments of its rendering scope, to be changed.
-    pub fn attachments_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
-        let scope = match self {
-            Work::Render(scope) => Some(scope),
-            _ => None,
-        };
-        scope.into_iter().flat_map(|scope| &mut scope.attachments)
-    }
-
-    /// The clear by transfer, if it is one, to be changed.
-    pub fn fill_mut(&mut self) -> Option<&mut Fill> {
-        match self {
-            Work::Fill(fill) => Some(fill),
-            _ => None,
-        }
     }
 
     /// Its passes in order.

@@ -1,5 +1,5 @@
-//! Whoever asks which kind a work, draw, role or binding is asks a predicate beside the enumeration, or lists all kinds: then the compiler
-//! shows each place that a new kind touches.
+//! Code outside the owner of a kind (of work, draw, role or binding) calls a predicate of the owner, or matches all variants. So the compiler
+//! shows each place that a new variant touches.
 
 use framewright_tests::sources::{self, Source};
 use proc_macro2::{TokenStream, TokenTree};

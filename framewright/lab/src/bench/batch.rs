@@ -9,7 +9,7 @@ use framewright_graph::frame::{Draw, Pass, Stereo};
 use framewright_graph::plan::{Note, Stage};
 use framewright_vulkan::{ExecutorOptions, FrameReport};
 
-/// Choices of a batch: so many are in memory at once.
+/// The most choices in a batch. All of them are in memory at once.
 pub const AT_ONCE: usize = 8;
 /// Frames of each choice before times are taken.
 pub const WARM_UP: u32 = 2;

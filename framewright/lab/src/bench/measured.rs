@@ -43,12 +43,11 @@ impl Bench<'_> {
         let shown = light(&picture.contents, &picture.path)?;
         let Some((reference, key)) = self.reference(choice, 0)? else { return Ok(measured) };
         measured.reference = Some(self.shown(&key, &reference.picture)?);
-        if reference.picture.extent != shown.extent {
+        let Some(errors) = Errors::between(&reference.picture, &shown, PIXELS_PER_DEGREE) else {
             let reference = (self.options.held_against.file(), reference.picture.extent);
             return Err(Error::Sizes { reference, picture: (PathBuf::from(name("pictures", ending)), shown.extent) });
-        }
+        };
         self.tell_of_light(&reference.picture, &shown);
-        let errors = Errors::between(&reference.picture, &shown, PIXELS_PER_DEGREE);
         if errors.of_nothing {
             let reference = PathBuf::from(measured.reference.unwrap_or_default());
             return Err(Error::NothingFinite { reference, picture: PathBuf::from(name("pictures", ending)) });

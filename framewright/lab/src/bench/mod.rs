@@ -132,7 +132,7 @@ impl<'p> Bench<'p> {
         Ok(name)
     }
 
-    /// Makes sure that the program doesn't ask to stop, with so many frames drawn of those that are wanted.
+    /// Fails if the program asks to stop. The error tells how many frames are `drawn` and how many were `wanted`.
     fn goes_on(&self, drawn: u32, wanted: u32) -> Result<(), Error> {
         if self.program.stops() { Err(Error::Stopped { drawn, wanted }) } else { Ok(()) }
     }

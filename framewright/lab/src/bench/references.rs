@@ -9,6 +9,7 @@ use crate::picture::{FileFormat, Light, Picture};
 use framewright_graph::vulkan::Format;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
+use std::path::PathBuf;
 use std::rc::Rc;
 
 /// The version of the form in which references are kept, and of the way in which they are drawn.
@@ -90,7 +91,12 @@ impl References {
         let Drawn { picture, of_half, steps } = drawn;
         let file = encoded(&picture, FileFormat::OpenExr)?;
         let [picture, of_half] = [picture, of_half].map(|drawn| shown(drawn, steps));
+        let name = |ending| PathBuf::from(References::name(key, ending));
         let errors = Errors::between(&picture, &of_half, PIXELS_PER_DEGREE);
+        let errors = errors.ok_or_else(|| Error::Sizes {
+            reference: (name("exr"), picture.extent),
+            picture: (name("half.exr"), of_half.extent),
+        })?;
         let digest = digest(&file, steps, &errors)?;
         let beside = Beside { format_version: FORMAT_VERSION, digest, steps, errors };
         let text = serde_json::to_string_pretty(&beside)? + "\n";

@@ -118,10 +118,16 @@ impl Metric {
 }
 
 impl Errors {
-    /// The errors of a picture of the same size as the reference. `pixels_per_degree` is what FLIP takes for the number of pixels in a degree of sight.
+    /// The errors of a picture beside a reference. `pixels_per_degree` is what FLIP takes for the number of pixels in a degree of sight.
+    /// `None`: the pictures have different sizes, or one has more or fewer texels than its size says.
     #[must_use]
-    pub fn between(reference: &Light, test: &Light, pixels_per_degree: f64) -> Errors {
+    pub fn between(reference: &Light, test: &Light, pixels_per_degree: f64) -> Option<Errors> {
         let extent = reference.extent;
+        let texels = extent[0].checked_mul(extent[1])?;
+        let fits = |picture: &Light| picture.extent == extent && picture.texels.len() == texels;
+        if !fits(reference) || !fits(test) {
+            return None;
+        }
         let finite: Vec<[bool; 2]> = reference
             .texels
             .iter()
@@ -164,7 +170,7 @@ impl Errors {
             .map(|(difference, reference)| difference * difference / (reference * reference + RELATIVE_FLOOR));
         let rmse = mean(light.iter().map(|it| it * it), 0.0).sqrt();
         let peak = references.clone().fold(1.0, f64::max);
-        Errors {
+        Some(Errors {
             flip: FlipErrors {
                 exposures,
                 pixels_per_degree,
@@ -180,7 +186,7 @@ impl Errors {
             non_finite: [0, 1].map(|at| counts(at).iter().filter(|finite| !**finite).count()),
             of_nothing: !both.contains(&true),
             flip_map,
-        }
+        })
     }
 
     /// A metric's figure. Pictures without a difference have an infinite signal-to-noise ratio.

@@ -3,7 +3,8 @@
 use framewright::{Choices, Pipeline, ReadFiles, RendererOptions, Stereo, load_scene};
 use framewright_lab::bench::{Bench, BenchOptions, Choice, Drawn, HeldAgainst, MeasuredScene, Program, WARM_UP};
 use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
-use framewright_lab::metric::Metric;
+use framewright_lab::metric::{Errors, Metric, PIXELS_PER_DEGREE};
+use framewright_lab::picture::Light;
 use framewright_lab::results::{FORMAT_VERSION, Outcome, Part, Results, joined};
 use framewright_lab::sweep::{self, Combined, Sweep};
 use framewright_tests::render;
@@ -109,4 +110,15 @@ fn references_are_kept_and_a_program_that_stops_is_told_so() {
     let subject = first.subject("forward".to_owned(), &baseline).expect("planned");
     let stopped = first.batch((&baseline, &subject), &choices, &|_| (), &mut Vec::new());
     assert!(matches!(stopped, Err(framewright_lab::Error::Stopped { drawn: 0, .. })), "{stopped:?}");
+}
+
+#[test]
+fn pictures_of_other_sizes_or_with_other_texels_than_they_say_have_no_errors() {
+    let grey = |extent, texels| Light { extent, texels: vec![[0.5; 3]; texels], is_light: false, left_out: Vec::new() };
+    let errors = |a: &Light, b: &Light| Errors::between(a, b, PIXELS_PER_DEGREE);
+    let picture = grey([16, 12], 192);
+    assert!(errors(&picture, &picture).is_some_and(|errors| errors.rmse.abs() < f64::EPSILON));
+    for other in [grey([12, 16], 192), grey([16, 13], 208), grey([16, 12], 191), grey([usize::MAX, 2], 192)] {
+        assert!(errors(&picture, &other).is_none() && errors(&other, &picture).is_none(), "{:?}", other.extent);
+    }
 }

@@ -5,7 +5,7 @@ use super::values::{settings, views};
 use crate::compile::model::OpKind;
 use crate::compile::stages::Decisions;
 use crate::frame::{Frame, Work as FrameWork};
-use crate::plan::{Param, Pass, Plan};
+use crate::plan::{Param, Pass, Plan, Work};
 use std::sync::Arc;
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
@@ -16,15 +16,21 @@ pub(in crate::compile) fn values(frame: &Frame, decisions: &Decisions, plan: &mu
     let Decisions { adapted, scoped, load_store, .. } = decisions;
     let kind = |op: u32| &adapted.ops[op as usize].kind;
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&scoped.steps).zip(0_u32..) {
-        for (attachment, ops) in step.work.attachments_mut().zip(load_store.of(number)) {
-            attachment.clear = ops.clear;
+        match &mut step.work {
+            Work::Render(scope) => {
+                for (attachment, ops) in scope.attachments.iter_mut().zip(load_store.of(number)) {
+                    attachment.clear = ops.clear;
+                }
+            }
+            Work::Fill(fill) => {
+                let op = grouped.ops().first().map(|op| &adapted.ops[*op as usize]);
+                let work = op.and_then(|op| frame_work(frame, op));
+                fill.value = work.and_then(FrameWork::filled).unwrap_or(fill.value);
+            }
+            Work::Dispatch(_) | Work::Custom(_) | Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Export => {}
         }
         for (pass, op) in step.work.passes_mut().iter_mut().zip(grouped.ops()) {
             pass_values(frame, kind(*op), pass);
-        }
-        if let (Some(fill), [op]) = (step.work.fill_mut(), grouped.ops()) {
-            let work = frame_work(frame, &adapted.ops[*op as usize]);
-            fill.value = work.and_then(FrameWork::filled).unwrap_or(fill.value);
         }
     }
 }

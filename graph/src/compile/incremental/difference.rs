@@ -204,18 +204,20 @@ fn same_storage(old: &Storage, new: &Storage) -> bool {
 }
 
 fn works(old: &Work, new: &Work) -> Difference {
-    if let (Some(old), Some(new)) = (old.filled(), new.filled()) {
-        return unless(same_fill(&old, &new), Values);
-    }
-    let same_shader = || old.shader().zip(new.shader()).is_some_and(|(old, new)| same_name(old, new));
-    match (old.groups(), new.groups()) {
-        (Some(Groups::Count(_)), Some(Groups::Count(_)))
-        | (Some(Groups::Invocations(_)), Some(Groups::Invocations(_)))
-            if same_shader() =>
-        {
-            unless(old == new, Values)
+    match new {
+        Work::Dispatch { shader, groups } => {
+            let same_kind = match (old.groups(), groups) {
+                (Some(Groups::Count(_)), Groups::Count(_)) | (Some(Groups::Invocations(_)), Groups::Invocations(_)) => {
+                    old.shader().is_some_and(|old| same_name(old, shader))
+                }
+                _ => false,
+            };
+            unless(old == new, if same_kind { Values } else { Structure })
         }
-        _ => unless(old == new, Structure),
+        Work::Fill { value } => old.filled().map_or(Structure, |old| unless(same_fill(&old, value), Values)),
+        Work::Draw { .. } | Work::Copy | Work::Blit { .. } | Work::Custom { .. } | Work::Forward { .. } => {
+            unless(old == new, Structure)
+        }
     }
 }
 
