@@ -8,7 +8,7 @@ use crate::options::RendererOptions;
 use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
 use framewright_graph::compile::{self, Compiler, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
-use framewright_graph::expand::{self, Inputs};
+use framewright_graph::expand::{self, Expander, Inputs};
 use framewright_graph::frame::{Frame, TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, SettingsFile, Unread};
 use framewright_graph::plan::Plan;
@@ -31,6 +31,8 @@ pub struct Pipeline {
     /// The paths of the pictures that it names.
     pub pictures: BTreeSet<Arc<str>>,
     settings: Vec<SettingsFile>,
+    /// What frames have in common.
+    expander: Expander,
 }
 
 /// Where a pipeline comes from.
@@ -96,7 +98,14 @@ impl PipelineFile {
         let document = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
         let pictures = named.pictures;
         let document = document.map_err(|diagnostics| Error::mistakes(&sources, diagnostics))?;
-        let mut pipeline = Pipeline { document, sources: Arc::new(sources), assets, pictures, settings: Vec::new() };
+        let mut pipeline = Pipeline {
+            document,
+            sources: Arc::new(sources),
+            assets,
+            pictures,
+            settings: Vec::new(),
+            expander: Expander::default(),
+        };
         pipeline.read_settings(&options.settings, &read)?;
         Ok(pipeline)
     }
@@ -172,7 +181,8 @@ impl Pipeline {
     /// # Errors
     /// [`Error::Mistakes`] with those of the inputs, the pipeline and its shaders.
     pub fn expand(&mut self, inputs: &Inputs<'_>) -> Result<Frame, Error> {
-        let frame = expand::expand(&self.document, Arc::clone(&self.sources), inputs, &mut self.assets.shaders);
+        let (sources, shaders) = (Arc::clone(&self.sources), &mut self.assets.shaders);
+        let frame = self.expander.expand(&self.document, sources, inputs, shaders);
         frame.map_err(|diagnostics| self.wrong(diagnostics))
     }
 

@@ -48,7 +48,7 @@ const GUARD: Guard = if cfg!(debug_assertions) {
 };
 
 /// A row of the table, and what is run for it.
-const ROWS: [(&str, fn()); 15] = [
+const ROWS: [(&str, fn()); 16] = [
     ("deferred", || compile(&graphs::deferred())),
     ("chain 100", || compile(&graphs::chain(100))),
     ("chain 1000", || compile(&graphs::chain(1_000))),
@@ -64,6 +64,7 @@ const ROWS: [(&str, fn()); 15] = [
     ("forward.ron", || compile(&shipped("forward.ron"))),
     ("reading 1000", || read(files::written_out(1_000))),
     ("expanding 1000", || read(files::of_fragments(1_000))),
+    ("expanding 1000, other value", expand_again),
 ];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -96,6 +97,14 @@ fn compile_again() {
     compile(&changed);
     counted(|| compile(&frame));
     assert_eq!(compiler.reuse(), Reuse::Decisions);
+}
+
+/// Puts a pipeline together after one with another value of a setting.
+fn expand_again() {
+    let mut expand = files::with_other_gains(files::of_setting(1_000));
+    black_box(expand(0.5));
+    black_box(expand(1.5));
+    counted(|| expand(0.5));
 }
 
 /// Checks the Plan of a frame.

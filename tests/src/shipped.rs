@@ -10,6 +10,7 @@ use framewright_passes::draw::interfaces;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 /// A frame and how it came about.
@@ -34,7 +35,9 @@ fn values(kind: &SettingKind) -> Vec<String> {
 /// Of a pipeline whose settings have more combinations those are taken that leave all settings but one at their defaults.
 const MOST_COMBINATIONS: usize = 40;
 
-fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
+/// Values of the settings of a pipeline, as `--set` takes them.
+#[must_use]
+pub fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
     let each = |setting: &language::Setting| {
         let name = setting.name.text.to_string();
         values(&setting.kind).into_iter().map(move |value| vec![(name.clone(), value)])
@@ -63,20 +66,36 @@ pub fn frames(output_extent: [u32; 2]) -> &'static [ShippedFrame] {
     made.entry(output_extent).or_insert_with(|| make(output_extent).leak())
 }
 
-fn make(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
-    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interfaces());
-    let mut frames = Vec::new();
+/// The shaders of shipped pipelines.
+#[must_use]
+pub fn shaders() -> ShaderLibrary {
+    ShaderLibrary::new(Vec::new(), SHADERS, interfaces())
+}
+
+/// All shipped pipelines by name, with their sources.
+///
+/// # Panics
+/// If one isn't right.
+#[must_use]
+pub fn documents() -> Vec<(String, Document, Arc<Sources>)> {
     let folder = std::fs::read_dir(in_repository("examples/pipelines")).expect("pipelines are shipped");
     let mut files: Vec<_> = folder.map(|file| file.expect("the folder can be listed").path()).collect();
     files.sort();
-    for file in files.iter().filter(|file| file.extension().is_some_and(|end| end == "ron")) {
+    let read = |file: &PathBuf| {
         let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
         let text = std::fs::read_to_string(file).expect("a shipped pipeline is text");
         let mut sources = Sources::default();
         let mut named = PipelineFiles::beside(Root::new(in_repository("examples/pipelines")), &name, &[]);
         let pipeline = language::read_with(&mut sources, &mut named, &name, &name, text);
-        let pipeline = pipeline.expect("a shipped pipeline is right");
-        let sources = Arc::new(sources);
+        (name, pipeline.expect("a shipped pipeline is right"), Arc::new(sources))
+    };
+    files.iter().filter(|file| file.extension().is_some_and(|end| end == "ron")).map(read).collect()
+}
+
+fn make(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
+    let mut shaders = shaders();
+    let mut frames = Vec::new();
+    for (name, pipeline, sources) in documents() {
         let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
         for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
             let inputs = Inputs {

@@ -1,11 +1,12 @@
 //! Pipeline files of many passes, and their way to a frame.
 
 use framewright_graph::base::Sources;
-use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::expand::{Expander, Inputs, expand};
 use framewright_graph::frame::{Draw, Frame, Stereo};
-use framewright_graph::language::{self, Facts};
+use framewright_graph::language::{self, Document, Facts};
 use framewright_graph::shader::{
-    Binding, BindingKind, DrawInterface, FragmentOutput, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
+    Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
+    ShaderProblem, Variant,
 };
 use framewright_graph::vulkan::{Component, Dimension, ImageShape, Rotation, Stages};
 use std::sync::Arc;
@@ -24,6 +25,13 @@ pub(crate) fn of_fragments(passes: u32) -> String {
          (use: \"chain\", name: \"chain\", repeat: (\"n\", {}), with: {{\"source\": \"color\"}})], outputs: [\"color\"])",
         passes / 10
     )
+}
+
+/// The same chains, the first of which begins with a value that a setting gives.
+pub(crate) fn of_setting(passes: u32) -> String {
+    let setting = "Pipeline(settings: [(name: \"gain\", value: Number(default: 1.0, min: 0.0, max: 2.0))], ";
+    let first = "draw: FullScreen(\"scaled\"), params: {\"gain\": \"gain\"}, ";
+    of_fragments(passes).replacen("Pipeline(", setting, 1).replacen("draw: FullScreen(\"plain\"), ", first, 1)
 }
 
 /// Each pass draws what the one before it drew.
@@ -48,12 +56,31 @@ pub(crate) fn written_out(passes: u32) -> String {
 
 /// Reads a file, and puts it together with its shaders' interfaces.
 pub(crate) fn frame(text: String) -> Frame {
+    let (pipeline, sources) = document(text);
+    expand(&pipeline, sources, &inputs(&[]), &mut FullScreen).expect("the pipeline fits its shaders")
+}
+
+/// Puts a pipeline together for one value of the setting `gain`, and returns what does so again for another one.
+pub(crate) fn with_other_gains(text: String) -> impl FnMut(f32) -> Frame {
+    let (pipeline, sources) = document(text);
+    let mut expander = Expander::default();
+    move |gain| {
+        let set = [("gain".to_owned(), gain.to_string())];
+        let frame = expander.expand(&pipeline, sources.clone(), &inputs(&set), &mut FullScreen);
+        frame.expect("the pipeline fits its shaders")
+    }
+}
+
+fn document(text: String) -> (Document, Arc<Sources>) {
     let mut sources = Sources::default();
     let pipeline = language::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
-    let facts = Facts::UNKNOWN;
-    let inputs = Inputs {
-        set: &[],
-        facts,
+    (pipeline, Arc::new(sources))
+}
+
+const fn inputs(set: &[(String, String)]) -> Inputs<'_> {
+    Inputs {
+        set,
+        facts: Facts::UNKNOWN,
         facts_known: false,
         output_extent: [1920, 1080],
         dump: &[],
@@ -61,8 +88,7 @@ pub(crate) fn frame(text: String) -> Frame {
         stereo: Stereo::Off,
         window: None,
         rotation: Rotation::Identity,
-    };
-    expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
+    }
 }
 
 /// Shaders that draw one colour, most of them from one image.
@@ -81,8 +107,15 @@ impl ShaderInterfaces for FullScreen {
             adapts: false,
             stages: Stages::FRAGMENT_SHADER,
         };
+        let member = Member { name: "gain".to_owned(), offset: 0, ty: "float".to_owned(), matrix: None };
+        let kind = BindingKind::UniformBlock(Block { bytes: 4, members: vec![member] });
+        let params = Binding { binding: 1, name: "params".to_owned(), kind, ..source.clone() };
         let output = FragmentOutput { location: 0, name: "color".to_owned(), component, components: 4 };
-        let bindings = if name == "plain" { Vec::new() } else { vec![source] };
+        let bindings = match name {
+            "plain" => Vec::new(),
+            "scaled" => vec![params],
+            _ => vec![source],
+        };
         Ok(ShaderInterface { bindings, outputs: vec![output], ..ShaderInterface::default() })
     }
 

@@ -13,6 +13,16 @@ pub(crate) fn run(timing: &Timing) {
             println!("\nreading a file of {passes} passes, {} KiB: {figure} ms", text.len() / 1024);
         }
     }
+    if timing.wants("putting in 1000 again") {
+        let mut expand = files::with_other_gains(files::of_setting(1_000));
+        let mut gain = 0.5;
+        let time = timing.least(|| {
+            gain = 2.0 - gain;
+            expand(gain)
+        });
+        let figure = beside(format!("{:.2}", microseconds(time) / 1000.0), Some("1.5".to_owned()));
+        println!("\nputting in 1000 passes of fragments again, with another value of a setting: {figure} µs a pass");
+    }
     for (passes, goal) in [(1_000, 20), (100_000, 2_000)] {
         if timing.wants(&format!("putting in {passes}")) {
             let text = files::of_fragments(passes);

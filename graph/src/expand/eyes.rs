@@ -11,7 +11,7 @@ use crate::frame::{
     Allowances, Draw, Eye, EyeForm, ImageIndex, NoteKind, Remark, Resource, Stereo, ViewEye, ViewIndex,
 };
 use crate::language::{
-    self, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
+    self, Forward, Image, ImagePart, ImageRef, Output, PartRef, Pass, Pipeline, Size, StandIn, Use, View,
 };
 use crate::ron::{Name, Spanned};
 use at_once::Apart;
@@ -50,6 +50,11 @@ pub(super) fn split(
 ) -> (Pipeline, Vec<Remark>) {
     let own = own(&pipeline);
     let before = errors.len();
+    if !own.contains(&true) {
+        let running = pipeline.passes.iter().filter(|pass| pass.off.is_none());
+        running.for_each(|pass| foreign_eyes(&own, pass, &pipeline.images, errors));
+        return (pipeline, Vec::new());
+    }
     let (mut none, mut for_one) = (Vec::new(), Vec::new());
     let mut of_pass = |pass: &Arc<Pass>| {
         if pass.off.is_some() && stereo != Stereo::Off {
@@ -73,8 +78,8 @@ pub(super) fn split(
         found
     };
     let whose: Vec<For> = pipeline.passes.iter().map(&mut of_pass).collect();
-    let mut remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
-    if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
+    let mut remarks = [for_one, remarks(&pipeline, &whose)].concat();
+    if stereo == Stereo::Off || errors.len() > before {
         return (pipeline, remarks);
     }
     let apart = form.map(|form| Apart::of(&pipeline, &own, &whose, stereo, form));
@@ -116,10 +121,7 @@ fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
 
 /// Remarks on passes that draw a camera's picture into an image that both eyes share, where passes for each eye look it up:
 /// this is allowed, but neither eye then sees the scene from its own position.
-fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
-    if !own.contains(&true) {
-        return Vec::new();
-    }
+fn remarks(pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
     let passes = || pipeline.passes.iter().zip(whose).filter(|(pass, _)| pass.off.is_none());
     let read: HashSet<ImageIndex> = passes()
         .filter(|(_, whose)| **whose != For::Both)
@@ -160,74 +162,23 @@ fn own(pipeline: &Pipeline) -> Vec<bool> {
     known.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// Shows every part of an image that a pass names, and whether the pass writes it.
-fn visit<'p>(pass: &'p Pass, see: &mut dyn FnMut(&'p ImagePart, bool)) {
-    let left_out = pass.left_out.iter().filter_map(|left_out| left_out.sample.as_ref());
-    pass.sample.iter().chain(left_out).for_each(|sample| see(&sample.part, false));
-    for storage in &pass.storage {
-        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-        of_part(&storage.part, !reads, see);
-    }
-    pass.color.iter().for_each(|color| see(&color.part, true));
-    pass.depth.iter().for_each(|depth| see(&depth.part, true));
-    match &pass.work {
-        Work::Copy { from, to } | Work::Blit { from, to, .. } => {
-            of_part(from, false, see);
-            of_part(to, true, see);
-        }
-        Work::Fill { to, .. } => of_part(to, true, see),
-        Work::Custom { reads, writes, .. } => {
-            reads.iter().for_each(|part| of_part(part, false, see));
-            writes.iter().for_each(|part| of_part(part, true, see));
-        }
-        // Of an image that workgroups are counted by, only the size matters. It is the same for both eyes.
-        Work::Dispatch { .. } | Work::Draw { .. } => {}
-    }
+/// The parts of images that a pass names, and whether it writes them. Of an image that workgroups are counted by, only the size matters: it is
+/// the same for both eyes.
+fn parts(pass: &Pass) -> impl Iterator<Item = (&ImagePart, bool)> {
+    pass.image_parts().filter(|(_, of)| *of != Use::Measured).map(|(part, of)| (part, of.writes()))
 }
 
-fn of_part<'p>(part: &'p Part, write: bool, see: &mut dyn FnMut(&'p ImagePart, bool)) {
-    if let Part::Image(part) = part {
-        see(part, write);
-    }
-}
-
-/// The parts of images that [`visit`] shows, to be changed.
-fn parts_mut(pass: &mut Pass) -> impl Iterator<Item = &mut ImagePart> {
-    let Pass { sample, left_out, storage, color, depth, work, .. } = pass;
-    let transfers: Vec<&mut Part> = match work {
-        Work::Copy { from, to } | Work::Blit { from, to, .. } => vec![from, to],
-        Work::Fill { to, .. } => vec![to],
-        Work::Custom { reads, writes, .. } => reads.iter_mut().chain(writes).collect(),
-        Work::Dispatch { .. } | Work::Draw { .. } => Vec::new(),
-    };
-    let left_out = left_out.iter_mut().filter_map(|left_out| left_out.sample.as_mut());
-    let sampled = sample.iter_mut().chain(left_out).map(|sample| &mut sample.part);
-    let targets = color.iter_mut().map(|color| &mut color.part).chain(depth.as_mut().map(|depth| &mut depth.part));
-    let others = storage.iter_mut().map(|storage| &mut storage.part).chain(transfers);
-    let others = others.filter_map(|part| if let Part::Image(part) = part { Some(part) } else { None });
-    sampled.chain(targets).chain(others)
-}
-
-/// Where buffers are named that a pass writes: both eyes share them.
-fn written_buffers(pass: &Pass) -> impl Iterator<Item = Span> {
-    let storage = pass.storage.iter().filter_map(|storage| {
-        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-        (!reads).then_some(&storage.part)
-    });
-    let transfers: Vec<&Part> = match &pass.work {
-        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => vec![to],
-        Work::Custom { writes, .. } => writes.iter().collect(),
-        Work::Draw { .. } | Work::Dispatch { .. } => Vec::new(),
-    };
-    storage.chain(transfers).filter_map(|part| match part {
-        Part::Buffer(part) => Some(part.buffer.span),
-        Part::Image(_) => None,
+/// Where the first buffer is named that a pass writes: both eyes share it.
+fn written_buffer(pass: &Pass) -> Option<Span> {
+    pass.parts().filter(|(_, of)| of.writes()).find_map(|(part, _)| match part {
+        PartRef::Buffer(part) => Some(part.buffer.span),
+        PartRef::Image(_) => None,
     })
 }
 
 /// Says where an eye of something is named that both share.
 fn foreign_eyes(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) {
-    visit(pass, &mut |part, _| {
+    for (part, _) in parts(pass) {
         let at = part.image.index.0 as usize;
         if part.eye.is_some() && !own[at] {
             let name = &images[at].name.text;
@@ -237,7 +188,7 @@ fn foreign_eyes(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut V
                 wrong.help(format!("write `\"{name}\"` in place of `Eye(…)`, or say `per_eye: true` of `{name}`")),
             );
         }
-    });
+    }
 }
 
 /// Reports an image of each eye that would take the place of an image that both eyes share: the eye would be unknown.
@@ -258,9 +209,9 @@ fn handed_on_once(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut
 fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) -> For {
     let name = &pass.name.text;
     // The first that both eyes would write.
-    let mut shared: Option<(Option<&Name>, Span)> = written_buffers(pass).next().map(|span| (None, span));
+    let mut shared: Option<(Option<&Name>, Span)> = written_buffer(pass).map(|span| (None, span));
     let (mut read, mut written, mut eyes) = (None, None, Vec::new());
-    visit(pass, &mut |part, write| {
+    for (part, write) in parts(pass) {
         let at = part.image.index.0 as usize;
         match (own[at], part.eye, write) {
             (true, None, true) => written = written.or(Some(part.image)),
@@ -269,7 +220,7 @@ fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diag
             (false, _, true) => shared = shared.or(Some((Some(&images[at].name), part.image.span))),
             (false, _, false) | (true, Some(_), false) => {}
         }
-    });
+    }
     let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
     match (written, eyes.first(), shared, read) {
         (Some(written), _, Some((shared, span)), _) => {
@@ -378,7 +329,7 @@ impl Images {
 
 /// A pass as it is for an eye, by a name of its own if it runs for the other one too.
 fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option<Eye>, twice: bool) -> Pass {
-    for part in parts_mut(&mut pass) {
+    for part in pass.image_parts_mut() {
         let eye = part.eye.map(|eye| eye.value).or(eye);
         // An image for both eyes stays one image: the eye chooses its layer or half.
         if images.both[part.image.index.0 as usize] {

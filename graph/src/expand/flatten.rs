@@ -1,6 +1,7 @@
 //! A pipeline becomes a frame, stage by stage.
 
 use super::accesses::CutImages;
+use super::expander::Expander;
 use super::inputs::{Inputs, check_extent, surroundings};
 use super::instances::used_here;
 use super::outputs::outputs;
@@ -43,12 +44,24 @@ pub fn expand_reading(
     shaders: &mut dyn ShaderInterfaces,
     reads: Option<&Reads>,
 ) -> Result<Frame, Vec<Diagnostic>> {
-    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders, reads);
+    for_eyes(document, sources, inputs, shaders, reads, None)
+}
+
+/// As [`expand_reading`], with what `kept` has of the last frame.
+pub(super) fn for_eyes(
+    document: &Document,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+    reads: Option<&Reads>,
+    kept: Option<&mut Expander>,
+) -> Result<Frame, Vec<Diagnostic>> {
+    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders, reads, kept);
     if expanded.is_ok() || inputs.stereo == Stereo::Off {
         return expanded;
     }
     // A mistake that one eye has, too, is told once.
-    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders, reads);
+    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders, reads, None);
     one.and(expanded)
 }
 
@@ -58,7 +71,9 @@ fn expand_so(
     inputs: &Inputs<'_>,
     shaders: &mut dyn ShaderInterfaces,
     reads: Option<&Reads>,
+    kept: Option<&mut Expander>,
 ) -> Result<Frame, Vec<Diagnostic>> {
+    let (entries, mut kept) = kept.map(|kept| (&mut kept.entries, &mut kept.passes)).unzip();
     let mut errors = Vec::new();
     let values = settings::choose(document, inputs.set, &mut errors);
     if !errors.is_empty()
@@ -71,7 +86,7 @@ fn expand_so(
     if errors.len() > before {
         return Err(errors);
     }
-    let pipeline = match document.lower(&settings::values(&values), &surroundings(inputs, reads)) {
+    let pipeline = match document.lower_again(&settings::values(&values), &surroundings(inputs, reads), entries) {
         Ok(pipeline) => pipeline,
         Err(mistakes) => {
             errors.extend(mistakes);
@@ -85,13 +100,12 @@ fn expand_so(
     let mut reported = once::Reported::default();
     let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
     reported.each_once(&mut errors, 0);
+    kept.iter_mut().for_each(|kept| kept.begin(&resources, inputs));
 
     let mut checked = shader::Checked::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
-        let before = errors.len();
-        targets::fit(&resources, pass, &mut errors);
         let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
         switched_off.extend(left_out.map(|language::LeftOut { binding, off, .. }| SwitchedOff {
             name: pass.name.text.clone(),
@@ -99,6 +113,13 @@ fn expand_so(
             span: off.span,
             because: off.because.clone(),
         }));
+        if let Some((lowered, remarks)) = kept.as_mut().and_then(|kept| kept.lowered(pass)) {
+            checked.remarks.extend(remarks);
+            states.push(State::On(lowered));
+            continue;
+        }
+        let before = errors.len();
+        targets::fit(&resources, pass, &mut errors);
         states.push(match &pass.off {
             Some(language::Off { span, because }) => {
                 let name = pass.name.text.clone();
@@ -108,7 +129,12 @@ fn expand_so(
                 let stand_ins = passes::stand_ins(&resources, pass, because, &mut errors);
                 State::Off { would, stand_ins, because: because.clone() }
             }
-            None => State::On(passes::lower(&resources, pass, &mut checked, &mut errors)),
+            None => {
+                let known = checked.remarks.len();
+                let lowered = passes::lower(&resources, pass, &mut checked, &mut errors);
+                kept.iter_mut().for_each(|kept| kept.keep(pass, &lowered, &checked.remarks[known..]));
+                State::On(lowered)
+            }
         });
         reported.once(&mut errors, before);
         if errors.len() >= MOST_KEPT {
@@ -116,6 +142,7 @@ fn expand_so(
         }
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
+    kept.iter_mut().for_each(|kept| kept.end());
     depth_only::note(&resources, &mut states, &mut checked);
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);

@@ -12,6 +12,7 @@ mod compared;
 mod coverage;
 mod decided;
 mod depth_only;
+mod expander;
 mod eyes;
 mod fills;
 mod flatten;
@@ -50,6 +51,7 @@ mod waits;
 mod work;
 mod writers;
 
+pub use expander::Expander;
 pub use flatten::{expand, expand_reading};
 pub use inputs::{Inputs, check_inputs};
 pub use settings::canonical_value;

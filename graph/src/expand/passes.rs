@@ -9,7 +9,7 @@ use super::{
 };
 use crate::base::Diagnostic;
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
-use crate::language::{self, StandIn, Work as Described};
+use crate::language::{self, StandIn};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
 
@@ -137,15 +137,8 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
 }
 
 fn transferred(resources: &Resources<'_>, pass: &language::Pass, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
-    let (reads, writes) = match &pass.work {
-        Described::Copy { from, to } | Described::Blit { from, to, .. } => {
-            (std::slice::from_ref(from), std::slice::from_ref(to))
-        }
-        Described::Fill { to, .. } => (&[][..], std::slice::from_ref(to)),
-        Described::Custom { reads, writes, .. } => (&reads[..], &writes[..]),
-        Described::Draw { .. } | Described::Dispatch { .. } => return,
-    };
-    let parts = reads.iter().map(|part| (part, false)).chain(writes.iter().map(|part| (part, true)));
+    let reads = pass.work.transfer_reads().iter().map(|part| (part, false));
+    let parts = reads.chain(pass.work.transfer_writes().iter().map(|part| (part, true)));
     for (part, write) in parts {
         let language::ResourceRef { resource, span } = part.resource();
         let range = match part {

@@ -19,7 +19,7 @@ use crate::language::entries::textures::Pictures;
 use crate::language::entries::values::optional;
 use crate::language::entries::views::ViewEntries;
 use crate::language::entries::{presets, settings};
-use crate::language::evaluate::{Purpose, evaluate};
+use crate::language::evaluate::{Memory, Purpose, evaluate};
 use crate::language::inputs::{Facts, Surroundings};
 use crate::language::model::{InForce, Pipeline, Preset, Setting, SettingsFile, in_force, unknown_preset};
 use crate::language::scope::{Context, Parameter, Scope};
@@ -81,7 +81,7 @@ impl Document {
                 device: None,
                 reads: None,
             };
-            evaluate(&mut reader, &entries, values, &surroundings, Purpose::Check);
+            evaluate(&mut reader, &entries, values, &surroundings, Purpose::Check, None);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
             if let (Some(settings), Some(presets)) = (settings, presets.into_iter().collect())
                 && reader.errors.is_empty()
@@ -145,9 +145,23 @@ impl Document {
     /// # Errors
     /// Everything that is wrong with the file, and expressions that have no value or none that is allowed.
     pub fn lower(&self, values: &[Value], surroundings: &Surroundings<'_>) -> Result<Pipeline, Vec<Diagnostic>> {
+        self.lower_again(values, surroundings, None)
+    }
+
+    /// As [`Document::lower`], with what `memory` has kept of earlier evaluations of this document.
+    pub(crate) fn lower_again(
+        &self,
+        values: &[Value],
+        surroundings: &Surroundings<'_>,
+        memory: Option<&mut Memory>,
+    ) -> Result<Pipeline, Vec<Diagnostic>> {
         let mut reader = Reader::default();
         let values = values.iter().map(|value| Some(value.clone().into())).collect();
-        match evaluate(&mut reader, &self.entries, values, surroundings, Purpose::Pipeline) {
+        let memory = memory.map(|memory| {
+            memory.begin(&self.entries);
+            memory
+        });
+        match evaluate(&mut reader, &self.entries, values, surroundings, Purpose::Pipeline, memory) {
             Some(pipeline) if reader.errors.is_empty() => {
                 let removed = self.change_log.removed_passes().collect();
                 Ok(Pipeline { removed, ..pipeline })

@@ -37,9 +37,10 @@ pub use compose::pipeline_files::{PipelineFiles, Shipped};
 pub use document::Document;
 pub(crate) use entries::buffers::LARGEST_BUFFER;
 pub(crate) use entries::dispatch::MOST_GROUPS;
+pub(crate) use evaluate::Memory;
 pub use inputs::{Fact, FactType, FactValue, Facts, Read, Reads, Surroundings, names_of};
 pub(crate) use mistakes::in_order;
-pub(crate) use model::{Area, LARGEST_SIZE, area};
+pub(crate) use model::{Area, LARGEST_SIZE, PartRef, Use, area};
 pub use model::{
     Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Decided, Decisions, Depth, Face, Fill, Format,
     Forward, Groups, Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off,

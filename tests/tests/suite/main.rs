@@ -2,6 +2,7 @@
 
 mod debug_text;
 mod drawn;
+mod expanding_again;
 #[path = "../../../graph/tests/suite/testing/hand_written_plans/mod.rs"]
 mod hand_written_plans;
 mod happens_before;

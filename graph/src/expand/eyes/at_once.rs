@@ -6,8 +6,7 @@
 use super::For;
 use crate::frame::{EyeForm, ImageIndex, Stereo};
 use crate::language::{
-    Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
-    StorageAccess, Work,
+    Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Use, Work,
 };
 use crate::shader::element_of;
 use crate::vulkan::AddressMode;
@@ -27,7 +26,7 @@ impl Apart {
         for (pass, whose) in running() {
             let name = &pass.name.text;
             let own_part = |part: &&ImagePart| own[index(part.image.index)];
-            for part in looked_up(pass).chain(written_alone(pass)).filter(own_part) {
+            for part in used_by_texels(pass).filter(own_part) {
                 apart.part(part.image.index, || format!("`{name}` uses it otherwise than by sampling or drawing"));
             }
             for part in written(pass).filter(own_part).filter(|part| part.eye.is_some() || *whose != For::Each) {
@@ -160,50 +159,32 @@ fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
     }
 }
 
-/// Images that a pass reads.
+/// Images that a pass reads, by shaders or by a copy.
 fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let copied = pass.work.copied().and_then(|[from, _]| image(from));
-    pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(looked_up(pass))
+    pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(used_by_texels(pass))
 }
 
 /// Images that a pass writes.
 fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
-    let color = pass.color.iter().map(|color| &color.part);
-    let depth = pass.depth.iter().map(|depth| &depth.part);
-    let reads = |storage: &&Storage| storage.access.is_none_or(|access| access.value != StorageAccess::Read);
-    let storage = pass.storage.iter().filter(reads).filter_map(|storage| image(&storage.part));
-    let transfers: &[Part] = match &pass.work {
-        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
-        Work::Custom { writes, .. } => writes,
-        Work::Draw { .. } | Work::Dispatch { .. } => &[],
-    };
-    color.chain(depth).chain(storage).chain(transfers.iter().filter_map(image))
+    pass.image_parts().filter(|(_, of)| of.writes()).map(|(part, _)| part)
 }
 
-/// Images that a pass reads otherwise than by sampling, except copies of whole images.
-fn looked_up(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
-    let transfers: &[Part] = match &pass.work {
-        Work::Copy { from: from @ Part::Image(part), to } if is_part(part) || !whole(to) => std::slice::from_ref(from),
-        Work::Blit { from, .. } => std::slice::from_ref(from),
-        Work::Custom { reads, .. } => reads,
-        Work::Draw { .. } | Work::Dispatch { .. } | Work::Copy { .. } | Work::Fill { .. } => &[],
+/// Images that a pass uses otherwise than by sampling and drawing: copies and fills of whole images work for both eyes too.
+fn used_by_texels(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    let partial = !pass.work.transfer_reads().iter().chain(pass.work.transfer_writes()).all(whole);
+    let (reads, writes) = match &pass.work {
+        Work::Copy { .. } | Work::Fill { .. } => (partial, partial),
+        Work::Blit { .. } | Work::Custom { .. } => (true, false),
+        Work::Draw { .. } | Work::Dispatch { .. } => (false, false),
     };
-    pass.storage.iter().filter_map(|storage| image(&storage.part)).chain(transfers.iter().filter_map(image))
-}
-
-/// The image that a copy or fill writes only a part of.
-fn written_alone(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
-    let to = match &pass.work {
-        Work::Copy { from, to } if !whole(to) || !whole(from) => image(to),
-        Work::Fill { to, .. } if !whole(to) => image(to),
-        Work::Draw { .. }
-        | Work::Dispatch { .. }
-        | Work::Copy { .. }
-        | Work::Blit { .. }
-        | Work::Fill { .. }
-        | Work::Custom { .. } => None,
+    let used = move |of: Use| match of {
+        Use::StorageRead | Use::Storage => true,
+        Use::TransferRead => reads,
+        Use::TransferWrite => writes,
+        Use::Sampled | Use::LeftOut | Use::Uniform | Use::Drawn | Use::Counts | Use::Measured | Use::Target => false,
     };
-    to.into_iter()
+    pass.image_parts().filter(move |(_, of)| used(*of)).map(|(part, _)| part)
 }
 
 fn whole(part: &Part) -> bool {

@@ -4,7 +4,6 @@ use super::parts;
 use super::values::{self, optional};
 use crate::base::{Diagnostic, Span};
 use crate::fields;
-use crate::frame::Resource;
 use crate::language::model::{Forward, Pass, StandIn};
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
@@ -129,7 +128,7 @@ pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &Otherwise, o
             reader.report(same.label(forward.from.span, "the same image"));
             continue;
         }
-        if !pass.written().any(|written| written == Resource::Image(to.index)) {
+        if !pass.image_parts().any(|(part, of)| of.writes() && part.image.index == to.index) {
             let (message, help) = of.foreign();
             reader.report(Diagnostic::new(to.span, message).help(help));
         } else if let Some(first) = first.insert(to.index, to.span) {

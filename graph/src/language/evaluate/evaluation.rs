@@ -1,6 +1,7 @@
 //! The state of an evaluation: its inputs, its purpose, and the lists that it has made so far.
 
 use super::lists::Flat;
+use super::memory::Memory;
 use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::entries::body::Body;
@@ -39,6 +40,8 @@ pub(super) struct Evaluation<'a> {
     pub(super) reported: HashSet<(Span, String)>,
     /// Fragments that were put in, by number.
     pub(super) used: HashSet<usize>,
+    /// What the last evaluation of the document made, if that is kept.
+    pub(super) memory: Option<&'a mut Memory>,
     /// How many images, buffers, passes and uses of fragments were made.
     made: u32,
     /// Whether more were asked for than a pipeline may have.
@@ -136,6 +139,7 @@ impl<'a> Evaluation<'a> {
             path: Vec::new(),
             reported: HashSet::new(),
             used: HashSet::new(),
+            memory: None,
             made: 0,
             is_full: false,
         }
@@ -149,8 +153,14 @@ impl<'a> Evaluation<'a> {
         view: ViewIndex,
         index: Option<u32>,
     ) -> Evaluator<'s, 's> {
+        let scope = self.scope(level, view, index);
+        Evaluator::new(reader, scope, level.off || self.purpose != Purpose::Pipeline)
+    }
+
+    /// The values of everything that an entry of a level may refer to.
+    pub(super) fn scope<'s>(&'s self, level: &'s Level<'_>, view: ViewIndex, index: Option<u32>) -> ScopeValues<'s> {
         let inputs = self.views.inputs(view);
-        let scope = ScopeValues {
+        ScopeValues {
             symbols: &level.body.symbols,
             level: &level.values,
             values: inputs
@@ -161,8 +171,8 @@ impl<'a> Evaluation<'a> {
             images: &self.flat.images,
             index,
             view: self.views.name(view),
-        };
-        Evaluator::new(reader, scope, level.off || self.purpose != Purpose::Pipeline)
+            answers: None,
+        }
     }
 
     /// How often an entry is repeated; `early` puts off a number that depends on properties of images.

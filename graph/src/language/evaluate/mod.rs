@@ -3,6 +3,7 @@
 mod circles;
 mod evaluation;
 mod lists;
+mod memory;
 mod passes;
 mod pipeline;
 mod previous;
@@ -12,4 +13,5 @@ mod resources;
 mod unused;
 
 pub(crate) use evaluation::Purpose;
+pub(crate) use memory::Memory;
 pub(crate) use pipeline::evaluate;

@@ -3,7 +3,7 @@
 use super::evaluation::{Count, Evaluation, Level};
 use crate::language::entries::body::{Entry, Item};
 use crate::language::model::{Pass, PassDecisions};
-use crate::language::scope::FieldValueTuple;
+use crate::language::scope::Evaluator;
 use crate::ron::Reader;
 use std::sync::Arc;
 
@@ -31,16 +31,18 @@ impl<'a> Evaluation<'a> {
             let number = entry.repeat.is_list().then_some(number);
             match entry.value.get(reader)? {
                 Item::Pass(pass) => {
-                    let mut pass = pass.evaluate(&mut self.evaluator(reader, level, view, number));
-                    let as_said = |pass: &Arc<Pass>| pass.view == view && level.has_own_names(number);
-                    if let Some(pass) = pass.as_mut().filter(|pass| !as_said(pass)) {
-                        let pass = Arc::make_mut(pass);
-                        pass.name = level.full(&pass.name, number);
-                        (pass.view, pass.instance) = (view, level.instance);
-                        if !decided.is_empty() {
-                            pass.decided = pass.decided.within(&decided);
+                    let whole = |mut pass: Arc<Pass>, _: &mut Evaluator<'_, '_>| {
+                        if pass.view != view || !level.has_own_names(number) {
+                            let pass = Arc::make_mut(&mut pass);
+                            pass.name = level.full(&pass.name, number);
+                            (pass.view, pass.instance) = (view, level.instance);
+                            if !decided.is_empty() {
+                                pass.decided = pass.decided.within(&decided);
+                            }
                         }
-                    }
+                        pass
+                    };
+                    let pass = self.made(reader, level, (pass, view, number), &decided, |_, _| true, whole);
                     self.flat.passes.push(pass);
                 }
                 Item::Use(fields) if reader.errors.len() == before => {

@@ -1,6 +1,7 @@
 //! A whole pipeline is evaluated: views, then all entries, then its policies and outputs.
 
 use super::evaluation::{Evaluation, Level, Purpose};
+use super::memory::Memory;
 use super::{circles, previous};
 use crate::frame::ViewIndex;
 use crate::language::entries::pipeline::Entries;
@@ -11,15 +12,18 @@ use crate::language::scope::DecidedValue;
 use crate::ron::Reader;
 use std::collections::HashSet;
 
-/// Evaluates a pipeline for values of its settings. `None` if errors were reported, and for a check.
+/// Evaluates a pipeline for values of its settings. `None` if errors were reported, and for a check. `memory` is of earlier evaluations
+/// of these same entries.
 pub(crate) fn evaluate<'a>(
     reader: &mut Reader,
     entries: &'a Entries,
     values: Vec<Option<DecidedValue>>,
     surroundings: &'a Surroundings<'a>,
     purpose: Purpose,
+    memory: Option<&'a mut Memory>,
 ) -> Option<Pipeline> {
     let mut all = Evaluation::new(purpose, surroundings, &entries.fragments);
+    all.memory = memory;
     let mut level = Level::top(&entries.body, values);
     let mut evaluator = all.evaluator(reader, &level, ViewIndex::default(), None);
     let views = Views::new(&entries.views, surroundings, &mut evaluator);
@@ -33,6 +37,7 @@ pub(crate) fn evaluate<'a>(
     let depth_format = evaluator.put_in(&entries.depth_format);
     let outputs = entries.outputs.as_ref().and_then(|outputs| evaluator.outputs(outputs));
     let flat = std::mem::take(&mut all.flat);
+    all.memory.iter_mut().for_each(|memory| memory.end());
     if purpose == Purpose::Check {
         all.unused(reader);
     }

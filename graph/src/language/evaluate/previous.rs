@@ -2,7 +2,7 @@
 
 use crate::base::Diagnostic;
 use crate::frame::Resource;
-use crate::language::model::{Buffer, Groups, Image, Lifetime, Part, Pass, ResourceRef, Work};
+use crate::language::model::{Buffer, Image, Lifetime, Pass, ResourceRef, Use};
 use crate::ron::{Name, Spanned};
 use std::sync::Arc;
 
@@ -14,36 +14,16 @@ pub(crate) fn check(
     errors: &mut Vec<Diagnostic>,
 ) {
     for pass in passes.iter().flatten() {
-        for part in read(pass) {
-            if let Some(previous) = part.previous() {
+        for (part, of) in pass.parts().filter(|(_, of)| of.is_access()) {
+            let Some(previous) = part.previous() else { continue };
+            if of == Use::TransferWrite {
+                let message = "what an earlier frame left can't be written";
+                errors.push(Diagnostic::new(previous.span, message).help("remove `previous`: it is for reading"));
+            } else {
                 kept(images, buffers, part.resource(), previous, errors);
             }
         }
-        // Targets have no field `previous`.
-        for part in pass.work.transferred() {
-            if let Some(previous) = part.previous() {
-                let message = "what an earlier frame left can't be written";
-                errors.push(Diagnostic::new(previous.span, message).help("remove `previous`: it is for reading"));
-            }
-        }
     }
-}
-
-/// Parts that a pass reads, as far as the file alone says.
-fn read(pass: &Pass) -> impl Iterator<Item = Part> {
-    let (one, several): (Option<Part>, &[Part]) = match &pass.work {
-        Work::Draw { counts, .. } => (counts.map(Part::Buffer), &[]),
-        Work::Dispatch { groups: Spanned { value: Groups::Indirect { buffer, .. }, .. }, .. } => {
-            (Some(Part::Buffer(*buffer)), &[])
-        }
-        Work::Copy { from, .. } | Work::Blit { from, .. } => (Some(*from), &[]),
-        Work::Custom { reads, .. } => (None, reads),
-        Work::Dispatch { .. } | Work::Fill { .. } => (None, &[]),
-    };
-    let sampled = pass.sample.iter().map(|sample| Part::Image(sample.part));
-    let stored = pass.storage.iter().map(|storage| storage.part);
-    let buffers = pass.uniform.iter().map(|uniform| uniform.part).chain(pass.vertex).chain(pass.index);
-    sampled.chain(stored).chain(buffers.map(Part::Buffer)).chain(one).chain(several.iter().copied())
 }
 
 fn kept(

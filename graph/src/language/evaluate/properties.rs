@@ -2,10 +2,11 @@
 
 use crate::base::Diagnostic;
 use crate::language::model::{Image, ImageRef, ImageShape, Layers, Mips, Samples, Size, area};
-use crate::language::scope::Properties;
+use crate::language::scope::{Properties, ScopeValues};
 
-/// Properties of an image that is evaluated after those whose properties are `known`. `frame` is the size of the frame.
-pub(crate) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -> Result<Properties, Diagnostic> {
+/// Properties of an image that is evaluated in `scope`.
+pub(crate) fn of(image: &Image, scope: &ScopeValues<'_>) -> Result<Properties, Diagnostic> {
+    let (known, frame) = (scope.properties.unwrap_or_default(), scope.surroundings.extent);
     let followed = |of: &ImageRef| known.get(of.index.0 as usize).copied().flatten().unwrap_or_default();
     let follows = match &image.size.value {
         Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => followed(of).area,

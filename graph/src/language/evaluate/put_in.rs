@@ -101,7 +101,7 @@ impl<'a> Evaluation<'a> {
     fn written_since(&self, start: usize, arguments: &[(Resource, Span)]) -> Vec<Part> {
         let mut written = std::collections::HashSet::new();
         for pass in self.flat.passes.iter().skip(start).flatten() {
-            written.extend(pass.written());
+            written.extend(pass.parts().filter(|(_, of)| of.writes()).map(|(part, _)| part.resource().resource));
         }
         let parts = arguments.iter().filter(|(resource, _)| written.contains(resource));
         parts

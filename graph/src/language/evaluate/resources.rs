@@ -2,9 +2,10 @@
 
 use super::evaluation::{Count, Evaluation, Level};
 use super::properties;
-use crate::language::model::{Buffer, Image};
-use crate::language::scope::{Elements, FieldValueTuple};
+use crate::language::model::{Buffer, Image, PassDecisions};
+use crate::language::scope::{Elements, Evaluator, FieldValueTuple, ScopeValues};
 use crate::ron::Reader;
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -69,28 +70,32 @@ impl<'a> Evaluation<'a> {
         let view = entry.map_or(Some(level.view), |entry| entry.view(reader, level.view));
         let mut right = view.is_some();
         let view = view.unwrap_or_default();
+        let repeat = level.repeats.binary_search_by_key(&at, |(at, _)| *at).map(|found| level.repeats[found].1.clone());
+        let decided = PassDecisions { repeat: repeat.unwrap_or_default(), ..PassDecisions::default() };
         for number in 0..count {
             let before = reader.errors.len();
             let number = level.body.symbols.image_lists[at].then_some(number);
-            let image = entry.filter(|_| right).and_then(|entry| {
-                let image = entry.value.get(reader)?;
-                let mut evaluator = self.evaluator(reader, level, view, number);
-                let image = image.evaluate(&mut evaluator)?;
-                let known = properties::of(&image, &self.flat.properties, evaluator.scope.surroundings.extent);
-                let known = known.map_err(|wrong| evaluator.fault(wrong)).ok();
-                Some((image, known))
-            });
-            let (mut image, known) = image.unzip();
-            let as_said = |image: &Arc<Image>| image.view == view && level.has_own_names(number);
-            if let Some(image) = image.as_mut().filter(|image| !as_said(image)) {
-                let image = Arc::make_mut(image);
-                image.name = level.full(&image.name, number);
-                (image.view, image.instance) = (view, level.instance);
-                if let Ok(found) = level.repeats.binary_search_by_key(&at, |(at, _)| *at) {
-                    image.repeat = level.repeats[found].1.clone();
+            // Mistakes in its size are told by its own name, so these are found before it has the whole one.
+            let known = Cell::new(None);
+            let whole = |mut image: Arc<Image>, evaluator: &mut Evaluator<'_, '_>| {
+                known.set(properties::of(&image, &evaluator.scope).map_err(|wrong| evaluator.fault(wrong)).ok());
+                if image.view != view || !level.has_own_names(number) {
+                    let image = Arc::make_mut(&mut image);
+                    image.name = level.full(&image.name, number);
+                    (image.view, image.instance) = (view, level.instance);
+                    image.repeat = decided.repeat.clone();
                 }
-            }
-            self.flat.properties.push(known.flatten());
+                image
+            };
+            let fits = |image: &Image, scope: &ScopeValues<'_>| {
+                known.set(properties::of(image, scope).ok());
+                known.get().is_some()
+            };
+            let image = entry.filter(|_| right).and_then(|entry| {
+                let entry = entry.value.get(reader)?;
+                self.made(reader, level, (entry, view, number), &decided, fits, whole)
+            });
+            self.flat.properties.push(known.get());
             self.flat.images.push(image);
             // The other elements have the same mistake.
             right = reader.errors.len() == before;

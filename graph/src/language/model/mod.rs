@@ -3,6 +3,7 @@
 mod area;
 mod choices;
 mod decided;
+mod named;
 mod part;
 mod pass;
 mod pipeline;
@@ -15,6 +16,7 @@ pub(crate) use area::{Area, LARGEST_SIZE, area, times};
 pub use choices::{Choice, ChosenBy, InForce, Preset, SettingsFile};
 pub(crate) use choices::{in_force, unknown_preset};
 pub use decided::{Decided, Decisions};
+pub(crate) use named::{PartRef, Use};
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub use pass::{
     Color, Depth, Face, Forward, Groups, LeftOut, Off, Param, Pass, PassDecisions, Sample, StandIn, Storage,

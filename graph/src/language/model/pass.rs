@@ -5,7 +5,7 @@ use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
 use crate::base::Span;
-use crate::frame::{Blend, Draw, ParamValue, Resource, StencilState, ViewIndex};
+use crate::frame::{Blend, Draw, ParamValue, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::{AddressMode, CompareOp, Filter};
 use std::sync::Arc;
@@ -367,12 +367,42 @@ impl StandIn {
 }
 
 impl Work {
+    /// Parts that it reads by transfer.
+    pub(crate) const fn transfer_reads(&self) -> &[Part] {
+        match self {
+            Work::Copy { from, .. } | Work::Blit { from, .. } => std::slice::from_ref(from),
+            Work::Custom { reads, .. } => reads.as_slice(),
+            Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => &[],
+        }
+    }
+
     /// Parts that it writes by transfer.
-    pub(crate) const fn transferred(&self) -> &[Part] {
+    pub(crate) const fn transfer_writes(&self) -> &[Part] {
         match self {
             Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
             Work::Custom { writes, .. } => writes.as_slice(),
             Work::Draw { .. } | Work::Dispatch { .. } => &[],
+        }
+    }
+
+    /// The image that workgroups are counted by.
+    pub(super) const fn measured(&self) -> Option<&ImagePart> {
+        match self {
+            Work::Dispatch { groups, .. } => match &groups.value {
+                Groups::Texels(image) => Some(image),
+                Groups::Count(_) | Groups::Invocations(_) | Groups::Indirect { .. } => None,
+            },
+            Work::Draw { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
+        }
+    }
+
+    /// The parts of transfers, to be changed.
+    pub(super) fn transfers_mut(&mut self) -> Vec<&mut Part> {
+        match self {
+            Work::Copy { from, to } | Work::Blit { from, to, .. } => vec![from, to],
+            Work::Fill { to, .. } => vec![to],
+            Work::Custom { reads, writes, .. } => reads.iter_mut().chain(writes).collect(),
+            Work::Draw { .. } | Work::Dispatch { .. } => Vec::new(),
         }
     }
 }
@@ -402,14 +432,6 @@ impl Pass {
             view: ViewIndex::default(),
             instance: None,
         }
-    }
-
-    /// Images and buffers that it may write.
-    pub(crate) fn written(&self) -> impl Iterator<Item = Resource> {
-        let targets = self.color.iter().map(|color| color.part).chain(self.depth.as_ref().map(|depth| depth.part));
-        let storage = self.storage.iter().map(|storage| storage.part);
-        let parts = targets.map(Part::Image).chain(storage).chain(self.work.transferred().iter().copied());
-        parts.map(|part| part.resource().resource)
     }
 
     /// The name of its shader, or of the embedding program's callback; copies, blits and fills have none.

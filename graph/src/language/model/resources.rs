@@ -4,7 +4,7 @@ use super::decided::{Decided, Decisions};
 use super::references::{BufferRef, ImageRef, ResourceRef};
 use crate::base::Span;
 use crate::expression::Property;
-use crate::frame::{EyeForm, ResolveWay, TextureFile, ViewIndex};
+use crate::frame::{EyeForm, ResolveWay, Resource, TextureFile, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::{self, AccessKind};
 use std::sync::Arc;
@@ -43,6 +43,17 @@ pub struct Image {
 }
 
 impl Image {
+    /// The images that it follows in something.
+    pub(crate) fn followed(&self) -> impl Iterator<Item = ImageRef> {
+        let lifetime = match self.lifetime.value {
+            Lifetime::Like(ResourceRef { resource: Resource::Image(index), span }) => Some(ImageRef { index, span }),
+            _ => None,
+        };
+        let (format, size, samples) = (&self.format.value, &self.size.value, &self.samples.value);
+        let properties = [format.follows(), size.follows(), samples.follows(), lifetime];
+        properties.into_iter().chain([self.mips.value.follows(), self.layers.value.follows()]).flatten()
+    }
+
     /// The decisions about a property, and the image that it follows in it, if it follows one.
     pub(crate) const fn decided(&self, property: Property) -> (&Decisions, Option<ImageRef>) {
         match property {

@@ -1,5 +1,6 @@
 //! Where the values of entries are found at a lowering.
 
+use super::asked::{Answers, Asked};
 use super::field_value::FieldValueTuple;
 use super::level::{DecidedValue, Elements, LevelValues, Properties};
 use super::lookup::Declared;
@@ -28,6 +29,8 @@ pub(crate) struct ScopeValues<'a> {
     pub(crate) index: Option<u32>,
     /// The view that the entry is for, unless it is the main one.
     pub(crate) view: Option<&'a Name>,
+    /// Where what is asked for is noted, if anywhere.
+    pub(crate) answers: Option<&'a Answers>,
 }
 
 impl<'a> ScopeValues<'a> {
@@ -36,7 +39,30 @@ impl<'a> ScopeValues<'a> {
         if self.symbols.settings {
             self.surroundings.note(Read::Setting(at));
         }
-        self.values.get(at)?.as_ref()
+        let value = self.values.get(at).and_then(Option::as_ref);
+        self.note(|| Asked::Parameter(at, value.cloned()));
+        value
+    }
+
+    /// The images of a declaration of this level.
+    pub(super) fn images_of(&self, at: usize) -> Option<Elements> {
+        let elements = self.level.images.get(at).copied();
+        self.note(|| Asked::Images(at, elements));
+        elements
+    }
+
+    /// The buffers of a declaration of this level.
+    pub(super) fn buffers_of(&self, at: usize) -> Option<Elements> {
+        let elements = self.level.buffers.get(at).copied();
+        self.note(|| Asked::Buffers(at, elements));
+        elements
+    }
+
+    /// Notes a question and its answer.
+    pub(super) fn note(&self, asked: impl FnOnce() -> Asked) {
+        if let Some(answers) = self.answers {
+            answers.borrow_mut().push(asked());
+        }
     }
 }
 
@@ -111,13 +137,13 @@ impl<'e, 'a> Evaluator<'e, 'a> {
 
     /// The image or buffer that a declaration of this level stands for.
     pub(super) fn declared(&self, declared: Declared) -> Option<Resource> {
-        let one = |block: Option<&Elements>| match block {
-            Some(Elements::At { first, .. }) => Some(*first),
+        let one = |elements: Option<Elements>| match elements {
+            Some(Elements::At { first, .. }) => Some(first),
             _ => None,
         };
         match declared {
-            Declared::Image(at) => one(self.scope.level.images.get(at)).map(|at| Resource::Image(ImageIndex(at))),
-            Declared::Buffer(at) => one(self.scope.level.buffers.get(at)).map(|at| Resource::Buffer(BufferIndex(at))),
+            Declared::Image(at) => one(self.scope.images_of(at)).map(|at| Resource::Image(ImageIndex(at))),
+            Declared::Buffer(at) => one(self.scope.buffers_of(at)).map(|at| Resource::Buffer(BufferIndex(at))),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The names in expressions at one level: their declarations and values.
 
+use super::asked::Asked;
 use super::evaluator::ScopeValues;
 use super::level::Elements;
 use super::lookup::Scope;
@@ -97,11 +98,11 @@ impl Declarations for Scope<'_> {
 impl ScopeValues<'_> {
     fn block(&self, id: u32) -> Result<(u32, u32), Missing> {
         let (kind, at) = split(id);
-        let (blocks, names) = match kind {
-            IMAGE => (&self.level.images, &self.symbols.images),
-            _ => (&self.level.buffers, &self.symbols.buffers),
+        let (elements, names) = match kind {
+            IMAGE => (self.images_of(at), &self.symbols.images),
+            _ => (self.buffers_of(at), &self.symbols.buffers),
         };
-        match blocks.get(at).copied() {
+        match elements {
             Some(Elements::At { first, count }) => Ok((first, count)),
             Some(Elements::Below) => Err(Missing::Below(names.span(at))),
             Some(Elements::Failed) | None => Err(Missing::Reported),
@@ -126,7 +127,11 @@ impl Values for ScopeValues<'_> {
                 None => Err(Missing::Reported),
             },
             INDEX => self.index.map(|at| Value::Integer(at.into())).ok_or(Missing::Reported),
-            SURROUNDINGS => self.surroundings.value(id & !KIND).ok_or(Missing::Reported),
+            SURROUNDINGS => {
+                let value = self.surroundings.value(id & !KIND);
+                self.note(|| Asked::Surroundings(id & !KIND, value.clone()));
+                value.ok_or(Missing::Reported)
+            }
             _ => self.block(id).map(|(first, _)| thing(id, first)),
         }
     }
@@ -142,19 +147,9 @@ impl Values for ScopeValues<'_> {
     }
 
     fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
-        let Some(properties) = self.properties else { return Err(Missing::Reported) };
-        let at = image.0 as usize;
-        let below = || Missing::Below(self.symbols.images.span(self.declaration(image)));
-        let Some(known) = properties.get(at) else { return Err(below()) };
-        let Some(known) = known else { return Err(Missing::Reported) };
-        let value = match property {
-            Property::Width => known.area.map(|area| area.extent[0]),
-            Property::Height => known.area.map(|area| area.extent[1]),
-            Property::Mips => known.mips,
-            Property::Layers => known.layers,
-            Property::Samples => known.samples,
-        };
-        value.map(i64::from).ok_or_else(below)
+        let value = self.known_property(image, property);
+        self.note(|| Asked::Property(image, property, value, self.property_decided_by(image, property).to_vec()));
+        value
     }
 
     fn property_decided_by(&self, image: ImageIndex, property: Property) -> &[Decision] {
@@ -180,6 +175,23 @@ impl Values for ScopeValues<'_> {
 }
 
 impl ScopeValues<'_> {
+    /// A property of an image that was evaluated.
+    pub(super) fn known_property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
+        let Some(properties) = self.properties else { return Err(Missing::Reported) };
+        let at = image.0 as usize;
+        let below = || Missing::Below(self.symbols.images.span(self.declaration(image)));
+        let Some(known) = properties.get(at) else { return Err(below()) };
+        let Some(known) = known else { return Err(Missing::Reported) };
+        let value = match property {
+            Property::Width => known.area.map(|area| area.extent[0]),
+            Property::Height => known.area.map(|area| area.extent[1]),
+            Property::Mips => known.mips,
+            Property::Layers => known.layers,
+            Property::Samples => known.samples,
+        };
+        value.map(i64::from).ok_or_else(below)
+    }
+
     /// The declaration of this level that an image comes from; an index beyond all for an image from elsewhere.
     fn declaration(&self, image: ImageIndex) -> usize {
         let within = |block: &Elements| matches!(block, Elements::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));

@@ -4,7 +4,7 @@ use crate::expression::{Decision, Value};
 use crate::language::model::Area;
 
 /// The value of a setting or parameter, and the decisions behind it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DecidedValue {
     pub(crate) value: Value,
     /// The decisions that the argument of a parameter read; empty for a setting, which decides by itself.

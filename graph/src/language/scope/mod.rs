@@ -3,6 +3,7 @@
 //! A [`Context`] reads a value of an entry, as [`FieldValue`]: expressions are parsed, their names found and their types checked.
 //! An [`Evaluator`] finds it at a lowering.
 
+mod asked;
 mod context;
 mod evaluator;
 mod expressions;
@@ -13,6 +14,7 @@ mod parameter;
 mod references;
 mod symbols;
 
+pub(crate) use asked::{Answers, Asked};
 pub(crate) use context::{Context, Quoted, decided};
 pub(crate) use evaluator::{Evaluator, ScopeValues, joined, within_view};
 pub(crate) use field_value::{FieldValue, FieldValueTuple, IfRead, Kept, all, combined, reported};
