@@ -1,8 +1,8 @@
 //! The settings and facts that decided what images and passes are like, for the readers of a Plan.
 
-use super::follow::follow_all;
-use super::images::index;
-use super::state::State;
+use super::passes::State;
+use super::resources::follow::follow_all;
+use super::resources::images::index;
 use crate::expression::{Decision, Origin};
 use crate::frame::{Access, Decided, DecidedBy, ImageIndex, NamedValue, Output, Property, Resource, Subject};
 use crate::language::{Decisions, Image, ImageRef, PassDecisions, Pipeline};

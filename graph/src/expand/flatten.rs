@@ -1,15 +1,13 @@
 //! A pipeline becomes a frame, stage by stage.
 
-use super::accesses::CutImages;
+use super::contents::accesses::CutImages;
+use super::contents::{history, order, padding, stored};
 use super::inputs::{Inputs, check_extent, surroundings};
-use super::instances::used_here;
+use super::mistakes::{Reported, used_here};
 use super::outputs::outputs;
+use super::passes::{State, casters, depth_only, targets, views};
 use super::resources::Resources;
-use super::state::State;
-use super::{
-    casters, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, stored,
-    targets, views,
-};
+use super::{decided, eyes, passes, precision, settings, shader};
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Remark, Stereo, SwitchedOff, View};
 use crate::language::{self, Document, Read, Reads};
@@ -82,7 +80,7 @@ fn expand_so(
     let stereo = inputs.stereo;
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
-    let mut reported = once::Reported::default();
+    let mut reported = Reported::default();
     let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
     reported.each_once(&mut errors, 0);
 

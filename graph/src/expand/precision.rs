@@ -4,8 +4,8 @@
 //! storage image, or is copied to or from buffers or by custom passes has the usual format: others may rely on it. Images
 //! that follow each other, or are copied texel for texel, have one format. Colour keeps its alpha, unless its format has none.
 
+use super::passes::State;
 use super::resources::Resources;
-use super::state::State;
 use crate::base::Span;
 use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, NoteKind, Output, Pass, Remark, Resource};
 use crate::language::{self, Format as Described, Precision, Precisions};

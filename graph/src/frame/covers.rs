@@ -1,5 +1,5 @@
 //! Which draws keep the contents of their targets, and which replace every texel, so that earlier contents don't matter. All that
-//! depends on it asks here: `expand/coverage.rs` finds out what a shader may leave as it was.
+//! depends on it asks here: `expand/shader/coverage.rs` finds out what a shader may leave as it was.
 
 use super::{Blend, ColorTarget, DepthTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, StencilState, Work};
 use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};

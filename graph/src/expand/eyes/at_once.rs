@@ -3,7 +3,7 @@
 //! Only draws, fills and copies of whole images work for both eyes at once. An image that other work makes, or reads
 //! otherwise than by sampling, is there for each eye; so is every image that is drawn from such an image, or beside it.
 
-use super::For;
+use super::split::For;
 use crate::frame::{EyeForm, ImageIndex, Stereo};
 use crate::language::{
     Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
