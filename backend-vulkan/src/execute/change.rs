@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedStep, Refuse, check};
+use crate::prepare::{PreparedStep, Refusals, check};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ impl Executor {
         if let Some(what) = self.plan.differs_beyond_values(plan) {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
-        check(&self.gpu, plan, Refuse::Violations, self.poisons())?;
+        check(&self.gpu, plan, Refusals::Violations, self.poisons())?;
         let pipelines = self.changed_pipelines(plan)?;
         let changed = self.changed_params(plan)?;
         if !changed.is_empty() {

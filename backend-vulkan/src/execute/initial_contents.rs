@@ -8,7 +8,7 @@ use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
 use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
 use ash::vk;
-use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role};
+use framewright_graph::plan::{self, BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
@@ -23,8 +23,8 @@ pub(crate) fn initialise(
     staged: &[StagedTexture],
 ) -> Result<(), Error> {
     let initial = |role: &Role, is_foreign: bool| match role {
-        Role::Persistent { before, initial: Initial::Value(value), .. } => Some((*before, Some(*value))),
-        Role::Persistent { before, initial: Initial::File(_), .. } => Some((*before, None)),
+        Role::Persistent { before, initial: FirstContents::Value(value), .. } => Some((*before, Some(*value))),
+        Role::Persistent { before, initial: FirstContents::File(_), .. } => Some((*before, None)),
         Role::External { before, .. } if !is_foreign => Some((*before, Some(FillValue::Bits([0; 4])))),
         Role::Transient(_) | Role::External { .. } => None,
     };

@@ -26,7 +26,7 @@ pub fn optional_features() -> impl Iterator<Item = (&'static str, &'static str)>
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
 
 /// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
-type Optional = (&'static str, &'static str, Flag);
+type OptionalFeature = (&'static str, &'static str, Flag);
 
 /// The minimum device, feature by feature: Vulkan's name, the flag. All of these are switched on.
 const MINIMUM_FEATURES: [(&str, Flag); 12] = [
@@ -56,7 +56,7 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 ];
 
 /// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
-const OPTIONAL_FEATURES: [Optional; 4] = [
+const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
@@ -64,7 +64,7 @@ const OPTIONAL_FEATURES: [Optional; 4] = [
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [Optional; 9] = [
+const NEEDED_FEATURES: [OptionalFeature; 9] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",

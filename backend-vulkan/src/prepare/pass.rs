@@ -5,7 +5,7 @@ use super::command_list::{
 };
 use super::frame::Frame;
 use super::pass_set::PassSets;
-use super::supplied::SuppliedSets;
+use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};

@@ -26,7 +26,7 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     interrupt::watch();
     let helper = helper::of(&arguments.pipeline)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
-    let (publish, shown) = watch::channel(serving::Published::default());
+    let (publish, shown) = watch::channel(serving::PublishedState::default());
     let (send, choices) = mpsc::channel();
     let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
     let device = device::open(choice, false, &helper)?;

@@ -7,12 +7,12 @@ use std::panic::Location;
 
 /// Mistakes that were reported already, by place and check, each with the number of the item that it was reported for.
 #[derive(Default)]
-pub(super) struct Reported {
+pub(super) struct ReportedMistakes {
     by: HashMap<(Span, Option<&'static Location<'static>>), u32>,
     next: u32,
 }
 
-impl Reported {
+impl ReportedMistakes {
     /// Removes repeated mistakes of one image, buffer or pass, which stand in `errors` from `start` on: those that another item
     /// of the same declaration has. The same check found them at the same place.
     pub(super) fn once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
@@ -27,7 +27,7 @@ impl Reported {
         }));
     }
 
-    /// Removes repeated mistakes as [`Reported::once`] does, where each mistake belongs to another image, buffer or pass.
+    /// Removes repeated mistakes as [`ReportedMistakes::once`] does, where each mistake belongs to another image, buffer or pass.
     pub(super) fn each_once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         let new: Vec<Diagnostic> = errors.drain(start..).collect();
         for error in new {

@@ -1,12 +1,13 @@
 //! Settings, facts, the view and the device are put in: a pipeline becomes one flat frame.
 //!
 //! ```text
-//! Document ─► settings ─► Document::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
+//! inputs, settings ─► eyes ─► resources ─► shader, passes ─► outputs ─► contents ─► decisions, precision ─► Frame
 //! ```
+//! `flatten` runs the stages; no folder uses a later one.
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
 mod contents;
-mod decided;
+mod decisions;
 mod eyes;
 mod flatten;
 mod inputs;
@@ -18,6 +19,6 @@ mod resources;
 mod settings;
 mod shader;
 
-pub use flatten::{expand, expand_reading};
-pub use inputs::{Inputs, check_inputs};
+pub use flatten::{check_inputs, expand, expand_reading};
+pub use inputs::Inputs;
 pub use settings::canonical_value;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// An image that a pass samples.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sampled {
+pub struct SampledImage {
     /// The name by which the shader knows it; of an element of an array its name and number, `taps[0]`.
     pub binding: Arc<str>,
     /// Which image.
@@ -37,11 +37,11 @@ pub struct Sampled {
     pub stages: Stages,
 }
 
-impl Sampled {
+impl SampledImage {
     /// All of an image of this frame, sampled by its nearest texels, one value each; no file names it.
     #[must_use]
-    pub fn new(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> Sampled {
-        Sampled {
+    pub fn new(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> SampledImage {
+        SampledImage {
             binding: binding.into(),
             image,
             range: Subresources::WHOLE,

@@ -147,13 +147,13 @@ fn dump_all(drawing: Drawing<'_>, folder: &Path, read: &ReadFiles) -> Result<(),
         });
         Ok(())
     })?;
-    let list = text::json(&Dumped { format_version: 1, images: list })?;
+    let list = text::json(&DumpList { format_version: 1, images: list })?;
     outputs::write(&[(&folder.join("images.json"), list.as_bytes())], read)
 }
 
 /// The list of images that were dumped.
 #[derive(Serialize)]
-struct Dumped {
+struct DumpList {
     format_version: u32,
     images: Vec<DumpedImage>,
 }

@@ -3,7 +3,7 @@
 use crate::base::Span;
 use crate::expand::resources::Resources;
 use crate::frame::check::contents::Contents;
-use crate::frame::tracked::{self, Grids, Parts};
+use crate::frame::tracked_parts::{self, Grids, Parts};
 use crate::frame::{Access, BufferIndex, Effect, Image, ImageIndex, Pass, Resource};
 use crate::vulkan::{Format, Subresources};
 
@@ -64,7 +64,7 @@ pub(super) fn for_each_use(resources: &Resources<'_>, pass: &Pass, mut see: impl
             continue;
         }
         access.for_each_effect(pass, image, |Effect { range, reads, writes }| {
-            let part = tracked::part_of(image, range);
+            let part = tracked_parts::part_of(image, range);
             see(Use { resource, part, span, attaches, reads, writes: writes || attaches });
         });
     }

@@ -7,8 +7,8 @@ use crate::base::{Diagnostic, Span, keep};
 use crate::expand::mistakes;
 use crate::expand::passes::State;
 use crate::expand::resources::Resources;
-use crate::frame::check::contents::{Demand, Unwritten};
-use crate::frame::tracked::Parts;
+use crate::frame::check::contents::{Demand, MissingContents};
+use crate::frame::tracked_parts::Parts;
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
 use crate::vulkan::{Aspects, Subresources};
@@ -77,7 +77,7 @@ pub(in crate::expand) fn check(
                             StandIn::Forward(forward) => forward.from.span,
                             StandIn::Clear { .. } => found.span,
                         };
-                        check.needs(position, &Unwritten { span, ..found }, Reader::StandIn(name));
+                        check.needs(position, &MissingContents { span, ..found }, Reader::StandIn(name));
                     }
                 }
             }
@@ -98,7 +98,7 @@ pub(in crate::expand) fn check(
 }
 
 impl Check<'_> {
-    fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: Reader<'_>) {
+    fn unwritten(&mut self, position: usize, pass: &Pass, found: &MissingContents, reader: Reader<'_>) {
         match found.demand {
             Demand::Color | Demand::Depth => self.continues(position, pass, found),
             Demand::Read | Demand::Earlier | Demand::Output => self.needs(position, found, reader),
@@ -106,8 +106,8 @@ impl Check<'_> {
     }
 
     /// `reader` reads a part that nothing has written.
-    fn needs(&mut self, position: usize, found: &Unwritten, reader: Reader<'_>) {
-        let Unwritten { of, span, .. } = *found;
+    fn needs(&mut self, position: usize, found: &MissingContents, reader: Reader<'_>) {
+        let MissingContents { of, span, .. } = *found;
         let what = self.words(found);
         let declared = self.resources.name(of);
         let name = &declared.text;
@@ -160,8 +160,8 @@ impl Check<'_> {
     }
 
     /// A read that stands before the first write.
-    fn too_early(&self, position: usize, found: &Unwritten, what: &str, writer: Writer) -> Diagnostic {
-        let Unwritten { of, span, needed, .. } = *found;
+    fn too_early(&self, position: usize, found: &MissingContents, what: &str, writer: Writer) -> Diagnostic {
+        let MissingContents { of, span, needed, .. } = *found;
         let wrong = Diagnostic::new(span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
             let mut help = "a pass reads what stood there before the pass".to_owned();
@@ -212,8 +212,8 @@ impl Check<'_> {
     }
 
     /// A draw is added to a target of which nothing has written a part.
-    fn continues(&mut self, position: usize, pass: &Pass, found: &Unwritten) {
-        let Unwritten { of, span, needed, missing, .. } = *found;
+    fn continues(&mut self, position: usize, pass: &Pass, found: &MissingContents) {
+        let MissingContents { of, span, needed, missing, .. } = *found;
         let what = self.words(found);
         let name = &self.resources.name(of).text;
         // Shaders choose no layer, so draws land in the first.
@@ -259,8 +259,8 @@ impl Check<'_> {
     }
 
     /// "`color`", or "mip level 2 of `color`" where only a part is missing.
-    fn words(&self, found: &Unwritten) -> String {
-        let Unwritten { of, needed, missing, is_blank, .. } = *found;
+    fn words(&self, found: &MissingContents) -> String {
+        let MissingContents { of, needed, missing, is_blank, .. } = *found;
         let (name, whole) = (&self.resources.name(of).text, self.parts.part(of, Subresources::WHOLE));
         if is_blank && needed == whole {
             return format!("`{name}`");

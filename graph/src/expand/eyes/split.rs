@@ -2,31 +2,21 @@
 //!
 //! A pass that draws into such an image runs once for each eye, and reads and writes the images of that eye. All other passes
 //! run once. An impossible mixture is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one.
-//! In modes that draw both eyes at once, images hold both eyes' parts where they can, and passes run once for both (`at_once`).
+//! In modes that draw both eyes at once, images hold both eyes' parts where they can, and passes run once for both (`separate_images`).
 
-use super::at_once::Apart;
+use super::pass_eyes::{PassEyes, foreign_eyes, handed_on_once, whose};
+use super::separate_images::SeparateImages;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{
     Allowances, Draw, Eye, EyeForm, ImageIndex, NoteKind, Remark, Resource, Stereo, ViewEye, ViewIndex,
 };
 use crate::language::{
-    self, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
+    self, Forward, Image, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, View, Work,
 };
 use crate::ron::{Name, Spanned};
 use std::collections::HashSet;
 use std::iter::successors;
 use std::sync::Arc;
-
-/// The eyes that a pass runs for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum For {
-    /// Once, for neither eye or for both together.
-    Both,
-    /// For one eye.
-    One(Eye),
-    /// For each eye by itself.
-    Each,
-}
 
 /// The places of both eyes' images.
 struct Images {
@@ -70,12 +60,12 @@ pub(in crate::expand) fn split(
         }));
         found
     };
-    let whose: Vec<For> = pipeline.passes.iter().map(&mut of_pass).collect();
+    let whose: Vec<PassEyes> = pipeline.passes.iter().map(&mut of_pass).collect();
     let mut remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
     if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
         return (pipeline, remarks);
     }
-    let apart = form.map(|form| Apart::of(&pipeline, &own, &whose, stereo, form));
+    let apart = form.map(|form| SeparateImages::of(&pipeline, &own, &whose, stereo, form));
     remarks.extend(apart.iter().flat_map(|apart| images_apart(apart, &pipeline)));
     let at_once = |pass: &Arc<Pass>| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, stereo));
     let at_once: Vec<bool> = pipeline.passes.iter().map(at_once).collect();
@@ -90,9 +80,9 @@ pub(in crate::expand) fn split(
         .flat_map(|(pass, whose)| {
             let of_eye = |eye, twice| Arc::new(of_eye(&images, &views, Pass::clone(&pass), eye, twice));
             match whose {
-                (For::Each, true) | (For::Both, _) => vec![of_eye(None, false)],
-                (For::One(eye), _) => vec![of_eye(Some(eye), false)],
-                (For::Each, false) => Eye::BOTH.map(|eye| of_eye(Some(eye), true)).into(),
+                (PassEyes::Each, true) | (PassEyes::Both, _) => vec![of_eye(None, false)],
+                (PassEyes::One(eye), _) => vec![of_eye(Some(eye), false)],
+                (PassEyes::Each, false) => Eye::BOTH.map(|eye| of_eye(Some(eye), true)).into(),
             }
         })
         .collect();
@@ -102,7 +92,7 @@ pub(in crate::expand) fn split(
 }
 
 /// Images that are one for each eye where both are drawn at once, and why.
-fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
+fn images_apart(apart: &SeparateImages, pipeline: &Pipeline) -> Vec<Remark> {
     let images = pipeline.images.iter().enumerate();
     let remark = |(at, image): (usize, &Arc<Image>)| {
         let why = apart.why(at)?;
@@ -114,13 +104,13 @@ fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
 
 /// Remarks on passes that draw a camera's picture into an image that both eyes share, where passes for each eye look it up:
 /// this is allowed, but neither eye then sees the scene from its own position.
-fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
+fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[PassEyes]) -> Vec<Remark> {
     if !own.contains(&true) {
         return Vec::new();
     }
     let passes = || pipeline.passes.iter().zip(whose).filter(|(pass, _)| pass.off.is_none());
     let read: HashSet<ImageIndex> = passes()
-        .filter(|(_, whose)| **whose != For::Both)
+        .filter(|(_, whose)| **whose != PassEyes::Both)
         .flat_map(|(pass, _)| pass.sample.iter().map(|sample| sample.part.image.index))
         .collect();
     let sees = |pass: &Pass| pass.work.draws(Draw::shows_scene);
@@ -132,7 +122,10 @@ fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
         );
         Some(Remark { kind: NoteKind::SharedByEyes, subject: pass.name.text.clone(), span: shared.span, text })
     };
-    passes().filter(|(pass, whose)| **whose == For::Both && sees(pass)).filter_map(|(pass, _)| remark(pass)).collect()
+    passes()
+        .filter(|(pass, whose)| **whose == PassEyes::Both && sees(pass))
+        .filter_map(|(pass, _)| remark(pass))
+        .collect()
 }
 
 /// By image, whether each eye has its own: as the file says, or as the image whose size it follows.
@@ -158,38 +151,7 @@ fn own(pipeline: &Pipeline) -> Vec<bool> {
     known.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// Shows every part of an image that a pass names, and whether the pass writes it.
-fn visit<'p>(pass: &'p Pass, see: &mut dyn FnMut(&'p ImagePart, bool)) {
-    let left_out = pass.left_out.iter().filter_map(|left_out| left_out.sample.as_ref());
-    pass.sample.iter().chain(left_out).for_each(|sample| see(&sample.part, false));
-    for storage in &pass.storage {
-        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-        of_part(&storage.part, !reads, see);
-    }
-    pass.color.iter().for_each(|color| see(&color.part, true));
-    pass.depth.iter().for_each(|depth| see(&depth.part, true));
-    match &pass.work {
-        Work::Copy { from, to } | Work::Blit { from, to, .. } => {
-            of_part(from, false, see);
-            of_part(to, true, see);
-        }
-        Work::Fill { to, .. } => of_part(to, true, see),
-        Work::Custom { reads, writes, .. } => {
-            reads.iter().for_each(|part| of_part(part, false, see));
-            writes.iter().for_each(|part| of_part(part, true, see));
-        }
-        // Of an image that workgroups are counted by, only the size matters. It is the same for both eyes.
-        Work::Dispatch { .. } | Work::Draw { .. } => {}
-    }
-}
-
-fn of_part<'p>(part: &'p Part, write: bool, see: &mut dyn FnMut(&'p ImagePart, bool)) {
-    if let Part::Image(part) = part {
-        see(part, write);
-    }
-}
-
-/// The parts of images that [`visit`] shows, to be changed.
+/// The parts of images that a pass names, to be changed.
 fn parts_mut(pass: &mut Pass) -> impl Iterator<Item = &mut ImagePart> {
     let Pass { sample, left_out, storage, color, depth, work, .. } = pass;
     let transfers: Vec<&mut Part> = match work {
@@ -204,106 +166,6 @@ fn parts_mut(pass: &mut Pass) -> impl Iterator<Item = &mut ImagePart> {
     let others = storage.iter_mut().map(|storage| &mut storage.part).chain(transfers);
     let others = others.filter_map(|part| if let Part::Image(part) = part { Some(part) } else { None });
     sampled.chain(targets).chain(others)
-}
-
-/// Where buffers are named that a pass writes: both eyes share them.
-fn written_buffers(pass: &Pass) -> impl Iterator<Item = Span> {
-    let storage = pass.storage.iter().filter_map(|storage| {
-        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-        (!reads).then_some(&storage.part)
-    });
-    let transfers: Vec<&Part> = match &pass.work {
-        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => vec![to],
-        Work::Custom { writes, .. } => writes.iter().collect(),
-        Work::Draw { .. } | Work::Dispatch { .. } => Vec::new(),
-    };
-    storage.chain(transfers).filter_map(|part| match part {
-        Part::Buffer(part) => Some(part.buffer.span),
-        Part::Image(_) => None,
-    })
-}
-
-/// Says where an eye of something is named that both share.
-fn foreign_eyes(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) {
-    visit(pass, &mut |part, _| {
-        let at = part.image.index.0 as usize;
-        if part.eye.is_some() && !own[at] {
-            let name = &images[at].name.text;
-            let wrong = Diagnostic::new(part.image.span, format!("`{name}` is the same for both eyes"));
-            let wrong = wrong.label(images[at].name.span, "declared here");
-            errors.push(
-                wrong.help(format!("write `\"{name}\"` in place of `Eye(…)`, or say `per_eye: true` of `{name}`")),
-            );
-        }
-    });
-}
-
-/// Reports an image of each eye that would take the place of an image that both eyes share: the eye would be unknown.
-fn handed_on_once(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) {
-    for stand_in in &pass.otherwise {
-        let StandIn::Forward(Forward { from, to }) = stand_in else { continue };
-        let [from_own, to_own] = [from, to].map(|image| own[image.index.0 as usize]);
-        if from_own && !to_own {
-            let [source, target] = [from, to].map(|image| &images[image.index.0 as usize].name.text);
-            let message = format!("pass `{}` is off, and `{target}` would take each eye's `{source}`", pass.name.text);
-            let wrong = Diagnostic::new(from.span, message).label(to.span, "is there once");
-            errors.push(wrong.help(format!("say `per_eye: true` of `{target}`, or forward what both eyes share")));
-        }
-    }
-}
-
-/// The eyes that a pass runs for. Reports contradictions.
-fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &mut Vec<Diagnostic>) -> For {
-    let name = &pass.name.text;
-    // The first that both eyes would write.
-    let mut shared: Option<(Option<&Name>, Span)> = written_buffers(pass).next().map(|span| (None, span));
-    let (mut read, mut written, mut eyes) = (None, None, Vec::new());
-    visit(pass, &mut |part, write| {
-        let at = part.image.index.0 as usize;
-        match (own[at], part.eye, write) {
-            (true, None, true) => written = written.or(Some(part.image)),
-            (true, None, false) => read = read.or(Some(part.image)),
-            (true, Some(eye), true) => eyes.push((eye.value, part.image)),
-            (false, _, true) => shared = shared.or(Some((Some(&images[at].name), part.image.span))),
-            (false, _, false) | (true, Some(_), false) => {}
-        }
-    });
-    let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
-    match (written, eyes.first(), shared, read) {
-        (Some(written), _, Some((shared, span)), _) => {
-            let message = format!("pass `{name}` runs once for each eye, and both would write this");
-            let wrong = Diagnostic::new(span, message);
-            let wrong = wrong.label(written.span, "each eye has its own");
-            errors.push(wrong.help(match shared {
-                Some(image) => format!("say `per_eye: true` of `{}`, or write it in a pass of its own", image.text),
-                None => "write it in a pass of its own; if it is only read, say `access: Read` of it".to_owned(),
-            }));
-            For::Each
-        }
-        (Some(written), Some((_, one)), ..) => {
-            let message =
-                format!("pass `{name}` runs once for each eye, and both would write this one's `{}`", image(*one));
-            let wrong = Diagnostic::new(one.span, message).label(written.span, "each eye has its own");
-            errors.push(wrong.help(format!("write `\"{}\"` in place of `Eye(…)`: each eye's is meant", image(*one))));
-            For::Each
-        }
-        (Some(_), None, None, _) => For::Each,
-        (None, Some((eye, _)), None, _) if eyes.iter().all(|(other, _)| other == eye) => For::One(*eye),
-        (None, _, _, Some(read)) if !eyes.is_empty() || shared.is_some() => {
-            let message = format!("pass `{name}` runs once, and each eye has a `{}` of its own", image(read));
-            let mut wrong = Diagnostic::new(read.span, message);
-            let target = shared.map(|(_, span)| span).or_else(|| eyes.first().map(|(_, image)| image.span));
-            if let Some(target) = target {
-                wrong = wrong.label(target, "what it writes is there once");
-            }
-            let shared = shared.and_then(|(name, _)| name);
-            let own = shared.map_or_else(String::new, |name| format!("say `per_eye: true` of `{}`, or ", name.text));
-            errors.push(wrong.help(format!("{own}read one eye's: `Eye(Left, \"{}\")`", image(read))));
-            For::Both
-        }
-        (None, None, None, Some(_)) => For::Each,
-        (None, ..) => For::Both,
-    }
 }
 
 /// By view, those of both eyes; they are added.

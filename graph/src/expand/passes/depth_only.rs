@@ -3,7 +3,7 @@
 
 use super::state::State;
 use crate::expand::resources::Resources;
-use crate::expand::shader::{Checked, coverage, variant};
+use crate::expand::shader::{CheckedShaders, coverage, variant};
 use crate::frame::{Face, ImageIndex, Pass, ResolveWay};
 use crate::language;
 use crate::shader::{Binding, PARAMS, PASS_SET, ShaderInterface, ShaderProblem, Variant};
@@ -11,7 +11,7 @@ use crate::vulkan::Stages;
 use std::collections::HashSet;
 
 /// Notes why passes can't draw depth alone, for those that may have to. `states` are those of the pipeline's passes.
-pub(in crate::expand) fn note(resources: &Resources<'_>, states: &mut [State], shaders: &mut Checked<'_>) {
+pub(in crate::expand) fn note(resources: &Resources<'_>, states: &mut [State], shaders: &mut CheckedShaders<'_>) {
     let multisampled = |image: ImageIndex| {
         let image = resources.image(image).map(|image| &image.image);
         image.filter(|image| image.samples > 1 && image.format.is_depth())
@@ -45,7 +45,7 @@ fn hindrance(
     resources: &Resources<'_>,
     described: &language::Pass,
     pass: &Pass,
-    shaders: &mut Checked<'_>,
+    shaders: &mut CheckedShaders<'_>,
 ) -> Option<String> {
     let (draw, shader) = pass.work.draw()?;
     if draw.is_custom() {

@@ -1,11 +1,12 @@
 //! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
-use super::transfers::OfFile;
+use super::transfers::FilePass;
 use super::{targets, transfers, work};
 use crate::base::Diagnostic;
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
-    self, Checked, coverage, halves, local, params, rotation, sampled, seen_alike, storage, supplied, variant,
+    self, CheckedShaders, coverage, local, params, rotation, sampled_images, stereo, storage, supplied_resources,
+    variant,
 };
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn, Work as Described};
@@ -17,7 +18,7 @@ use crate::vulkan::{FillValue, Stages, Subresources};
 pub(in crate::expand) fn lower(
     resources: &Resources<'_>,
     pass: &language::Pass,
-    shaders: &mut Checked<'_>,
+    shaders: &mut CheckedShaders<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
     let variant = variant::of(resources, pass);
@@ -28,14 +29,14 @@ pub(in crate::expand) fn lower(
         lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
-    transfers::draw_part(&OfFile { resources, pass }, &mut lowered, errors);
-    supplied::custom(shaders, pass, errors);
+    transfers::draw_part(&FilePass { resources, pass }, &mut lowered, errors);
+    supplied_resources::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
-        lowered.needs = supplied::needs(shaders, pass, interface);
-        supplied::check(resources, shaders, pass, (path, interface), errors);
+        lowered.needs = supplied_resources::needs(shaders, pass, interface);
+        supplied_resources::check(resources, shaders, pass, (path, interface), errors);
         let before = errors.len();
-        let mut misspelt = sampled::check(resources, pass, &lowered, interface, errors);
+        let mut misspelt = sampled_images::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
             variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
             local::check(resources, pass, &lowered, (interface, &variant), shaders, errors);
@@ -44,27 +45,27 @@ pub(in crate::expand) fn lower(
         shader::missing(pass, interface, &misspelt, errors);
         let whole = (!pass.left_out.is_empty()).then(|| variant::with_all(resources, pass)).flatten();
         let whole = whole.and_then(|whole| shaders.interface(pass, &whole, errors));
-        sampled::check_left_out(pass, whole.as_ref(), errors);
+        sampled_images::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(resources, pass, interface, errors);
         shaders.remarks.extend(targets::set(pass, interface, errors));
         targets::untaken(pass, interface, &mut shaders.remarks);
-        halves::check(resources, pass, interface, errors);
-        seen_alike::note(resources, pass, interface, &mut shaders.remarks);
+        stereo::check_halves(resources, pass, interface, errors);
+        stereo::note_shared_matrix(resources, pass, interface, &mut shaders.remarks);
     } else if pass.work.callback().is_some() {
         lowered.params = params::as_written(pass);
     }
     lowered
 }
 
-/// The pass without its shader's parameters. Stages, and accesses to storage, are the shader's.
+/// The pass without its shader's parameters. Stages, and accesses to stereo, storage, are the shader's.
 pub(in crate::expand) fn draft(
     resources: &Resources<'_>,
     pass: &language::Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
-    let raster = work::is_drawn(pass);
+    let raster = pass.is_drawn();
     let mut lowered = Pass {
         name: pass.name.text.clone(),
         span: pass.name.span,
@@ -89,7 +90,7 @@ pub(in crate::expand) fn draft(
     };
     for sample in &pass.sample {
         let range = parts::range(resources, &sample.part, errors);
-        lowered.sampled.extend(sampled::lower(resources, sample, range, interface, raster));
+        lowered.sampled.extend(sampled_images::lower(resources, sample, range, interface, raster));
     }
     for part in &pass.storage {
         storage::lower(resources, part, interface, raster, &mut lowered, errors);

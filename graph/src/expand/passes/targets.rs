@@ -7,7 +7,7 @@ use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
 use crate::frame::{Blend, NoteKind, Remark};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::ron::Name;
-use crate::shader::{ShaderInterface, Unset};
+use crate::shader::{ShaderInterface, UnsetOutput};
 use crate::vulkan::{Aspects, Component, Numeric, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
@@ -111,7 +111,7 @@ pub(in crate::expand) fn set(
 ) -> Vec<Remark> {
     let Some(Name { text: shader, span }) = pass.shader() else { return Vec::new() };
     let mut remarks = Vec::new();
-    for Unset { location, what, refused, place, .. } in coverage::unset(pass, interface) {
+    for UnsetOutput { location, what, refused, place, .. } in coverage::unset(pass, interface) {
         let target =
             location.and_then(|location| pass.color.get(location as usize)).map(|target| target.part.image.span);
         let at = coverage::at(place.as_deref());

@@ -4,18 +4,18 @@ use crate::base::{Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::frame::check::images::Declaration;
 use crate::frame::check::transfers::looks_beyond;
-use crate::frame::check::{Checked, Place};
+use crate::frame::check::{CheckContext, Place};
 use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Work};
 use crate::language::{self, Fill, Part};
 use crate::ron::Spanned;
 
 /// A pass of the file, and everything that it names.
-pub(super) struct OfFile<'a> {
+pub(super) struct FilePass<'a> {
     pub(in crate::expand) resources: &'a Resources<'a>,
     pub(in crate::expand) pass: &'a language::Pass,
 }
 
-impl Checked for OfFile<'_> {
+impl CheckContext for FilePass<'_> {
     const OF_FILE: bool = true;
 
     fn image(&self, index: ImageIndex) -> Option<&Image> {
@@ -42,7 +42,7 @@ impl Checked for OfFile<'_> {
 
 /// Lets a draw take the place of a blit that would look beyond the part of an image that a frame uses: a blit clamps at the image's
 /// edge, and a draw at the part's.
-pub(super) fn draw_part(of: &OfFile<'_>, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
+pub(super) fn draw_part(of: &FilePass<'_>, lowered: &mut Pass, errors: &mut Vec<Diagnostic>) {
     let Some(why) = looks_beyond(of, lowered) else { return };
     let (Some([from, to]), [source, target]) = (lowered.moved_images(), &lowered.transfers[..]) else { return };
     let (Some(one), Some(other)) = (of.image(from), of.image(to)) else { return };

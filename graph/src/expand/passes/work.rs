@@ -1,7 +1,7 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
-use super::transfers::{self, OfFile};
-use crate::base::{Diagnostic, Span};
+use super::transfers::{self, FilePass};
+use crate::base::Diagnostic;
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::coverage;
 use crate::frame::{Draw, Groups, Pass, Work, check};
@@ -9,11 +9,6 @@ use crate::language::{self, Groups as Described, MOST_GROUPS};
 use crate::ron::{Name, Spanned};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Filter};
-
-/// Whether the pass draws into images: a custom pass is recorded within a rendering scope then.
-pub(in crate::expand) fn is_drawn(pass: &language::Pass) -> bool {
-    !pass.color.is_empty() || pass.depth.is_some()
-}
 
 /// The work of the pass. After a mistake it is something like it.
 pub(in crate::expand) fn lower(
@@ -47,7 +42,7 @@ pub(in crate::expand) fn lower(
             let value = fills::typed(value.value, resources.filled(to));
             Work::Fill { value: value.unwrap_or(FillValue::Bits([0; 4])) }
         }
-        language::Work::Custom { callback, .. } if is_drawn(pass) => drawn(Draw::Custom, callback),
+        language::Work::Custom { callback, .. } if pass.is_drawn() => drawn(Draw::Custom, callback),
         language::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },
     }
 }
@@ -83,7 +78,7 @@ pub(in crate::expand) fn check(
             dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
         language::Work::Copy { .. } | language::Work::Blit { .. } => {
-            check::transfers::check(&OfFile { resources, pass }, lowered, errors);
+            check::transfers::check(&FilePass { resources, pass }, lowered, errors);
         }
         language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
         language::Work::Custom { .. } => {}
@@ -101,27 +96,11 @@ fn counts_fit(
     if let Some(part) = counts {
         // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
         let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
-        holds(resources, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
+        resources.holds(&part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
     }
     if let (Some(part), Some([count, _])) = (&pass.index, draw.counts()) {
         let what = format!("{count} indices of 4 bytes");
-        holds(resources, &part.buffer, u64::from(count) * 4, &what, part.buffer.span, errors);
-    }
-}
-
-/// Reports a buffer that is too small for the bytes that are read there.
-pub(in crate::expand) fn holds(
-    resources: &Resources<'_>,
-    buffer: &language::BufferRef,
-    bytes: u64,
-    what: &str,
-    span: Span,
-    errors: &mut Vec<Diagnostic>,
-) {
-    let Some(there) = resources.buffer(buffer.index) else { return };
-    if there.bytes < bytes {
-        let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
-        errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
+        resources.holds(&part.buffer, u64::from(count) * 4, &what, part.buffer.span, errors);
     }
 }
 
@@ -141,7 +120,7 @@ fn dispatch_fits(
             }
             // VkDispatchIndirectCommand.
             let what = format!("the counts of a dispatch at byte {offset}, up to their end,");
-            holds(resources, &buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
+            resources.holds(&buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
         }
         Described::Texels(part) => {
             parts::range(resources, part, errors);

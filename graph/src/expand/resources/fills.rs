@@ -14,10 +14,10 @@ pub(in crate::expand) fn zero(format: Option<Format>) -> FillValue {
 }
 
 /// What is filled: a format and the planes of it; `None`: a buffer.
-pub(super) type Filled = Option<(Format, Aspects)>;
+pub(super) type FillSubject = Option<(Format, Aspects)>;
 
 /// The value as the format has it. An error says why the value doesn't fit, and which value would.
-pub(in crate::expand) fn typed(fill: Fill, filled: Filled) -> Result<FillValue, (String, String)> {
+pub(in crate::expand) fn typed(fill: Fill, filled: FillSubject) -> Result<FillValue, (String, String)> {
     let Some((format, planes)) = filled else {
         let Fill::Number(number) = fill else {
             return Err((

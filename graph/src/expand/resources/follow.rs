@@ -1,14 +1,14 @@
 //! `Like`: an image or buffer that follows another takes the other's value, or a value made from it.
 
 /// The values that are known so far: `Some(None)` after a mistake.
-pub(in crate::expand) type Known<T> = Vec<Option<Option<T>>>;
+pub(in crate::expand) type KnownValues<T> = Vec<Option<Option<T>>>;
 
 /// The value of number `start`: its own, or made from the value of the one that it follows. Each value is found once.
 ///
 /// Walks along the chain without recursion, since a chain may be as long as the file.
 pub(in crate::expand) fn follow<N, T: Clone>(
     all: &[N],
-    known: &mut Known<T>,
+    known: &mut KnownValues<T>,
     start: usize,
     next: impl Fn(&N) -> Option<usize>,
     mut value: impl FnMut(&N, Option<T>) -> Option<T>,

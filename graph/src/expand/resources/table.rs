@@ -8,7 +8,7 @@ use crate::expand::mistakes::used_here;
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Part, Pipeline};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::states::{Subject, When};
+use crate::vulkan::states::{StateTime, Subject};
 use crate::vulkan::{Format, State};
 use std::sync::Arc;
 
@@ -81,10 +81,26 @@ impl<'a> Resources<'a> {
     }
 
     /// What of an image or buffer a part of it is.
-    pub(in crate::expand) fn filled(&self, part: &Part) -> fills::Filled {
+    pub(in crate::expand) fn filled(&self, part: &Part) -> fills::FillSubject {
         let Part::Image(part) = part else { return None };
         let format = self.image(part.image.index)?.image.format;
         Some((format, part.plane.map_or(format.aspects(), |plane| plane.value)))
+    }
+
+    /// Reports a buffer that is too small for the bytes that are read there.
+    pub(in crate::expand) fn holds(
+        &self,
+        buffer: &language::BufferRef,
+        bytes: u64,
+        what: &str,
+        span: Span,
+        errors: &mut Vec<Diagnostic>,
+    ) {
+        let Some(there) = self.buffer(buffer.index) else { return };
+        if there.bytes < bytes {
+            let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
+            errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
+        }
     }
 
     /// The buffer, if it could be resolved.
@@ -105,7 +121,7 @@ impl<'a> Resources<'a> {
         };
         let (format, samples) = (image.map(|image| image.format), image.map_or(1, |image| image.samples));
         let name = self.name(of);
-        let lowered = states::lower(after, Subject { name: &name.text, format, samples }, When::After, errors)?;
+        let lowered = states::lower(after, Subject { name: &name.text, format, samples }, StateTime::After, errors)?;
         if let Some(Lifetime::Imported { after: Some(promised), .. }) = self.lifetime(of)
             && *promised != lowered
         {
@@ -201,9 +217,9 @@ fn lifetime(
             let state = |state: Spanned<language::State>, when, errors: &mut Vec<Diagnostic>| {
                 states::lower(Spanned { span: here(state.span), ..state }, of, when, errors)
             };
-            let before = state(*before, When::Before, errors);
+            let before = state(*before, StateTime::Before, errors);
             let after = match after {
-                Some(after) => state(*after, When::After, errors).map(Some),
+                Some(after) => state(*after, StateTime::After, errors).map(Some),
                 None => Some(None),
             };
             Lifetime::Imported { before: before?, after: after? }

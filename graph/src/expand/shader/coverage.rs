@@ -1,10 +1,10 @@
-//! What draws may leave as it was of what they draw into, as far as their shaders tell. `frame/covers.rs` decides by it.
+//! What draws may leave as it was of what they draw into, as far as their shaders tell. `frame/coverage.rs` decides by it.
 //!
 //! A full-screen draw sets every texel unless something here says otherwise.
 
 use crate::frame::Draw;
 use crate::language;
-use crate::shader::{ShaderInterface, Unset};
+use crate::shader::{ShaderInterface, UnsetOutput};
 use std::sync::Arc;
 
 /// Why a draw may leave texels of its targets as they were although it fills the screen, in words; `None`: it sets them all. An
@@ -30,7 +30,7 @@ pub(in crate::expand) fn untouched(pass: &language::Pass, interface: Option<&Sha
 pub(in crate::expand) fn unset<'i>(
     pass: &'i language::Pass,
     interface: &'i ShaderInterface,
-) -> impl Iterator<Item = &'i Unset> {
+) -> impl Iterator<Item = &'i UnsetOutput> {
     let taken = |location: Option<u32>| match location {
         Some(location) => (location as usize) < pass.color.len(),
         None => pass.depth.as_ref().is_some_and(|depth| depth.write),

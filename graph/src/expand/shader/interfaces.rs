@@ -2,13 +2,12 @@
 
 use super::arrays;
 use crate::base::{Diagnostic, FilePath, Sources};
-use crate::expand::passes::work;
 use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
 use crate::ron::Name;
 use crate::shader::{
     Binding, BindingKind, DrawInterface, PARAMS, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    Unbindable, Variant,
+    UnbindableResource, Variant,
 };
 use crate::vulkan::{Dimension, ImageShape};
 use std::collections::HashSet;
@@ -18,7 +17,7 @@ use std::sync::Arc;
 const MANY_GIVEN: usize = 16;
 
 /// Shader interfaces, each of whose mistakes is reported once.
-pub(in crate::expand) struct Checked<'s> {
+pub(in crate::expand) struct CheckedShaders<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
     sources: &'s Sources,
     seen: HashSet<(Arc<str>, Option<Draw>)>,
@@ -32,10 +31,10 @@ pub(in crate::expand) struct Checked<'s> {
     pub(in crate::expand) remarks: Vec<Remark>,
 }
 
-impl<'s> Checked<'s> {
+impl<'s> CheckedShaders<'s> {
     /// `sources` are the files that name the shaders.
-    pub(in crate::expand) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> Checked<'s> {
-        Checked {
+    pub(in crate::expand) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> CheckedShaders<'s> {
+        CheckedShaders {
             shaders,
             sources,
             seen: HashSet::new(),
@@ -70,7 +69,7 @@ impl<'s> Checked<'s> {
         self.found_interface(pass, &path, variant, errors)
     }
 
-    /// As [`Checked::interface`], of a shader that was found.
+    /// As [`CheckedShaders::interface`], of a shader that was found.
     pub(in crate::expand) fn found_interface(
         &mut self,
         pass: &language::Pass,
@@ -151,7 +150,7 @@ fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
     match &pass.work {
         Work::Draw { shader, draw, .. } => Some((shader, Some(*draw))),
         Work::Dispatch { shader, .. } => Some((shader, None)),
-        Work::Custom { callback, .. } if work::is_drawn(pass) => Some((callback, Some(Draw::Custom))),
+        Work::Custom { callback, .. } if pass.is_drawn() => Some((callback, Some(Draw::Custom))),
         Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
     }
 }
@@ -174,7 +173,7 @@ pub(in crate::expand) fn missing(
     let is_given = |name: &str| if many.is_empty() { given().any(|given| given == name) } else { many.contains(name) };
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let name = &binding.name;
-        if let Some(Unbindable { what, instead, place }) = binding.kind.unbindable() {
+        if let Some(UnbindableResource { what, instead, place }) = binding.kind.unbindable() {
             let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
             let message = format!("shader `{shader}` declares `{name}` as {what}{at}, which isn't supported");
             errors.push(Diagnostic::new(*span, message).help(instead));

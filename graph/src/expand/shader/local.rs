@@ -1,6 +1,6 @@
 //! Reads of images at a fragment's own position: devices with local reads let shaders read such images as input attachments.
 
-use super::interfaces::Checked;
+use super::interfaces::CheckedShaders;
 use crate::base::Diagnostic;
 use crate::expand::resources::Resources;
 use crate::frame::{Face, Pass};
@@ -14,7 +14,7 @@ pub(in crate::expand) fn check(
     pass: &language::Pass,
     lowered: &Pass,
     (interface, variant): (&ShaderInterface, &Variant),
-    shaders: &mut Checked<'_>,
+    shaders: &mut CheckedShaders<'_>,
     errors: &mut Vec<Diagnostic>,
 ) {
     let declared = |name: &str| interface.bindings.iter().any(|it| it.set == PASS_SET && *it.name == *name);

@@ -1,24 +1,22 @@
 //! What a pass gives meets what its shader declares.
 //!
 //! ```text
-//! variant ─► interfaces (Checked) ─► sampled ─► local ─► storage ─► params
-//!                                    arrays, compared   supplied   coverage, halves, rotation, seen_alike
+//! variant ─► interfaces ─► sampled_images (arrays, compared_depth) ─► local ─► storage ─► supplied_resources ─► params
 //! ```
-//! `variant` says how the shader is compiled, `interfaces` finds it. Each other file holds one kind of declaration against the pass, or
-//! asks the shader one thing that the frame must know.
+//! `variant` says how the shader is compiled, `interfaces` finds it. The files behind them check one kind of
+//! declaration each. `coverage`, `rotation` and `stereo` find out what else the frame must know of a shader.
 
 mod arrays;
-mod compared;
+mod compared_depth;
 pub(super) mod coverage;
-pub(super) mod halves;
 mod interfaces;
 pub(super) mod local;
 pub(super) mod params;
 pub(super) mod rotation;
-pub(super) mod sampled;
-pub(super) mod seen_alike;
+pub(super) mod sampled_images;
+pub(super) mod stereo;
 pub(super) mod storage;
-pub(super) mod supplied;
+pub(super) mod supplied_resources;
 pub(super) mod variant;
 
-pub(super) use interfaces::{Checked, missing};
+pub(super) use interfaces::{CheckedShaders, missing};

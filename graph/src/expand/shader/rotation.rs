@@ -1,7 +1,7 @@
 //! Whether passes that draw can draw turned pictures, as far as their shaders tell.
 
 use crate::frame::Work;
-use crate::shader::{ShaderInterface, Unturned};
+use crate::shader::{ShaderInterface, UnturnedPart};
 use std::sync::Arc;
 
 /// Why the shader of a pass can't draw into an image that is turned, behind the name of the pass.
@@ -11,10 +11,10 @@ pub(in crate::expand) fn hindrance(work: &Work, interface: &ShaderInterface) -> 
     (!wrong.is_empty()).then(|| format!("has the shader `{shader}`, which {}", wrong.join(" and ")).into())
 }
 
-fn words(unturned: Unturned) -> &'static str {
+fn words(unturned: UnturnedPart) -> &'static str {
     match unturned {
-        Unturned::Vertices => "places vertices without `rotate_clip()`",
-        Unturned::FragCoord => "reads `gl_FragCoord` without `frag_coord()`",
-        Unturned::Derivatives => "takes `dFdx` or `dFdy` without `ddx()` or `ddy()`",
+        UnturnedPart::Vertices => "places vertices without `rotate_clip()`",
+        UnturnedPart::FragCoord => "reads `gl_FragCoord` without `frag_coord()`",
+        UnturnedPart::Derivatives => "takes `dFdx` or `dFdy` without `ddx()` or `ddy()`",
     }
 }

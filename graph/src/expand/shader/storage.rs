@@ -1,9 +1,8 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
 use super::interfaces::{declared_otherwise, shape_words};
-use super::{arrays, sampled};
+use super::{arrays, sampled_images};
 use crate::base::{Diagnostic, Span, nearest, suggestion};
-use crate::expand::passes::work;
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
@@ -48,7 +47,7 @@ pub(in crate::expand) fn keep(
     described: &language::Pass,
     pass: &mut Pass,
     holds: impl Fn(Resource, Subresources) -> bool,
-) -> Vec<Kept> {
+) -> Vec<KeptContents> {
     let mut kept = Vec::new();
     for storage in described.storage.iter().filter(|storage| storage.access.is_none()) {
         let language::ResourceRef { resource: of, span } = storage.part.resource();
@@ -67,7 +66,7 @@ pub(in crate::expand) fn keep(
         };
         if write && !*read && holds(of, range) {
             *read = true;
-            kept.push(Kept { of, span, binding: name.clone() });
+            kept.push(KeptContents { of, span, binding: name.clone() });
         }
     }
     kept
@@ -145,7 +144,7 @@ pub(in crate::expand) fn check<'i>(
             (Part::Buffer(part), Some(BindingKind::StorageBlock { bytes, .. })) => {
                 let what = format!("the members of the block `{}`", name.text);
                 let (buffer, span) = (&part.buffer, part.buffer.span);
-                work::holds(resources, buffer, u64::from(*bytes), &what, span, errors);
+                resources.holds(buffer, u64::from(*bytes), &what, span, errors);
             }
             (Part::Image(_), _) => {
                 unknown(name, "no storage image", errors);
@@ -166,7 +165,7 @@ pub(in crate::expand) fn check<'i>(
             Some(block) if *name.text != *PARAMS => {
                 let what = format!("the members of the block `{}`", name.text);
                 let (buffer, span) = (&uniform.part.buffer, uniform.part.buffer.span);
-                work::holds(resources, buffer, u64::from(block.bytes), &what, span, errors);
+                resources.holds(buffer, u64::from(block.bytes), &what, span, errors);
             }
             Some(_) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
@@ -227,10 +226,10 @@ impl ImageCheck<'_> {
         let declared = self.resources.declared(self.part.image.index);
         let span = parts::place(self.part);
         let part = image.part(range);
-        if sampled::dimension(shader, name, shape, image, span, declared.shape.span, errors) {
+        if sampled_images::dimension(shader, name, shape, image, span, declared.shape.span, errors) {
             return;
         }
-        if let Some(message) = sampled::layers_fit(shape, part.layers) {
+        if let Some(message) = sampled_images::layers_fit(shape, part.layers) {
             let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
             errors.push(Diagnostic::new(span, message));
         }
@@ -287,7 +286,7 @@ pub(in crate::expand) fn used(
 }
 
 /// An image or buffer that a storage write keeps, and where it is named.
-pub(in crate::expand) struct Kept {
+pub(in crate::expand) struct KeptContents {
     pub(in crate::expand) of: Resource,
     pub(in crate::expand) span: Span,
     /// The name in the shader.

@@ -1,6 +1,6 @@
 //! How a pass's shader is compiled: its declarations of sampled images may follow the images that the pass gives.
 
-use super::interfaces::Checked;
+use super::interfaces::CheckedShaders;
 use crate::base::Diagnostic;
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{Image, Pass};
@@ -85,7 +85,7 @@ pub(in crate::expand) fn check_single_sampled(
     pass: &language::Pass,
     lowered: &Pass,
     variant: &Variant,
-    shaders: &mut Checked<'_>,
+    shaders: &mut CheckedShaders<'_>,
     errors: &mut Vec<Diagnostic>,
 ) {
     let adapts = lowered.sampled.iter().any(|sampled| sampled.texture.is_some_and(|texture| texture.multisampled));

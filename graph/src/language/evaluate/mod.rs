@@ -2,14 +2,14 @@
 
 mod circles;
 mod evaluation;
+mod fragment_use;
 mod lists;
 mod passes;
 mod pipeline;
 mod previous;
 mod properties;
-mod put_in;
 mod resources;
-mod unused;
+mod unused_fragments;
 
 pub(crate) use evaluation::Purpose;
 pub(crate) use pipeline::evaluate;

@@ -2,7 +2,7 @@
 
 use super::field_value::FieldValueTuple;
 use super::level::{DecidedValue, Elements, LevelValues, Properties};
-use super::lookup::Declared;
+use super::lookup::DeclaredResource;
 use super::symbols::Symbols;
 use crate::base::{Diagnostic, Label, Span};
 use crate::expression::{Decision, Expression, Origin, Outcome, Value};
@@ -110,14 +110,18 @@ impl<'e, 'a> Evaluator<'e, 'a> {
     }
 
     /// The image or buffer that a declaration of this level stands for.
-    pub(super) fn declared(&self, declared: Declared) -> Option<Resource> {
+    pub(super) fn declared(&self, declared: DeclaredResource) -> Option<Resource> {
         let one = |block: Option<&Elements>| match block {
             Some(Elements::At { first, .. }) => Some(*first),
             _ => None,
         };
         match declared {
-            Declared::Image(at) => one(self.scope.level.images.get(at)).map(|at| Resource::Image(ImageIndex(at))),
-            Declared::Buffer(at) => one(self.scope.level.buffers.get(at)).map(|at| Resource::Buffer(BufferIndex(at))),
+            DeclaredResource::Image(at) => {
+                one(self.scope.level.images.get(at)).map(|at| Resource::Image(ImageIndex(at)))
+            }
+            DeclaredResource::Buffer(at) => {
+                one(self.scope.level.buffers.get(at)).map(|at| Resource::Buffer(BufferIndex(at)))
+            }
         }
     }
 
