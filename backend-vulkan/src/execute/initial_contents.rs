@@ -12,9 +12,9 @@ use framewright_graph::plan::{self, BufferId, FirstContents, ImageId, Plan, Queu
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
-/// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
-/// initial value or the texels in `staged`, others that were not imported to zero, each in the state that the Plan relies on and
-/// with the queue that uses it first.
+/// Gives first contents to everything that outlives the frame and has none yet. Persistent images and buffers get their initial
+/// value or the texels in `staged`, others are zero unless they were imported. Each is then in the state that the Plan relies on,
+/// and belongs to the queue that uses it first.
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,
@@ -102,7 +102,7 @@ struct OwnershipTransfers<'h> {
 }
 
 impl OwnershipTransfers<'_> {
-    /// Records what one family has to do, of which the graphics family comes first.
+    /// Records the work of one family. The graphics family comes first.
     fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
         let families = &self.gpu.queues.families;
         let graphics = families.graphics;

@@ -32,8 +32,8 @@ pub struct AdoptedDevice<'p> {
     pub device_extensions: &'p [&'p CStr],
     /// The features that the device was created with, as they were chained to its creation.
     pub features: &'p vk::PhysicalDeviceFeatures2<'p>,
-    /// Queues that may be used, with their families: one that does graphics and compute, and where there are, one that does compute
-    /// and one that does transfers alone.
+    /// Queues that may be used, with their families: one for graphics and compute; if there are, one for compute alone and one for
+    /// transfers alone.
     pub queues: &'p [(u32, vk::Queue)],
     /// The program's allocator of the device's memory, which then serves everything that is made from the adopted device; `None`: the
     /// adopted device gets an allocator of its own. It is locked only while memory is allocated, given back or counted.

@@ -134,8 +134,8 @@ impl Features {
         features
     }
 
-    /// The features in a chain, as a device was created with it: those of Vulkan 1.0 to 1.3 in the structures of a version, or in those of
-    /// the extensions that they come from.
+    /// The features in the chain that a device was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
+    /// or in that of the extension that it comes from.
     ///
     /// # Safety
     /// Each structure in the chain is valid, and of the type that it says.
@@ -241,12 +241,12 @@ impl Features {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
     }
 
-    /// Whether the feature of this name, Vulkan's, is switched on, of those that pipelines can need.
+    /// Whether a feature that pipelines can need is switched on. `name` is Vulkan's.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.needed().any(|known| known == name)
     }
 
-    /// The features that are switched on, of those that pipelines can need, by Vulkan's names.
+    /// Vulkan's names of the features that are switched on, and that pipelines can need.
     pub(crate) fn needed(&self) -> impl Iterator<Item = &'static str> {
         let Features { core, v1_1, v1_2, v1_3, local_read } = *self;
         let mut all = Features { core, v1_1, v1_2, v1_3, local_read };

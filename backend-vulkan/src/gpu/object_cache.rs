@@ -1,5 +1,5 @@
-//! Objects by description, of which each is made once. Threads make different objects at once. A thread that asks for an object that
-//! another one is making waits for it.
+//! Objects by description, each made once. Threads make different objects at the same time. If a thread asks for an object that is
+//! being made, it waits.
 
 use crate::base::Error;
 use std::collections::HashMap;

@@ -123,8 +123,8 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
     }
 }
 
-/// Whether the device has the memory that the Plan takes altogether. Of each piece alone the allocator says so; but software
-/// drivers promise all of the machine's memory for each.
+/// Whether the device has the memory that the Plan takes altogether. The allocator says so of each piece alone, but software
+/// drivers promise all of the machine's memory for each piece.
 fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
     let placed = |role: &Role| match role {
         Role::Transient(place) => Some(place.bytes),

@@ -22,7 +22,7 @@ struct RingPosition {
     at: usize,
 }
 
-/// Images or buffers, by their numbers, of which one stands for the Plan's.
+/// Images or buffers by their numbers. One of them stands for the Plan's.
 struct Ring {
     members: Vec<usize>,
     turns: RingKind,
@@ -98,8 +98,8 @@ impl ResourceRings {
         &self.rings[self.position(resource).ring].members
     }
 
-    /// Has the first `count` of these stand for an external image or buffer, at least one, of which the first is chosen. All that
-    /// was made for others must be forgotten.
+    /// Lets the first `count` of these stand for an external image or buffer, at least one. The first is chosen. All that was made
+    /// for others must be forgotten.
     pub(crate) fn set_members(&mut self, resource: Resource, members: Vec<usize>, count: usize) {
         let ring = self.position(resource).ring;
         self.rings[ring] = Ring { members, turns: RingKind::Chosen { now: 0, count } };

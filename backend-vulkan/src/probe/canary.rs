@@ -193,7 +193,7 @@ impl CanaryObjects<'_> {
         unsafe { self.gpu.raw.cmd_fill_buffer(commands, self.buffer.raw, 0, bytes, 0) };
     }
 
-    /// Two changes of layout, of which the second begins with another layout than that in which the first ends.
+    /// Two changes of layout. The second one begins with another layout than the first one ends in.
     fn transitions(&self, commands: vk::CommandBuffer) {
         use vk::ImageLayout as Layout;
         let range = convert::range(Subresources::all(self.image.descriptor.format, 1, 1));

@@ -193,7 +193,7 @@ impl Drop for HelperProcess {
     }
 }
 
-/// Reads all that a helper says, of which a driver may say more than a pipe holds. At its end comes the last of it.
+/// Reads all that a helper says: its driver may say more than a pipe holds. When it has ended, the last words come.
 fn last_words(mut stream: ChildStderr) -> io::Result<Receiver<Vec<u8>>> {
     let (hand_on, said) = mpsc::channel();
     let read = move || {

@@ -22,7 +22,7 @@ const EVERYWHERE: [Capability; 14] = [
     Capability::SampleRateShading,
     Capability::InterpolationFunction,
     Capability::DemoteToHelperInvocation,
-    // Shaders have it only where they are compiled for a local read, which is for devices that have those.
+    // Shaders have it only where they are compiled for a local read, on a device with local reads.
     Capability::InputAttachment,
     // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
     // device's choice.

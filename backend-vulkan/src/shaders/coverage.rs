@@ -378,8 +378,8 @@ impl Paths {
         Paths { blocks, bits }
     }
 
-    /// What is set on every path through the function that returns; all, if none does. And what it reads of which no component is
-    /// set on every path to there: part of a vector is read by a load of all of it.
+    /// What is set on every path through the function that returns; all, if none does. And what it reads although no component of it
+    /// is set on every path to there. (A load of a whole vector may be meant to read a part of it.)
     fn set_at_the_end(&self) -> (Set, Vec<Range<usize>>) {
         let mut at_the_end = Set::all(self.bits);
         if self.blocks.is_empty() {

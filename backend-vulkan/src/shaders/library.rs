@@ -62,7 +62,7 @@ pub struct CompiledCompute {
 /// shipped file names is shipped: from there `NAME` is the shader `shipped:NAME`.
 ///
 /// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
-/// gives as `NAME`, in the stages that are the shader's own and whose text mentions it, included files counted. Where a pass reads the image
+/// gives as `NAME`. The shader's own stages have it if their text or an included file mentions it. Where a pass reads the image
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
@@ -367,8 +367,8 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
-/// A compute stage says how large its workgroups are: without a word GLSL makes them one invocation each, of which hardly
-/// any shader is meant.
+/// A compute stage says how large its workgroups are. If it doesn't, GLSL makes them one invocation each, which hardly any shader
+/// means.
 fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), RefusedStage> {
     if text::place(files, stage, |word| word.starts_with("local_size_")).is_some() {
         return Ok(());

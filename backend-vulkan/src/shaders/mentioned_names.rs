@@ -20,8 +20,8 @@ pub(super) const LOCAL: &str = "LOCAL_READ_";
 /// Ending of macros that stand for the part in use of a sampled image.
 pub(super) const PART: &str = "_st";
 
-/// Names that a stage's text and what it includes mention outside comments, each once, in order: those behind [`TEXTURE`], [`HAS`]
-/// and [`COMPONENTS`], and those of its samplers before [`PART`]. A name that the stage declares is its own.
+/// Names that a stage's text and its included files mention outside comments: behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and,
+/// for its samplers, before [`PART`]. Each name stands once, in order. A name that the stage declares is its own.
 pub(super) struct MentionedNames {
     pub(super) adapting: Vec<String>,
     pub(super) optional: Vec<String>,

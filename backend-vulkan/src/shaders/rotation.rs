@@ -1,8 +1,8 @@
 //! Parts of a shader stage that go wrong where its picture is turned.
 //!
-//! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function that reads where the
-//! fragment lies, or differentiates to one side, and looks at that constant too is taken to know what it does; so is a vertex
-//! stage that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
+//! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function may read where the fragment
+//! lies, or differentiate to one side: if it also looks at that constant, it is taken to know what it does. So is a vertex stage
+//! that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
 //! only partly turns.
 
 use super::module::{IndexedModule, id};

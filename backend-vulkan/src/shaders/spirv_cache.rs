@@ -196,7 +196,7 @@ mod tests {
         assert!(found(&cache, "a"));
         assert_eq!(shrink(&cache.folder, all / 2), all / 2);
         assert_eq!(["a", "b", "c", "d"].map(|text| found(&cache, text)), [true, false, false, true]);
-        // A time to come is none at which a file was used.
+        // Times in the future are ignored: a clock was wrong.
         let file = File::options().append(true).open(cache.path(&job("d"))).expect("it is there");
         file.set_modified(SystemTime::now() + Duration::from_secs(1 << 30)).expect("its time is set");
         assert!(found(&cache, "d") && file.metadata().expect("there").modified().expect("a time") <= SystemTime::now());

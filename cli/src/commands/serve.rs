@@ -46,7 +46,7 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
             match choices.recv_timeout(EVERY) {
                 Ok(choice) => {
                     session.choose(choice);
-                    // Of a slider that is pulled only the last value is drawn.
+                    // Only the last value of a slider that is pulled is drawn.
                     choices.try_iter().for_each(|choice| session.choose(choice));
                     break;
                 }

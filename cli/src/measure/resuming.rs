@@ -26,7 +26,7 @@ use std::time::{Duration, Instant};
 const AUTO: &str = "auto";
 const NONE: &str = "none";
 
-/// How often files for people are made anew while a sweep goes on. Of many rows they take longer than a batch.
+/// How often files for people are made anew while a sweep goes on. With many rows they take longer than a batch.
 const VIEWS_EVERY: Duration = Duration::from_secs(60);
 /// How often a line says how far the work is, where there is no terminal.
 const LINES_EVERY: Duration = Duration::from_secs(60);

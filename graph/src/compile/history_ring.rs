@@ -1,4 +1,4 @@
-//! History rings: physical resources that rotate, each of which is the next one in the next frame.
+//! History rings: physical resources that rotate. In the next frame each takes the place of the next one.
 //!
 //! The members of a ring have neighbouring indices, the youngest first. A resource that doesn't rotate is a ring of one.
 //! What a member holds at the start of a frame, and who puts it there, stands in `docs/architecture.md`.

@@ -293,7 +293,7 @@ pub(super) struct InsertedDraw {
 pub(super) enum ResolveShader {
     /// Depth, in this mode.
     Depth(ResolveMode),
-    /// Colour, of which bright samples weigh less.
+    /// Colour: bright samples weigh less.
     Weighted,
     /// Sample zero of unsigned integers.
     Uint,

@@ -1,5 +1,5 @@
-//! `usage`: how each image and buffer is made and used. Its usage flags are those that its steps take, and those that follow
-//! from its lifetime and from its states before and after the frame.
+//! `usage`: how each image and buffer is made and used. Usage flags come from its steps, from its lifetime,
+//! and from its states before and after the frame.
 
 use super::history_ring::last_of_ring;
 use super::model::{AdaptedFrame, Kind, MemorySource, PhysicalIndex};

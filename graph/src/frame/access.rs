@@ -132,7 +132,7 @@ impl Access<'_> {
         }
     }
 
-    /// Of which frame: 0 is this one, 1 the one before.
+    /// How many frames ago: 0 is this frame.
     #[inline]
     pub(crate) fn frames_ago(&self) -> u32 {
         match *self {

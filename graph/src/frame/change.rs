@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub enum Action {
     /// The file extends another pipeline.
     Extends {
-        /// The path of that one's file, from the folder of the pipeline on.
+        /// The path of the other pipeline's file, from the folder of the pipeline on.
         file: Arc<str>,
     },
     /// The file applies an extension.

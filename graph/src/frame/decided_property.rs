@@ -29,27 +29,27 @@ pub enum Subject {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Property {
-    /// Of an image: that it is there. Each of its uses has a condition; this is that of the first one.
+    /// That an image is there. Each of its uses has a condition: this is the condition of the first use.
     Exists,
-    /// Of an image: its format.
+    /// An image's format.
     Format,
-    /// Of an image: its width and height.
+    /// An image's width and height.
     Size,
-    /// Of an image: its samples a texel.
+    /// An image's samples a texel.
     Samples,
-    /// Of an image: its mip levels.
+    /// An image's mip levels.
     Mips,
-    /// Of an image: its array layers.
+    /// An image's array layers.
     Layers,
-    /// Of an image: its depth in texels.
+    /// An image's depth in texels.
     Depth,
-    /// Of a pass: that it runs.
+    /// That a pass runs.
     Runs,
-    /// Of a pass: that it doesn't run.
+    /// That a pass doesn't run.
     LeftOut,
-    /// Of a pass: which images it uses.
+    /// Which images a pass uses.
     Images,
-    /// Of an image or a pass: how often it is repeated.
+    /// How often an image or a pass is repeated.
     Repeat,
 }
 

@@ -108,7 +108,7 @@ impl Grids {
     }
 }
 
-/// The parts of all images, then the buffers, each of which is one part, by number.
+/// The parts of all images by number, then the buffers. A buffer is one part.
 pub(crate) struct Parts<'f> {
     images: &'f [Image],
     buffers: u32,

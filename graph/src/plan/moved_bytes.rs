@@ -1,6 +1,6 @@
 //! Bytes that a frame moves: what scopes load and store, and what resolves, copies, blits and fills read and write.
 //!
-//! Of an image whose size may change, the part in use counts. Samples, clears and draws aren't part of it, nor is what a device compresses
+//! If the size of an image may change, its part in use counts. Samples, clears and draws aren't part of it, nor is what a device compresses
 //! or keeps in its caches.
 
 use super::{Attachment, Image, ImageId, Plan, Resource, Side, Step, Transfer, Work};

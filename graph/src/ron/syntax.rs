@@ -252,7 +252,7 @@ impl Parser<'_, '_> {
         self.depth += 1;
         let node = self.open(kind, open);
         self.lexer.at += 1;
-        // Of several items without commas between them, one mistake is said.
+        // Several items without commas between them are one mistake.
         let mut comma_missed = false;
         loop {
             self.lexer.blanks()?;

@@ -102,7 +102,7 @@ impl SuppliedResource {
         self
     }
 
-    /// Whether a shader that declares `binding` reads this. Of an array it may declare the first elements alone.
+    /// Whether a shader that declares `binding` reads this. It may declare only the first elements of an array.
     #[must_use]
     pub fn is(&self, binding: &Binding) -> bool {
         (self.set, self.binding, &*self.name) == (binding.set, binding.binding, &*binding.name)

@@ -59,9 +59,9 @@ pub(crate) struct AccessRow {
     pub(crate) reads: Accesses,
     /// Its writes.
     pub(crate) writes: Accesses,
-    /// Of an image: the usage that it needs, and its layout. `None`: no image is used so.
+    /// The usage that an image needs, and its layout. `None`: no image is used so.
     pub(crate) image: Option<(Usage, Layout)>,
-    /// Of a buffer: the usage that it needs. `None`: no buffer is used so.
+    /// The usage that a buffer needs. `None`: no buffer is used so.
     pub(crate) buffer: Option<BufferUsage>,
     /// The device feature that it needs beyond those of its stages, by Vulkan's name, if it needs one.
     pub(crate) feature: Option<&'static str>,

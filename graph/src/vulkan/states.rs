@@ -17,7 +17,7 @@ pub(crate) enum StateTime {
 #[derive(Clone, Copy)]
 pub(crate) struct Subject<'a> {
     pub(crate) name: &'a str,
-    /// Of an image; `None`: a buffer.
+    /// The format of an image; `None`: a buffer.
     pub(crate) format: Option<Format>,
     pub(crate) samples: u32,
 }

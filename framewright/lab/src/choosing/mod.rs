@@ -19,7 +19,7 @@ pub enum SettingsAnswer<'a> {
         best: &'a Candidate,
         /// The limits that bind, alone or together.
         binding: Vec<Binding<'a>>,
-        /// Of the better settings those that miss the limits by least.
+        /// The better settings that miss the limits by least.
         next: Option<&'a Candidate>,
     },
     /// None does; these miss by least.

@@ -68,7 +68,7 @@ pub struct Errors {
     /// `20 log10(peak / rmse)` in dB; `None` if there is no difference. The peak is 1, or the largest light of a reference that is
     /// brighter.
     pub psnr: Option<f64>,
-    /// Of values from 0 to 1 in the curve of sRGB: 1 if there is no difference.
+    /// Structural similarity of values from 0 to 1 in the curve of sRGB: 1 if there is no difference.
     pub ssim: f64,
     /// Pixels that aren't finite: in the reference, in the other picture.
     pub non_finite: [usize; 2],

@@ -100,7 +100,7 @@ fn turned(frame: &Arc<Frame>) -> Result<Arc<Frame>, Vec<Diagnostic>> {
 }
 
 impl LastFrame {
-    /// Of a frame with images that are turned.
+    /// Compiles a frame whose images are turned already.
     fn new(
         frame: &Arc<Frame>,
         device: &Arc<Profile>,

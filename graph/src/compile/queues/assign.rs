@@ -43,7 +43,7 @@ pub(in crate::compile) fn assign(
     QueueAssignment { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
 }
 
-/// How several queues share each physical resource, and the sharing of those that other queues than graphics use.
+/// How several queues share each physical resource. Only a resource that another queue than graphics uses is shared.
 fn share(
     adapted: &AdaptedFrame,
     scoped: &ScopedSteps,

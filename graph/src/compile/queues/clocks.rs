@@ -1,7 +1,7 @@
 //! Vector clocks: what each queue knows of the others, and the waits between them.
 //!
-//! A step that waits for another one knows all that the other one knew, and that the other one and all before it on its
-//! queue are done. So a wait is left out where an earlier wait of the queue, or another wait of the same step, implies it.
+//! A step that waits for another one learns that the other one, and all before it on its queue, are done. It also learns all that
+//! the other one knew. So a wait is left out where an earlier wait of the queue, or another wait of the same step, implies it.
 //! The rest is the transitive reduction of all waits.
 
 use super::number::{QUEUES, Steps};

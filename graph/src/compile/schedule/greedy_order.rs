@@ -1,5 +1,5 @@
-//! Orders that keep little memory alive: the next run is always the one that adds fewest bytes, those that it begins less
-//! those that it ends.
+//! Orders that keep little memory alive: the next run is always the one that adds fewest bytes. A run adds the bytes that begin to
+//! live in it, less the bytes that end.
 //!
 //! The rule works in both directions: from the last run to the first, the last reader of a resource begins it. The choice
 //! among equal runs matters much. A good one is the order that was found in the other direction, so the directions take
@@ -48,7 +48,7 @@ impl<'a> GreedyOrder<'a> {
         GreedyOrder { runs, memory, forwards, backwards, users, resources }
     }
 
-    /// Of several orders, `others` among them, that in which the least memory is alive at one time.
+    /// The order that keeps the least memory alive at one time, among several and `others`.
     pub(super) fn best(&self, others: Vec<Vec<u32>>) -> Vec<u32> {
         let mut orders = others;
         orders.push(self.order(&self.forwards, levels_behind(&self.forwards)));
@@ -65,8 +65,8 @@ impl<'a> GreedyOrder<'a> {
         orders.into_iter().min_by_key(peak).unwrap_or_default()
     }
 
-    /// The order that takes, of all runs that may come next, one that begins fewest bytes less those that it ends; of equal
-    /// ones that with the highest rank.
+    /// The order that always takes the run that adds fewest bytes, among all that may come next. Among equal runs it takes the one
+    /// with the highest rank.
     fn order(&self, dependencies: &Dependencies, ranks: Vec<u32>) -> Vec<u32> {
         let count = self.runs.len() as usize;
         let mut queue = Queue {
@@ -76,7 +76,7 @@ impl<'a> GreedyOrder<'a> {
             ranks,
             heap: BinaryHeap::new(),
         };
-        // For each resource how many runs are still to use it, and the sum of their numbers: of one, it is its number.
+        // For each resource, how many runs are still to use it, and the sum of their numbers. If one is left, the sum is its number.
         let mut remaining: Vec<(u32, u32)> = Vec::with_capacity(self.runs.resources());
         for resource in 0..self.runs.resources() as u32 {
             let (users, bytes) = (of(&self.users, resource), i128::from(self.memory.bytes(resource)));

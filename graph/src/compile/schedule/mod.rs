@@ -1,8 +1,8 @@
 //! `schedule`: the order in which operations run.
 //!
 //! An operation depends on an earlier one if both use a subresource and at least one of them writes it, or if both have
-//! effects that nothing shows. Each order that keeps every operation behind those that it depends on is valid, and gives the
-//! same picture. The default order is scored by these, the most important first:
+//! effects that nothing shows. An order is valid if it keeps every operation behind all that it depends on. All valid
+//! orders give the same picture. The default order is scored by these, the most important first:
 //!
 //! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is valid. Sharing a
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.

@@ -19,7 +19,7 @@ pub(super) enum Gain {
 }
 
 impl Gain {
-    /// Of an operation with these uses that joins `scope`.
+    /// The gain of an operation with these uses that joins `scope`.
     pub(super) fn shared(adapted: &AdaptedFrame, scope: &Scope, uses: &[Use]) -> Gain {
         let attached = |used: &&Use| used.role.is_attachment() && scope.attaches(adapted, used);
         let attachments = uses.iter().filter(attached).map(|used| Target::of(adapted, used)).collect();

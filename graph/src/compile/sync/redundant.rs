@@ -219,7 +219,8 @@ impl Calls<'_> {
     }
 }
 
-/// Of more barriers than this all stay that a proof could rest on. To try each takes their square.
+/// At most this many barriers are tried one by one, which takes their square. If there are more, all stay that a proof could
+/// rest on.
 const MOST_TRIED: usize = 32;
 
 /// Those of some barriers that are enough for a proof. It can do without none of them if they were few. `None`: all of them aren't enough.

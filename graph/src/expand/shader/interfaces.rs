@@ -213,8 +213,8 @@ fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static s
     }
 }
 
-/// Of a name that a pass gives in the wrong field: the help, if the shader declares it as something that another field
-/// gives. `Some(None)`: no field can give it, which is reported with the shader.
+/// The help for a name that a pass gives in the wrong field, if the shader declares it for another field. `Some(None)`: no
+/// field can give it, which is reported with the shader.
 pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Option<Option<String>> {
     let binding = arrays::binding(interface, name)?;
     if binding.kind.unbindable().is_some() {

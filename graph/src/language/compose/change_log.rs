@@ -89,7 +89,7 @@ impl ChangeLog {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
         let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
-        // Of the changes of one entry no more are looked at than the mistake has places.
+        // The first change of the entry at each place of the mistake is enough.
         let in_entries = error.labels.iter().map(|label| places.entries(&self.changed, label.span));
         let mut in_entries = in_entries.map(|changes| changes.iter().find(|at| !is_in(self.changed[**at].by)));
         let in_entry = in_entries.find_map(|at| at.copied());

@@ -65,7 +65,7 @@ impl<'t> List<'t> {
         self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
     }
 
-    /// Adds an entry. Of several entries of one name the first is found.
+    /// Adds an entry. If several have one name, the first is found.
     pub(crate) fn add(&mut self, entry: Entry<'t>) {
         if let Some(name) = entry.name {
             self.index.entry(name.text).or_insert(self.entries.len());

@@ -45,7 +45,7 @@ struct StandIns {
 }
 
 impl StandIns {
-    /// A value that a parameter allows: its default, else a small one. Of images and buffers nothing is known.
+    /// A value that a parameter allows: its default, else a small one. Nothing is known of images and buffers.
     fn give(&mut self, parameter: &Parameter) -> Value {
         let next = |count: &mut u32| {
             *count += 1;

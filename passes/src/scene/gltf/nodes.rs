@@ -106,8 +106,8 @@ struct Roots {
     listed: Vec<bool>,
 }
 
-/// The nodes at the top of the scene that the file shows; without any scene, of the file. Of a node that isn't at the top all
-/// that is above it is walked too, for its place.
+/// The nodes at the top of the scene that the file shows; without any scene, of the file. If one isn't at the top, all
+/// nodes above it are walked too, for its place.
 fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Roots {
     let count = document.nodes.len();
     let all = || (0..count).filter(|number| parents[*number].is_none());
