@@ -32,7 +32,7 @@
 //!
 //! GLSL is compiled and drivers are tested in a helper process, if the program names one: see [`helper`].
 //!
-//! Of the layers this crate alone is unsafe inside. Its interface is safe, but for [`Executor::with_hazards`].
+//! This crate is the only layer with unsafe code inside. Its interface is safe, but for [`Executor::with_hazards`].
 
 mod base;
 mod commands;

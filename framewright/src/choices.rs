@@ -13,7 +13,7 @@ const USUAL_EXTENT: [u32; 2] = [1280, 720];
 /// What is chosen for a frame, beside the files of its pipeline. Begin with the default, and set fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choices {
-    /// Values of settings, by name, which are stronger than presets and settings files. Of several for one setting the last counts.
+    /// Values of settings, by name, which are stronger than presets and settings files. If there are several for one setting, the last counts.
     pub set: Vec<(String, String)>,
     /// Facts of the scene; `None`: it may hold everything.
     pub facts: Option<Facts>,

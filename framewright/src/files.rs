@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use framewright_graph::base::{FilePath, ReadFiles, Root, Sources, text_of};
-use framewright_graph::language::{Found, LARGEST_FILE, PipelineFiles, Shipped};
+use framewright_graph::language::{FoundFile, LARGEST_FILE, PipelineFiles, ShippedFiles};
 use framewright_passes::scene::{self, Scene, SceneError};
 use framewright_passes::shipped;
 use std::io::{self, Read};
@@ -41,9 +41,9 @@ pub struct FileOptions {
 /// A pipeline file, not yet read as RON.
 #[derive(Debug)]
 pub struct PipelineFile {
-    pub(crate) own: Found,
+    pub(crate) own: FoundFile,
     pub(crate) files: PipelineFiles,
-    pub(crate) extensions: Vec<Found>,
+    pub(crate) extensions: Vec<FoundFile>,
     pub(crate) root: Option<Root>,
     pub(crate) read: ReadFiles,
     shipped: bool,
@@ -60,13 +60,13 @@ impl PipelineFile {
             Ok(bytes) => {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
                 let root = folder_of(path, &options.reach)?;
-                let own = Found { shown: path.to_string_lossy().into_owned(), relative: (&*name).into(), bytes };
+                let own = FoundFile { shown: path.to_string_lossy().into_owned(), relative: (&*name).into(), bytes };
                 let files = PipelineFiles::beside(of_fragments(&root, read), &name, shipped::PIPELINES);
                 Ok(PipelineFile::of(own, files, Some(root), read))
             }
             Err(Error::Unreadable { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
                 let (file, text) = carried(PIPELINE, path, shipped::PIPELINES)?;
-                let found = |relative| Found { shown: file.to_owned(), relative, bytes: text.as_bytes().to_vec() };
+                let found = |relative| FoundFile { shown: file.to_owned(), relative, bytes: text.as_bytes().to_vec() };
                 if options.extensions.is_empty() {
                     let files = PipelineFiles::shipped(shipped::PIPELINES);
                     return Ok(PipelineFile {
@@ -88,7 +88,7 @@ impl PipelineFile {
     /// A pipeline that the program carries within itself, which messages call `name`. The files that it names are shipped ones.
     #[must_use]
     pub fn carried(name: &str, text: &str) -> PipelineFile {
-        let own = Found { shown: name.to_owned(), relative: name.into(), bytes: text.as_bytes().to_vec() };
+        let own = FoundFile { shown: name.to_owned(), relative: name.into(), bytes: text.as_bytes().to_vec() };
         PipelineFile::of(own, PipelineFiles::shipped(shipped::PIPELINES), None, &ReadFiles::default())
     }
 
@@ -98,7 +98,7 @@ impl PipelineFile {
         options.extensions.iter().for_each(|file| read.expect(AN_EXTENSION, file));
     }
 
-    fn of(own: Found, files: PipelineFiles, root: Option<Root>, read: &ReadFiles) -> PipelineFile {
+    fn of(own: FoundFile, files: PipelineFiles, root: Option<Root>, read: &ReadFiles) -> PipelineFile {
         PipelineFile { own, files, extensions: Vec::new(), root, read: read.clone(), shipped: false }
     }
 
@@ -184,15 +184,15 @@ fn limited(pipeline: &Path, own: Root, reach: &Reach) -> Result<Root, Error> {
 
 /// Reads an extension; where there is no such file, the shipped one of that path. Files that it names are counted from it: so its
 /// path is counted from the pipeline's folder, as `files` count.
-fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles) -> Result<Found, Error> {
+fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles) -> Result<FoundFile, Error> {
     let shown = path.to_string_lossy().into_owned();
     match bytes(EXTENSION, path, read, AN_EXTENSION) {
-        Ok(bytes) => Ok(Found { shown, relative: files.which(path), bytes }),
+        Ok(bytes) => Ok(FoundFile { shown, relative: files.which(path), bytes }),
         Err(Error::Unreadable { what, source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             let carried = shipped::PIPELINES.iter().find(|(file, _)| Path::new(file) == path);
             let (file, text) = carried.ok_or(Error::Unreadable { what, path: path.to_owned(), source })?;
             let relative = FilePath::Shipped((*file).into());
-            Ok(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
+            Ok(FoundFile { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
         }
         Err(error) => Err(error),
     }
@@ -218,7 +218,7 @@ pub(crate) fn settings(path: &Path, read: &ReadFiles) -> Result<String, Error> {
 }
 
 /// File name and text of the shipped file that `path` asks for.
-fn carried(what: &'static str, path: &Path, files: Shipped) -> Result<(&'static str, &'static str), Error> {
+fn carried(what: &'static str, path: &Path, files: ShippedFiles) -> Result<(&'static str, &'static str), Error> {
     let missing = || Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() };
     shipped::find(files, path).ok_or_else(missing)
 }

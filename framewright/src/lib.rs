@@ -49,7 +49,9 @@ pub use framewright_graph::base::{Diagnostic, ReadFiles, Root};
 pub use framewright_graph::frame::{Draw, DrawList, Stereo};
 pub use framewright_graph::language::Facts;
 pub use framewright_graph::plan::Plan;
-pub use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
+pub use framewright_graph::shader::{
+    Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource,
+};
 pub use framewright_graph::vulkan::{Format, Rotation};
 pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
@@ -60,6 +62,6 @@ pub use framewright_vulkan::{
     ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
-pub use pipeline::{Pipeline, Planned};
-pub use renderer::{Change, Prepared, Renderer};
+pub use pipeline::{Pipeline, PlannedFrame};
+pub use renderer::{Change, PreparedFrame, Renderer};
 pub use scene_renderer::{SceneRenderer, check_cameras};

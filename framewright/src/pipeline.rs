@@ -10,7 +10,7 @@ use framewright_graph::compile::{self, Compiler, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Expander, Inputs};
 use framewright_graph::frame::{Frame, TextureFile, TextureInfo, TextureProblem, Textures};
-use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, SettingsFile, Unread};
+use framewright_graph::language::{self, Document, Files, FoundFile, PipelineFiles, ReadFailure, SettingsFile};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify;
 use framewright_passes::texture_files::TextureFiles;
@@ -51,14 +51,14 @@ pub(crate) enum Origin {
 
 /// A frame, and its Plan.
 #[derive(Debug)]
-pub struct Planned {
+pub struct PlannedFrame {
     /// The frame.
     pub frame: Frame,
     /// Its Plan, verified.
     pub plan: Plan,
 }
 
-impl Planned {
+impl PlannedFrame {
     /// The Plan, with the frame that it was made of.
     #[must_use]
     pub fn parts(&self) -> (&Plan, Option<&Frame>) {
@@ -75,7 +75,7 @@ struct NamedFiles<'t> {
 }
 
 impl Files for NamedFiles<'_> {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         self.files.read(from, path)
     }
 
@@ -216,10 +216,10 @@ impl Pipeline {
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
-    ) -> Result<Planned, Error> {
+    ) -> Result<PlannedFrame, Error> {
         let frame = self.frame(choices, device)?;
         let plan = self.compile(&frame, device, memory, options)?;
-        Ok(Planned { frame, plan })
+        Ok(PlannedFrame { frame, plan })
     }
 
     /// Makes sure that a device has the memory that a Plan takes.

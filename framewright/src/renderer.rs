@@ -30,17 +30,17 @@ pub struct Renderer {
     pipeline: Pipeline,
     /// The files that were read last, by a reload that failed too.
     read: ReadFiles,
-    chosen: Chosen,
+    chosen: DrawnChoices,
     compiler: Compiler,
     /// What is drawn.
-    drawn: Option<Drawn>,
+    drawn: Option<DrawnPlan>,
     /// Whether anything changed since it was planned.
     changed: bool,
 }
 
 /// What was chosen.
 #[derive(Debug, Clone, Default, PartialEq)]
-struct Chosen {
+struct DrawnChoices {
     /// Values of settings, by name. One that the file doesn't have, or no longer, waits for it.
     set: BTreeMap<String, String>,
     preset: Option<String>,
@@ -49,16 +49,16 @@ struct Chosen {
 }
 
 /// The Plan that is drawn, with its executor and the choices that it was made for.
-struct Drawn {
+struct DrawnPlan {
     plan: Plan,
     executor: Executor,
-    chosen: Chosen,
+    chosen: DrawnChoices,
 }
 
 /// The Plan of the next frame.
 #[derive(Debug)]
 #[non_exhaustive]
-pub struct Prepared<'r> {
+pub struct PreparedFrame<'r> {
     /// The Plan, verified.
     pub plan: &'r Plan,
     /// What became another one since the last call.
@@ -110,7 +110,7 @@ impl Renderer {
             profile: Arc::new(device.profile()),
             origin,
             options,
-            chosen: Chosen::default(),
+            chosen: DrawnChoices::default(),
             compiler: Compiler::new(),
             drawn: None,
             changed: true,
@@ -200,7 +200,7 @@ impl Renderer {
         Ok(())
     }
 
-    fn take(&mut self, choose: impl FnOnce(&mut Chosen)) {
+    fn take(&mut self, choose: impl FnOnce(&mut DrawnChoices)) {
         let mut chosen = self.chosen.clone();
         choose(&mut chosen);
         self.changed |= self.chosen != chosen;
@@ -214,12 +214,12 @@ impl Renderer {
     /// # Errors
     /// The mistakes of the pipeline, its shaders and choices, or those of making an executor. The last good Plan stays, with the
     /// choices that it was made for; if there is none, the next call tries again.
-    pub fn prepare(&mut self) -> Result<Prepared<'_>, Error> {
+    pub fn prepare(&mut self) -> Result<PreparedFrame<'_>, Error> {
         let change = match self.changed {
             true => self.renew(false).inspect_err(|_| self.go_back())?,
             false => Change::Nothing,
         };
-        Ok(Prepared { plan: &self.drawn()?.plan, change })
+        Ok(PreparedFrame { plan: &self.drawn()?.plan, change })
     }
 
     /// Another renderer of the pipeline, with the choices of this one. It reads the files anew, and has drawn nothing. Choices can be
@@ -262,7 +262,7 @@ impl Renderer {
         let Renderer { device, profile, options, pipeline, chosen, compiler, drawn, .. } = self;
         let choices = chosen.of(&pipeline.document, &options.dump);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
-        let stays = |drawn: &&mut Drawn| !anew && drawn.plan.differs_beyond_values(plan).is_none();
+        let stays = |drawn: &&mut DrawnPlan| !anew && drawn.plan.differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
             drawn.executor.change(plan)?;
             drawn.plan.clone_from(plan);
@@ -272,7 +272,7 @@ impl Renderer {
             let mut executor = pipeline.assets.executor(device, plan, &options.executor)?;
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
-            *drawn = Some(Drawn { plan: plan.clone(), executor, chosen: chosen.clone() });
+            *drawn = Some(DrawnPlan { plan: plan.clone(), executor, chosen: chosen.clone() });
             Change::Executor { carried_over }
         };
         self.changed = false;
@@ -280,7 +280,7 @@ impl Renderer {
     }
 
     /// What is drawn. After [`Renderer::prepare`] there is something, unless the device gave up while contents were carried over.
-    fn drawn(&mut self) -> Result<&mut Drawn, Error> {
+    fn drawn(&mut self) -> Result<&mut DrawnPlan, Error> {
         let none = || framewright_vulkan::Error::BadPlan { what: "there is none yet".to_owned() };
         Ok(self.drawn.as_mut().ok_or_else(none)?)
     }
@@ -331,7 +331,7 @@ impl Renderer {
     /// Those of [`Renderer::prepare`] and [`Executor::present`].
     pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
         self.prepare()?;
-        let Drawn { plan, executor, .. } = self.drawn()?;
+        let DrawnPlan { plan, executor, .. } = self.drawn()?;
         Ok(executor.present(source, window, shown(plan))?)
     }
 
@@ -349,9 +349,9 @@ impl Renderer {
     ) -> Result<Presentation, Error> {
         self.prepare()?;
         over.prepare()?;
-        let Drawn { plan: over, executor: over_executor, .. } = over.drawn()?;
+        let DrawnPlan { plan: over, executor: over_executor, .. } = over.drawn()?;
         let overlay = Overlay { executor: over_executor, source: over_source, name: shown(over) };
-        let Drawn { plan, executor, .. } = self.drawn()?;
+        let DrawnPlan { plan, executor, .. } = self.drawn()?;
         Ok(executor.present_with_overlay(source, window, shown(plan), overlay)?)
     }
 
@@ -433,7 +433,7 @@ impl Renderer {
     }
 }
 
-impl Chosen {
+impl DrawnChoices {
     /// What it means for a frame of a pipeline.
     fn of(&self, document: &Document, dump: &[String]) -> Choices {
         let has = |name: &str| document.settings.iter().any(|setting| *setting.name.text == *name);
@@ -443,7 +443,7 @@ impl Chosen {
     }
 }
 
-impl Drawn {
+impl DrawnPlan {
     /// The number of an output.
     fn output(&self, name: &str) -> Result<usize, Error> {
         let outputs = &self.plan.outputs;

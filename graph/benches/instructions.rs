@@ -26,7 +26,7 @@ mod table;
 
 use counts::{Code, Guard, counted};
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Frame;
 use framewright_graph::verify::verify;
 use std::error::Error;
@@ -73,7 +73,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 
 fn compile(frame: &Frame) {
     let device = graphs::device();
-    let compile = || framewright_graph::compile::compile(frame, &device, &mut Estimated(&device), &Options::default());
+    let compile =
+        || framewright_graph::compile::compile(frame, &device, &mut MemoryEstimate(&device), &Options::default());
     black_box(compile()).expect("the graph is valid");
     counted(compile).expect("the graph is valid");
 }
@@ -90,7 +91,7 @@ fn compile_again() {
     let changed = Arc::new(changed::with_values(&frame));
     let mut compiler = Compiler::new();
     let mut compile = |frame| {
-        let compiled = compiler.compile(frame, &device, &mut Estimated(&device), &Options::default());
+        let compiled = compiler.compile(frame, &device, &mut MemoryEstimate(&device), &Options::default());
         black_box(compiled).expect("the graph is valid");
     };
     compile(&frame);
@@ -110,7 +111,8 @@ fn expand_again() {
 /// Checks the Plan of a frame.
 fn check(frame: &Frame) {
     let device = graphs::device();
-    let compiled = framewright_graph::compile::compile(frame, &device, &mut Estimated(&device), &Options::default());
+    let compiled =
+        framewright_graph::compile::compile(frame, &device, &mut MemoryEstimate(&device), &Options::default());
     let plan = compiled.expect("the graph is valid");
     black_box(verify(&plan));
     black_box(counted(|| verify(&plan)));

@@ -8,7 +8,7 @@ mod graphs;
 mod parts;
 
 use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Frame;
 use framewright_graph::verify::verify;
 use std::sync::Arc;
@@ -36,14 +36,14 @@ fn main() {
         let passes = frame.passes.len() as f64;
         let mut plan = None;
         let once = allocation_counter::measure(|| {
-            plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).ok();
+            plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).ok();
         });
         let checked = allocation_counter::measure(|| {
             let _ = plan.as_ref().map(verify);
         });
         let frame = Arc::new(frame);
         let mut compiler = Compiler::new();
-        let mut again = || compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).is_ok();
+        let mut again = || compiler.compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).is_ok();
         again();
         let again = allocation_counter::measure(|| {
             again();

@@ -1,6 +1,6 @@
 //! The shipped shaders, pipelines and scenes, carried within the binary.
 
-use framewright_graph::language::Shipped;
+use framewright_graph::language::ShippedFiles;
 use std::path::Path;
 
 macro_rules! carried {
@@ -10,7 +10,7 @@ macro_rules! carried {
 }
 
 /// Name, as a pipeline file or an `#include` says it, and GLSL text of each shipped shader.
-pub const SHADERS: Shipped = carried!(
+pub const SHADERS: ShippedFiles = carried!(
     "shaders":
     "accumulate.frag",
     "adapt_exposure.comp",
@@ -110,7 +110,7 @@ pub const SHADERS: Shipped = carried!(
 );
 
 /// The files in `examples/pipelines`: pipelines, and in folders what they are made of.
-pub const PIPELINES: Shipped = carried!(
+pub const PIPELINES: ShippedFiles = carried!(
     "pipelines":
     "auto_exposure.ron",
     "deferred.ron",
@@ -144,16 +144,16 @@ pub const PIPELINES: Shipped = carried!(
 );
 
 /// The scenes in `examples/scenes`.
-pub const SCENES: Shipped = carried!("scenes": "courtyard.ron", "passing.ron", "spheres_and_cubes.ron");
+pub const SCENES: ShippedFiles = carried!("scenes": "courtyard.ron", "passing.ron", "spheres_and_cubes.ron");
 
 /// Names by which shipped files are asked for, without their ending. Files in folders have none.
-pub fn names(files: Shipped) -> impl Iterator<Item = &'static str> {
+pub fn names(files: ShippedFiles) -> impl Iterator<Item = &'static str> {
     files.iter().filter_map(|(file, _)| name(file))
 }
 
 /// File name and text of the shipped file that `path` asks for: by name or file name, in no folder.
 #[must_use]
-pub fn find(files: Shipped, path: &Path) -> Option<(&'static str, &'static str)> {
+pub fn find(files: ShippedFiles, path: &Path) -> Option<(&'static str, &'static str)> {
     let called = |file: &str| name(file).is_some_and(|name| path == Path::new(name) || path == Path::new(file));
     files.iter().find(|(file, _)| called(file)).copied()
 }

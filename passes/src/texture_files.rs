@@ -42,7 +42,7 @@ enum Texels {
 }
 
 /// A picture whose size is known, and whose texels aren't decoded yet.
-enum Opened {
+enum OpenedPicture {
     OpenExr(OpenExr<BufReader<File>>),
     Other(Box<dyn ImageDecoder>, ImageFormat),
 }
@@ -82,19 +82,19 @@ impl TextureFiles {
     }
 
     /// Opens a picture whose size is within the limits.
-    fn open(&self, path: &str) -> Result<Opened, TextureProblem> {
+    fn open(&self, path: &str) -> Result<OpenedPicture, TextureProblem> {
         let file = self.root.open(&self.locate(path)?).map_err(unreadable)?;
         let mut reader = ImageReader::new(BufReader::new(file)).with_guessed_format().map_err(unreadable)?;
         let format = reader.format();
         let file = reader.into_inner();
         let opened = match format {
-            Some(ImageFormat::OpenExr) => Opened::OpenExr(OpenExr::open(file).map_err(damaged)?),
+            Some(ImageFormat::OpenExr) => OpenedPicture::OpenExr(OpenExr::open(file).map_err(damaged)?),
             Some(format) => {
                 reader = ImageReader::with_format(file, format);
                 reader.limits(most_memory());
-                Opened::Other(Box::new(reader.into_decoder().map_err(damaged)?), format)
+                OpenedPicture::Other(Box::new(reader.into_decoder().map_err(damaged)?), format)
             }
-            None => Opened::Other(radiance(file)?, ImageFormat::Hdr),
+            None => OpenedPicture::Other(radiance(file)?, ImageFormat::Hdr),
         };
         let (stored, [width, height]) = (opened.stored(), opened.extent());
         let texels = u64::from(width) * u64::from(height);
@@ -133,31 +133,31 @@ fn radiance(mut file: BufReader<File>) -> Result<Box<dyn ImageDecoder>, TextureP
     Ok(Box::new(decoder))
 }
 
-impl Opened {
+impl OpenedPicture {
     fn extent(&self) -> [u32; 2] {
         match self {
-            Opened::OpenExr(file) => file.extent,
-            Opened::Other(decoder, _) => decoder.dimensions().into(),
+            OpenedPicture::OpenExr(file) => file.extent,
+            OpenedPicture::Other(decoder, _) => decoder.dimensions().into(),
         }
     }
 
     /// Texels that the file holds, of which not all need be shown.
     fn stored(&self) -> u64 {
         match self {
-            Opened::OpenExr(file) => file.stored,
-            Opened::Other(..) => 0,
+            OpenedPicture::OpenExr(file) => file.stored,
+            OpenedPicture::Other(..) => 0,
         }
     }
 
     /// Whether it holds light in floating point.
     fn is_light(&self) -> bool {
-        matches!(self, Opened::OpenExr(_) | Opened::Other(_, ImageFormat::Hdr))
+        matches!(self, OpenedPicture::OpenExr(_) | OpenedPicture::Other(_, ImageFormat::Hdr))
     }
 
     fn texels(self) -> Result<Texels, TextureProblem> {
         let decoder = match self {
-            Opened::OpenExr(file) => return file.texels().map(Texels::Floats).map_err(damaged),
-            Opened::Other(decoder, _) => decoder,
+            OpenedPicture::OpenExr(file) => return file.texels().map(Texels::Floats).map_err(damaged),
+            OpenedPicture::Other(decoder, _) => decoder,
         };
         let decoded = DynamicImage::from_decoder(decoder).map_err(damaged)?;
         Ok(match decoded.color() {
@@ -175,7 +175,7 @@ impl Textures for TextureFiles {
         let opened = self.open(&file.path)?;
         let format = match (&opened, file.color_space) {
             _ if opened.is_light() => Format::R16G16B16A16_SFLOAT,
-            (Opened::Other(decoder, _), _) if is_of_words(decoder.color_type()) => Format::R16G16B16A16_UNORM,
+            (OpenedPicture::Other(decoder, _), _) if is_of_words(decoder.color_type()) => Format::R16G16B16A16_UNORM,
             (_, ColorSpace::Srgb) => Format::R8G8B8A8_SRGB,
             (_, ColorSpace::Linear) => Format::R8G8B8A8_UNORM,
         };

@@ -4,7 +4,7 @@
 //! work on the machine only adds. `-- --short` runs each once, to see that it runs.
 
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::Plan;
 use framewright_tests::shipped::{self, ShippedFrame};
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ fn main() {
     let (device, text) = SHIPPED_PROFILES[0];
     let profile = Profile::from_ron(text).expect("shipped profiles are read");
     let compiled = |shipped: &ShippedFrame| -> Plan {
-        let plan = compile(&shipped.frame, &profile, &mut Estimated(&profile), &Options::default());
+        let plan = compile(&shipped.frame, &profile, &mut MemoryEstimate(&profile), &Options::default());
         plan.expect("shipped pipelines compile")
     };
     let mut longest: BTreeMap<&str, (usize, &ShippedFrame)> = BTreeMap::new();

@@ -4,7 +4,8 @@ use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage,
+    Work,
 };
 use framewright_graph::vulkan::{CompareOp, Format, Stages, Subresources};
 
@@ -100,7 +101,7 @@ impl Added<'_> {
     pub fn sample(self, image: ImageIndex) -> Self {
         let compute = matches!(self.0.work, Work::Dispatch { .. });
         let stages = if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER };
-        self.0.sampled.push(Sampled::new(format!("source{}", self.0.sampled.len()), image, stages));
+        self.0.sampled.push(SampledImage::new(format!("source{}", self.0.sampled.len()), image, stages));
         self
     }
 

@@ -3,11 +3,11 @@
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage,
     Storage, Work,
 };
 use framewright_graph::plan::Plan;
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{CompareOp, Format, Stages, Subresources};
 use framewright_vulkan::Device;
 use std::fmt::Write;
@@ -70,7 +70,7 @@ pub(crate) fn interface(draw: Draw) -> DrawInterface {
     if draw != Draw::Objects(DrawList::Opaque) {
         return DrawInterface::default();
     }
-    let supplied = |set, name, kind| Supplied::new(set, 0, name, kind);
+    let supplied = |set, name, kind| SuppliedResource::new(set, 0, name, kind);
     DrawInterface {
         vertex_stride: VERTEX_BYTES,
         attributes: vec![Attribute::new("position", 2, 0)],
@@ -304,8 +304,8 @@ fn sum(sources: usize, at: &str) -> String {
     })
 }
 
-fn sampled(reads: &[ImageIndex], stages: Stages) -> Vec<Sampled> {
-    let one = |(number, image): (usize, &ImageIndex)| Sampled::new(format!("source{number}"), *image, stages);
+fn sampled(reads: &[ImageIndex], stages: Stages) -> Vec<SampledImage> {
+    let one = |(number, image): (usize, &ImageIndex)| SampledImage::new(format!("source{number}"), *image, stages);
     reads.iter().enumerate().map(one).collect()
 }
 

@@ -3,9 +3,9 @@
 mod cache;
 mod cancel;
 pub(crate) mod convert;
+mod debug_words;
 mod error;
 mod kept_files;
-mod named;
 mod platform;
 mod shader_stage;
 
@@ -16,8 +16,8 @@ pub use platform::end_process;
 pub(crate) use cache::{identity_of, path_variable, read_file, replace_file};
 pub(crate) use cancel::{Cancel, SLICE};
 pub(crate) use convert::Clear;
+pub(crate) use debug_words::{by, named, numbers};
 pub(crate) use kept_files::{bytes_in, digest, shrink, used_now};
-pub(crate) use named::{by, named, numbers};
 pub(crate) use platform::{
     ChildInput, apart_from_interrupts, in_words, is_crash, limit_this_process, start_with_input, take_standard_output,
     with_usual_rights,

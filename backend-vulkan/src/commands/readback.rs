@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Texels of one plane of one mip level of an image: of the upright picture, where the image holds a rotated one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texels {
-    /// The format of a texel. Of depth-stencil formats one plane is read: the depth takes 2 bytes for `D16_UNORM`, else 4; the
+    /// The format of a texel. If it has depth and stencil, one plane is read: the depth takes 2 bytes for `D16_UNORM`, else 4; the
     /// stencil takes 1.
     pub format: Format,
     /// Width, height, depth.

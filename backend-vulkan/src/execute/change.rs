@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedStep, Refuse, check};
+use crate::prepare::{PreparedStep, Refusals, check};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -23,11 +23,14 @@ struct ChangedPipeline {
 }
 
 impl Executor {
-    /// Executes `plan` from the next frame on, which may differ from the one before in values alone: see
-    /// [`Plan::differs_beyond_values`]. Made anew on the device are only the blocks of parameters that have other values, for
-    /// which frames in flight are waited for, and the pipelines of shaders that ask for `frag_coord()` in images that hold both
-    /// eyes' pictures side by side and change their size. There is one of those for each size, which the device keeps. Whichever
-    /// part of an image is in use, no device memory is allocated for it.
+    /// Executes `plan` from the next frame on. It may differ from the Plan before in values alone: see
+    /// [`Plan::differs_beyond_values`]. Two things are made anew on the device:
+    ///
+    /// - Blocks of parameters with other values. Frames in flight are waited for first.
+    /// - Pipelines of shaders that ask for `frag_coord()`, if their images hold both eyes' pictures side by side and change their
+    ///   size. The device keeps one such pipeline for each size.
+    ///
+    /// No device memory is allocated when another part of an image is in use.
     ///
     /// # Errors
     /// [`Error::BadPlan`] if the Plan differs in more, and what is to be made anew; [`Error::Violations`] and
@@ -37,7 +40,7 @@ impl Executor {
         if let Some(what) = self.plan.differs_beyond_values(plan) {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
-        check(&self.gpu, plan, Refuse::Violations, self.poisons())?;
+        check(&self.gpu, plan, Refusals::Violations, self.poisons())?;
         let pipelines = self.changed_pipelines(plan)?;
         let changed = self.changed_params(plan)?;
         if !changed.is_empty() {

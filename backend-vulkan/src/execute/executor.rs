@@ -9,8 +9,10 @@ use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
-use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, scope_formats, stage_textures};
-use crate::record::{DrawSource, FrameReport, Guarded};
+use crate::prepare::{
+    Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, scope_formats, stage_textures,
+};
+use crate::record::{DrawSource, FrameReport, GuardedSource};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
@@ -57,7 +59,7 @@ impl Executor {
         shaders: &mut ShaderLibrary,
         options: &ExecutorOptions,
     ) -> Result<Executor, Error> {
-        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Violations)
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refusals::Violations)
     }
 
     /// Like [`Executor::new`], for a Plan that has images from files: their texels are read here, and uploaded before the
@@ -72,7 +74,7 @@ impl Executor {
         textures: &mut dyn Textures,
         options: &ExecutorOptions,
     ) -> Result<Executor, Error> {
-        Executor::checked(device, plan, shaders, textures, options, Refuse::Violations)
+        Executor::checked(device, plan, shaders, textures, options, Refusals::Violations)
     }
 
     /// Like [`Executor::new`], but hazards in the Plan pass, to see what the validation layer or the poison says of them.
@@ -89,7 +91,7 @@ impl Executor {
         shaders: &mut ShaderLibrary,
         options: &ExecutorOptions,
     ) -> Result<Executor, Error> {
-        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Malformed)
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refusals::Malformed)
     }
 
     fn checked(
@@ -98,7 +100,7 @@ impl Executor {
         shaders: &mut ShaderLibrary,
         textures: &mut dyn Textures,
         options: &ExecutorOptions,
-        refuse: Refuse,
+        refuse: Refusals,
     ) -> Result<Executor, Error> {
         let gpu = &device.gpu;
         check(gpu, plan, refuse, options.poison)?;
@@ -144,7 +146,7 @@ impl Executor {
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.submit(&frame, prepared, &mut Guarded(source), &extras, &Submission::default())?;
+        frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, &Submission::default())?;
         Ok(self.first_frame + number)
     }
 
@@ -163,7 +165,7 @@ impl Executor {
     pub unsafe fn submit_with(&mut self, source: &mut dyn DrawSource, among: &Submission<'_>) -> Result<u64, Error> {
         let number = self.next_frame(among.images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.submit(&frame, prepared, &mut Guarded(source), &extras, among)?;
+        frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, among)?;
         Ok(self.first_frame + number)
     }
 
@@ -193,7 +195,7 @@ impl Executor {
     ) -> Result<u64, Error> {
         let number = self.next_frame(images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
-        frames.record_into((commands, done), &frame, prepared, &mut Guarded(source), &extras)?;
+        frames.record_into((commands, done), &frame, prepared, &mut GuardedSource(source), &extras)?;
         Ok(self.first_frame + number)
     }
 

@@ -8,7 +8,9 @@ use crate::base::Error;
 use crate::commands::{CommandPool, Readback, record};
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, Frame, PreparedPlan};
-use crate::record::{Breadcrumbs, CommandState, DrawSource, FragmentCounts, Observers, Recorded, Recording, Timing};
+use crate::record::{
+    Breadcrumbs, CommandState, DrawSource, FragmentCounts, Observers, RecordedFrame, Recording, Timing,
+};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -19,7 +21,7 @@ pub(super) struct FrameSlot {
     /// By batch.
     pub(super) commands: Vec<(CommandPool, vk::CommandBuffer)>,
     pub(super) observers: Observers,
-    pub(super) recorded: Recorded,
+    pub(super) recorded: RecordedFrame,
     /// By output, if they are kept.
     pub(super) outputs: Vec<Readback>,
     /// The frame that has the place, and where it ends.
@@ -66,7 +68,7 @@ impl FrameSlot {
                 },
                 breadcrumbs: options.breadcrumbs.then(|| Breadcrumbs::new(gpu, batches.len())).transpose()?,
             },
-            recorded: Recorded::default(),
+            recorded: RecordedFrame::default(),
             outputs: Vec::new(),
             frame: None,
             finished: false,
@@ -118,9 +120,9 @@ impl FrameSlot {
 
 /// Begins a frame, has `record` record it, and notes how long that took.
 fn recorded(
-    recorded: &mut Recorded,
+    recorded: &mut RecordedFrame,
     observers: &mut Observers,
-    record: impl FnOnce(&mut Recorded, &mut Observers) -> Result<(), Error>,
+    record: impl FnOnce(&mut RecordedFrame, &mut Observers) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let begun = Instant::now();
     observers.begin_frame()?;

@@ -8,13 +8,13 @@ use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
 use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
 use ash::vk;
-use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role};
+use framewright_graph::plan::{self, BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
-/// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
-/// initial value or the texels in `staged`, others that were not imported to zero, each in the state that the Plan relies on and
-/// with the queue that uses it first.
+/// Gives first contents to everything that outlives the frame and has none yet. Persistent images and buffers get their initial
+/// value or the texels in `staged`, others are zero unless they were imported. Each is then in the state that the Plan relies on,
+/// and belongs to the queue that uses it first.
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,
@@ -23,8 +23,8 @@ pub(crate) fn initialise(
     staged: &[StagedTexture],
 ) -> Result<(), Error> {
     let initial = |role: &Role, is_foreign: bool| match role {
-        Role::Persistent { before, initial: Initial::Value(value), .. } => Some((*before, Some(*value))),
-        Role::Persistent { before, initial: Initial::File(_), .. } => Some((*before, None)),
+        Role::Persistent { before, initial: FirstContents::Value(value), .. } => Some((*before, Some(*value))),
+        Role::Persistent { before, initial: FirstContents::File(_), .. } => Some((*before, None)),
         Role::External { before, .. } if !is_foreign => Some((*before, Some(FillValue::Bits([0; 4])))),
         Role::Transient(_) | Role::External { .. } => None,
     };
@@ -102,7 +102,7 @@ struct OwnershipTransfers<'h> {
 }
 
 impl OwnershipTransfers<'_> {
-    /// Records what one family has to do, of which the graphics family comes first.
+    /// Records the work of one family. The graphics family comes first.
     fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
         let families = &self.gpu.queues.families;
         let graphics = families.graphics;

@@ -5,7 +5,7 @@ use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{cycle, initial_queue, name_and_role};
 use ash::vk;
-use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role};
+use framewright_graph::plan::{BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
 use framewright_graph::vulkan::{State, Subresources};
 use std::sync::Arc;
 
@@ -101,7 +101,7 @@ impl Executor {
     fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
         let (name, role) = name_and_role(&self.plan, to);
         // Contents from a file were read anew, and may have changed.
-        let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
+        let Role::Persistent { before: found, initial: FirstContents::Value(_), .. } = role else { return None };
         let from = persistent(&before.plan).find(|it| name_and_role(&before.plan, *it).0 == name)?;
         let Role::Persistent { before: left, .. } = name_and_role(&before.plan, from).1 else { return None };
         let names = |plan: &Plan, first| -> Vec<String> {

@@ -15,9 +15,9 @@ pub struct ExecutorOptions {
     /// Whether each step is submitted by itself and waited for before the next. The picture must be the same, and a device that
     /// is lost or doesn't answer is told with its step ([`AtStep`](crate::Error::AtStep)). Such a frame goes into no command buffer of the program's.
     pub step_by_step: bool,
-    /// Whether the device notes each step that it begins where the host finds it, so that a device that is lost or doesn't answer is told
-    /// with the step that it was at ([`AtStep`](crate::Error::AtStep)): of each queue one. Each step waits for all before it then, as with
-    /// `full_barriers`; the host waits for none. A device that is lost may take what it noted with it.
+    /// Whether the device notes for the host each step that it begins. If the device is lost or doesn't answer, the error names the step
+    /// that each queue was at ([`AtStep`](crate::Error::AtStep)). Each step then waits for all before it, as with `full_barriers`; the host
+    /// waits for none. A lost device may take its notes with it.
     pub breadcrumbs: bool,
     /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
     /// can be used any more.

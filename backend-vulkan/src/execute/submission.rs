@@ -19,8 +19,8 @@ pub struct SemaphorePoint {
 /// What a frame has to do with the program's own work. The default: nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Submission<'s> {
-    /// For external images by name: which of those that [`import_images`](crate::Executor::import_images) took the frame uses. An image that isn't listed
-    /// is the one of the frame before.
+    /// The images that the frame uses: the name of an external image, and a number among those that
+    /// [`import_images`](crate::Executor::import_images) took for it. An image that isn't listed is the one of the frame before.
     pub images: &'s [(&'s str, usize)],
     /// What the frame waits for before it begins.
     pub waits: &'s [SemaphorePoint],

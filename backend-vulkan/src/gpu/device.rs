@@ -19,8 +19,8 @@ pub struct DeviceOptions {
     pub choice: DeviceChoice,
     /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
     pub validation: bool,
-    /// Where it is tested; `None`: in this process. In a helper process a driver that crashes in a test ends no more than that,
-    /// and what the tests find is kept for this version of the driver, as are its pipelines.
+    /// The process in which the device is tested; `None`: this one. A driver that crashes in a test ends only the helper process. The
+    /// helper keeps what it found for this version of the driver, and its pipelines.
     pub helper: Option<Helper>,
     /// The display whose windows pictures are shown in, for [`Device::surface`]; `None`: nothing is shown.
     pub display: Option<RawDisplayHandle>,
@@ -102,8 +102,8 @@ impl Device {
         (&self.gpu.instance.raw, self.gpu.physical)
     }
 
-    /// The index of the queue family that frames are submitted to, of which the queue number 0 is used unless the device was adopted. Command buffers for
-    /// [`Executor::record_into`](crate::Executor::record_into) are of this family.
+    /// The index of the queue family that frames are submitted to. Unless the device was adopted, its queue number 0 is used. Command
+    /// buffers for [`Executor::record_into`](crate::Executor::record_into) are of this family.
     #[must_use]
     pub fn graphics_queue_family(&self) -> u32 {
         self.gpu.queues.families.graphics.index

@@ -26,7 +26,7 @@ pub fn optional_features() -> impl Iterator<Item = (&'static str, &'static str)>
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
 
 /// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
-type Optional = (&'static str, &'static str, Flag);
+type OptionalFeature = (&'static str, &'static str, Flag);
 
 /// The minimum device, feature by feature: Vulkan's name, the flag. All of these are switched on.
 const MINIMUM_FEATURES: [(&str, Flag); 12] = [
@@ -56,7 +56,7 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 ];
 
 /// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
-const OPTIONAL_FEATURES: [Optional; 4] = [
+const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
@@ -64,7 +64,7 @@ const OPTIONAL_FEATURES: [Optional; 4] = [
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [Optional; 9] = [
+const NEEDED_FEATURES: [OptionalFeature; 9] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -134,8 +134,8 @@ impl Features {
         features
     }
 
-    /// The features in a chain, as a device was created with it: those of Vulkan 1.0 to 1.3 in the structures of a version, or in those of
-    /// the extensions that they come from.
+    /// The features in the chain that a device was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
+    /// or in that of the extension that it comes from.
     ///
     /// # Safety
     /// Each structure in the chain is valid, and of the type that it says.
@@ -241,12 +241,12 @@ impl Features {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
     }
 
-    /// Whether the feature of this name, Vulkan's, is switched on, of those that pipelines can need.
+    /// Whether a feature that pipelines can need is switched on. `name` is Vulkan's.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.needed().any(|known| known == name)
     }
 
-    /// The features that are switched on, of those that pipelines can need, by Vulkan's names.
+    /// Vulkan's names of the features that are switched on, and that pipelines can need.
     pub(crate) fn needed(&self) -> impl Iterator<Item = &'static str> {
         let Features { core, v1_1, v1_2, v1_3, local_read } = *self;
         let mut all = Features { core, v1_1, v1_2, v1_3, local_read };

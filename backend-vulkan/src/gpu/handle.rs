@@ -1,6 +1,6 @@
 //! The device handle: everything that is made from a device holds on to it.
 
-use super::cached::Caches;
+use super::cached_objects::Caches;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;
@@ -47,7 +47,7 @@ pub(crate) struct Gpu {
 }
 
 /// A device that was made, and what it was made with.
-pub(super) struct Made {
+pub(super) struct CreatedDevice {
     pub(super) raw: ash::Device,
     /// The features that are switched on and used.
     pub(super) features: Features,
@@ -105,7 +105,7 @@ impl Gpu {
         // SAFETY: the device was created with one queue of each of these families.
         let queue = |family: &u32| (*family, unsafe { raw.get_device_queue(*family, 0) });
         let queues = families.indices.iter().map(queue).collect();
-        let made = Made { raw, features, presents, families, queues, is_adopted: false, allocator: None };
+        let made = CreatedDevice { raw, features, presents, families, queues, is_adopted: false, allocator: None };
         Gpu::of(instance, physical, summary, made, cache)
     }
 
@@ -114,10 +114,10 @@ impl Gpu {
         instance: Instance,
         physical: vk::PhysicalDevice,
         summary: DeviceSummary,
-        made: Made,
+        made: CreatedDevice,
         cache: Option<&Cache>,
     ) -> Result<Gpu, Error> {
-        let Made { raw, features, presents, families, queues, is_adopted, allocator } = made;
+        let CreatedDevice { raw, features, presents, families, queues, is_adopted, allocator } = made;
         let max_views = minimum::max_views(&instance.raw, physical, &features);
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };

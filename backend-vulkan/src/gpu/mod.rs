@@ -1,7 +1,7 @@
 //! The device: instance, validation layer, features, queues, and the handle that everything made from it holds on to.
 
-mod adopted;
-mod cached;
+mod adopted_device;
+mod cached_objects;
 mod device;
 pub(crate) mod features;
 mod handle;
@@ -20,8 +20,8 @@ pub(crate) mod switched_off;
 mod validation;
 mod words;
 
-pub use adopted::AdoptedDevice;
-pub use cached::{SamplerDescriptor, ScopeFormats};
+pub use adopted_device::AdoptedDevice;
+pub use cached_objects::{SamplerDescriptor, ScopeFormats};
 pub use device::{Device, DeviceOptions};
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;
@@ -30,7 +30,7 @@ pub use summary::{DeviceChoice, DeviceSummary};
 pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
-pub(crate) use cached::{
+pub(crate) use cached_objects::{
     GraphicsDescriptor, LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
 };
 pub(crate) use device::TestedDevice;

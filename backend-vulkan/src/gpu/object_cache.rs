@@ -1,5 +1,5 @@
-//! Objects by description, of which each is made once. Threads make different objects at once. A thread that asks for an object that
-//! another one is making waits for it.
+//! Objects by description, each made once. Threads make different objects at the same time. If a thread asks for an object that is
+//! being made, it waits.
 
 use crate::base::Error;
 use std::collections::HashMap;
@@ -11,12 +11,12 @@ const KEPT_ROUNDS: u64 = 16;
 
 /// One kind of object by its description.
 pub(crate) struct ObjectCache<K, V> {
-    known: Mutex<Known<K, V>>,
+    known: Mutex<KnownObject<K, V>>,
     /// Wakes threads that wait for an object that another one makes.
     made: Condvar,
 }
 
-struct Known<K, V> {
+struct KnownObject<K, V> {
     objects: HashMap<K, Object<V>>,
     round: u64,
 }
@@ -37,7 +37,7 @@ struct PendingObject<'m, K: Hash + Eq, V> {
 
 impl<K, V> Default for ObjectCache<K, V> {
     fn default() -> Self {
-        ObjectCache { known: Mutex::new(Known { objects: HashMap::new(), round: 0 }), made: Condvar::new() }
+        ObjectCache { known: Mutex::new(KnownObject { objects: HashMap::new(), round: 0 }), made: Condvar::new() }
     }
 }
 
@@ -55,7 +55,7 @@ impl<K: Hash + Eq + Clone, V: Copy> ObjectCache<K, V> {
 
     /// The object for `key`, if it was made.
     pub(crate) fn find(&self, key: &K) -> Option<V> {
-        let Known { objects, round } = &mut *self.known();
+        let KnownObject { objects, round } = &mut *self.known();
         let object = objects.get_mut(key)?;
         object.asked = *round;
         object.made
@@ -65,7 +65,7 @@ impl<K: Hash + Eq + Clone, V: Copy> ObjectCache<K, V> {
     fn find_or_begin(&self, key: &K) -> Option<V> {
         let mut known = self.known();
         loop {
-            let Known { objects, round } = &mut *known;
+            let KnownObject { objects, round } = &mut *known;
             let Some(object) = objects.get_mut(key) else {
                 objects.insert(key.clone(), Object { made: None, asked: *round });
                 return None;
@@ -85,7 +85,7 @@ impl<K: Hash + Eq + Clone, V: Copy> ObjectCache<K, V> {
 
     /// Ends a round. Takes out what became old.
     pub(super) fn end_round(&self) -> Vec<V> {
-        let Known { objects, round } = &mut *self.known();
+        let KnownObject { objects, round } = &mut *self.known();
         *round += 1;
         let old = objects.extract_if(|_, object| object.made.is_some() && object.asked + KEPT_ROUNDS < *round);
         old.filter_map(|(_, object)| object.made).collect()
@@ -93,7 +93,7 @@ impl<K: Hash + Eq + Clone, V: Copy> ObjectCache<K, V> {
 }
 
 impl<K: Hash + Eq, V> ObjectCache<K, V> {
-    fn known(&self) -> MutexGuard<'_, Known<K, V>> {
+    fn known(&self) -> MutexGuard<'_, KnownObject<K, V>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

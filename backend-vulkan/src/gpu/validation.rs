@@ -101,10 +101,10 @@ impl Message {
 
 /// The messages of one device, readable also after it is gone.
 #[derive(Debug, Clone, Default)]
-pub struct Messages(Arc<Mutex<Collected>>);
+pub struct Messages(Arc<Mutex<MessageCollector>>);
 
 #[derive(Debug, Default)]
-struct Collected {
+struct MessageCollector {
     messages: Vec<Message>,
     /// While a thread plants mistakes, its messages go here.
     diverted: HashMap<ThreadId, Vec<Message>>,
@@ -140,7 +140,7 @@ impl Messages {
         (result, diverted.unwrap_or_default())
     }
 
-    fn lock(&self) -> MutexGuard<'_, Collected> {
+    fn lock(&self) -> MutexGuard<'_, MessageCollector> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -180,7 +180,7 @@ unsafe extern "system" fn receive(
     user: *mut c_void,
 ) -> vk::Bool32 {
     // SAFETY: the messenger was made with a pointer into a `Messages` that outlives it.
-    let collected = unsafe { &*user.cast::<Mutex<Collected>>().cast_const() };
+    let collected = unsafe { &*user.cast::<Mutex<MessageCollector>>().cast_const() };
     // SAFETY: Vulkan hands over a valid structure whose strings end in zero or are null.
     let (id, text) = unsafe { (lossy((*data).p_message_id_name), lossy((*data).p_message)) };
     let severity = if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {

@@ -4,7 +4,7 @@ use crate::base::{end_process, limit_this_process, take_standard_output};
 use crate::gpu::Device;
 use crate::probe::{multiview, sample_resolve};
 use crate::process::{
-    self, ARGUMENT, Answer, CompileFailure, CompileJob, Compiled, IncludedFile, LARGEST_FRAME, Request, SelfTest,
+    self, ARGUMENT, Answer, CompileFailure, CompileJob, CompilerAnswer, IncludedFile, LARGEST_FRAME, Request, SelfTest,
 };
 use crate::shaders::compile;
 use std::fs::File;
@@ -56,7 +56,7 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
     while let Ok(frame) = requests.recv() {
         match process::parse(&frame)? {
             Request::Compile(job) => match compiled(&job, requests, &output) {
-                Ok(Compiled { spirv, verdict }) => {
+                Ok(CompilerAnswer { spirv, verdict }) => {
                     let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
                     process::write(&mut output, &Answer::Spirv(verdict))?;
                     process::write_frame(&mut output, &bytes)?;
@@ -71,7 +71,7 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
 }
 
 /// Compiles, and asks the program for what is included.
-fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Compiled, CompileFailure> {
+fn compiled(job: &CompileJob, requests: &Receiver<Vec<u8>>, output: &File) -> Result<CompilerAnswer, CompileFailure> {
     let ask = |from: &str, name: &str| -> io::Result<Result<IncludedFile, String>> {
         let (from, name) = (from.to_owned(), name.to_owned());
         process::write(&mut &*output, &Answer::Include { from, name })?;

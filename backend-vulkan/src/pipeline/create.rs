@@ -1,6 +1,5 @@
 //! Pipelines, one for each description, made on several threads.
 
-use super::created::created;
 use super::graphics;
 use super::shader_module::ShaderModule;
 use crate::base::Error;
@@ -91,4 +90,17 @@ fn create_compute(gpu: &Gpu, shader: &Spirv, layout: vk::PipelineLayout) -> Resu
     // SAFETY: everything that `info` points to outlives the call; the interface was matched with the layout.
     let made = unsafe { gpu.raw.create_compute_pipelines(gpu.pipeline_cache.raw, &[info], None) };
     created(made, feedback)
+}
+
+/// The one pipeline that was created with `feedback`, and whether the driver found it in its cache.
+pub(super) fn created(
+    made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
+    feedback: vk::PipelineCreationFeedback,
+) -> Result<(vk::Pipeline, bool), Error> {
+    let doing = "creating a pipeline";
+    let made = made.map_err(|(_, result)| Error::vulkan(doing)(result))?;
+    let pipeline = made.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })?;
+    let found =
+        vk::PipelineCreationFeedbackFlags::VALID | vk::PipelineCreationFeedbackFlags::APPLICATION_PIPELINE_CACHE_HIT;
+    Ok((pipeline, feedback.flags.contains(found)))
 }

@@ -5,7 +5,8 @@ use ash::vk;
 use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
-    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, Supplied, VertexInput, VertexLayout, resource_needs,
+    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, SuppliedResource, VertexInput, VertexLayout,
+    resource_needs,
 };
 use framewright_graph::vulkan::Component;
 
@@ -14,7 +15,7 @@ use framewright_graph::vulkan::Component;
 pub(crate) fn check_needs<'s>(
     gpu: &Gpu,
     shader: &ShaderInterface,
-    brought: impl Iterator<Item = &'s Supplied> + Clone,
+    brought: impl Iterator<Item = &'s SuppliedResource> + Clone,
     targets: usize,
 ) -> Result<(), String> {
     let limits = gpu.shader_limits();
@@ -47,7 +48,7 @@ fn array_words(name: &str, length: Option<u32>) -> String {
 }
 
 /// What a draw source brings along.
-fn in_words(supplied: &Supplied) -> String {
+fn in_words(supplied: &SuppliedResource) -> String {
     match (supplied.count, supplied.kind.words()) {
         (1, kind) => kind.to_owned(),
         (count, kind) => format!("an array of {count}, each {kind}"),

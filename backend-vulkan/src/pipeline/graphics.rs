@@ -1,6 +1,6 @@
 //! Graphics pipelines.
 
-use super::created::created;
+use super::create::created;
 use super::shader_module::ShaderModule;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute};

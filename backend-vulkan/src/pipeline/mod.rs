@@ -1,7 +1,6 @@
 //! Samplers, layouts, descriptor sets and pipelines, and whether a shader fits its pass.
 
 mod create;
-mod created;
 mod descriptor_set;
 mod fit;
 mod graphics;

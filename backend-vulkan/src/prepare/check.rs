@@ -15,7 +15,7 @@ use framewright_graph::vulkan::{BufferUsage, Layout, State, Usage, name_of};
 
 /// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Refuse {
+pub(crate) enum Refusals {
     /// All mistakes.
     Violations,
     /// Mistakes of form; hazards pass.
@@ -23,8 +23,8 @@ pub(crate) enum Refuse {
 }
 
 /// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
-pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Result<(), Error> {
-    let refused = |it: &Violation| refuse == Refuse::Violations || matches!(it.rule, Rule::Structure { .. });
+pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
+    let refused = |it: &Violation| refuse == Refusals::Violations || matches!(it.rule, Rule::Structure { .. });
     let violations: Vec<_> = verify(plan).into_iter().filter(refused).collect();
     if !violations.is_empty() {
         return Err(Error::Violations { violations });
@@ -123,8 +123,8 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
     }
 }
 
-/// Whether the device has the memory that the Plan takes altogether. Of each piece alone the allocator says so; but software
-/// drivers promise all of the machine's memory for each.
+/// Whether the device has the memory that the Plan takes altogether. The allocator says so of each piece alone, but software
+/// drivers promise all of the machine's memory for each piece.
 fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
     let placed = |role: &Role| match role {
         Role::Transient(place) => Some(place.bytes),

@@ -86,7 +86,9 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::plan::{Cause, DeviceUsed, Fill, Hazard, Image, Initial, Side, Step, StepId, Totals, Work};
+    use framewright_graph::plan::{
+        Cause, DeviceUsed, Fill, FirstContents, Hazard, Image, Side, Step, StepId, Totals, Work,
+    };
     use framewright_graph::vulkan::{Accesses, FillValue, Format, Rotation, Shape, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
@@ -97,7 +99,7 @@ mod tests {
         let state = State { stages: Stages::COMPUTE_SHADER, accesses: Accesses::SHADER_STORAGE_READ, layout: LAYOUT };
         let role = Role::Persistent {
             becomes: 0,
-            initial: Initial::Value(FillValue::Bits([0; 4])),
+            initial: FirstContents::Value(FillValue::Bits([0; 4])),
             before: state,
             after: state,
         };

@@ -13,18 +13,18 @@ mod pass;
 mod pass_set;
 mod physical;
 mod poison;
-mod prepared;
+mod prepared_step;
 mod rings;
 mod scope;
 mod step;
 mod steps;
-mod supplied;
+mod supplied_sets;
 mod textures;
 mod uses;
 mod variant;
 
 pub(crate) use batches::{Batch, batches};
-pub(crate) use check::{Refuse, check};
+pub(crate) use check::{Refusals, check};
 pub(crate) use command_list::{
     Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand,
     WorkgroupCount,
@@ -35,9 +35,9 @@ pub(crate) use frame::Frame;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
 pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
-pub(crate) use prepared::{Debugging, PreparedPlan};
+pub(crate) use prepared_step::{Debugging, PreparedPlan};
 pub(crate) use step::{PreparedStep, title};
-pub(crate) use supplied::{SuppliedBlock, SuppliedSet, SuppliedSets};
+pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, stage_textures};
 pub(crate) use uses::ResourceUses;
 pub(crate) use variant::{scope_formats, view_mask};

@@ -5,7 +5,7 @@ use super::command_list::{
 };
 use super::frame::Frame;
 use super::pass_set::PassSets;
-use super::supplied::SuppliedSets;
+use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
@@ -159,7 +159,7 @@ fn buffers(pass: &plan::Pass, role: BufferRole) -> Vec<BufferId> {
     pass.buffers.iter().filter(|it| it.role == Some(role)).map(|it| it.buffer).collect()
 }
 
-/// The one buffer that tells counts, of which the checker has found that it holds them.
+/// The one buffer with the counts. The checker has found that it holds them.
 fn indirect(pass: &plan::Pass) -> Result<BufferId, String> {
     buffers(pass, BufferRole::Indirect).first().copied().ok_or_else(|| "no buffer tells its counts".to_owned())
 }
@@ -362,8 +362,8 @@ fn fill_gaps(numbers: &mut [u32]) {
     }
 }
 
-/// A draw's vertices must lie within its buffers. Of indices the checker says so; what they point to is known to the device
-/// alone, which keeps within the buffers.
+/// A draw's vertices must lie within its buffers. The checker has said so of indices. Only the device knows the vertices that
+/// they point to, and it keeps within the buffers.
 fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
     let Some([count, _]) = draw.counts() else { return Ok(()) };
     vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {

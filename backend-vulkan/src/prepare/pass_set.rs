@@ -94,7 +94,7 @@ impl PassSets {
         self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
     }
 
-    /// Puts other parameters in place of those that sets were filled with so far, which must not be in use.
+    /// Fills the sets with other parameters. Those that they had so far must not be in use.
     pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
         if let Some((_, params)) = &mut self.params {
             *params = filled;

@@ -100,8 +100,8 @@ impl PhysicalResources {
         self.migrated.contains(&resource)
     }
 
-    /// Takes other images for an external one, at least one, of which the first is chosen. Nothing that was made for those before may
-    /// be left.
+    /// Takes other images for an external one, at least one. The first is chosen. Nothing that was made for the images before may be
+    /// left.
     pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) {
         let resource = Resource::Image(image);
         let (members, count) = replace(&mut self.images, self.rings.members(resource), by);

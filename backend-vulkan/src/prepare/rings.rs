@@ -1,5 +1,7 @@
-//! Rings: which of several images and buffers stands for one of the Plan's in a frame. History moves round from frame to frame;
-//! of those that the program handed in for one, it chooses.
+//! Rings: the images and buffers that stand for one of the Plan's, one in each frame.
+//!
+//! History moves round from frame to frame. If the program handed in several images for one, it chooses among them. What a ring holds
+//! at the start of a frame stands in `docs/architecture.md`.
 
 use super::descriptions::cycle;
 use crate::base::Error;
@@ -20,15 +22,15 @@ struct RingPosition {
     at: usize,
 }
 
-/// Images or buffers, by their numbers, of which one stands for the Plan's.
+/// Images or buffers by their numbers. One of them stands for the Plan's.
 struct Ring {
     members: Vec<usize>,
-    turns: Turns,
+    turns: RingKind,
 }
 
 /// How a ring turns.
 #[derive(Clone, Copy)]
-enum Turns {
+enum RingKind {
     /// By one position after each frame.
     EachFrame,
     /// The program chooses `now` among the first `count` members; those after them are left from when it handed in more.
@@ -81,11 +83,11 @@ impl ResourceRings {
         for number in resources.into_iter().map(|resource| self.position(resource).ring) {
             let ring = &self.rings[number];
             match ring.turns {
-                Turns::EachFrame => {
+                RingKind::EachFrame => {
                     period.frames = least_common_multiple(period.frames, ring.members.len() as u64);
                 }
-                Turns::Chosen { .. } if !period.chosen.contains(&number) => period.chosen.push(number),
-                Turns::Chosen { .. } => {}
+                RingKind::Chosen { .. } if !period.chosen.contains(&number) => period.chosen.push(number),
+                RingKind::Chosen { .. } => {}
             }
         }
         period
@@ -96,24 +98,24 @@ impl ResourceRings {
         &self.rings[self.position(resource).ring].members
     }
 
-    /// Has the first `count` of these stand for an external image or buffer, at least one, of which the first is chosen. All that
-    /// was made for others must be forgotten.
+    /// Lets the first `count` of these stand for an external image or buffer, at least one. The first is chosen. All that was made
+    /// for others must be forgotten.
     pub(crate) fn set_members(&mut self, resource: Resource, members: Vec<usize>, count: usize) {
         let ring = self.position(resource).ring;
-        self.rings[ring] = Ring { members, turns: Turns::Chosen { now: 0, count } };
+        self.rings[ring] = Ring { members, turns: RingKind::Chosen { now: 0, count } };
     }
 
     /// Whether an external image or buffer has a member of this number to choose.
     pub(crate) fn has_choice(&self, resource: Resource, choice: usize) -> bool {
         let ring = self.position(resource).ring;
-        matches!(self.rings[ring].turns, Turns::Chosen { count, .. } if choice < count)
+        matches!(self.rings[ring].turns, RingKind::Chosen { count, .. } if choice < count)
     }
 
     /// Chooses the member of this number for an external image or buffer, if it has one.
     pub(crate) fn choose(&mut self, resource: Resource, choice: usize) {
         let ring = self.position(resource).ring;
         match &mut self.rings[ring].turns {
-            Turns::Chosen { now, count } if choice < *count => *now = choice,
+            RingKind::Chosen { now, count } if choice < *count => *now = choice,
             _ => {}
         }
     }
@@ -128,11 +130,11 @@ impl ResourceRings {
     fn member(&self, RingPosition { ring, at }: RingPosition, frame: u64) -> usize {
         let Ring { members, turns } = &self.rings[ring];
         match turns {
-            Turns::EachFrame => {
+            RingKind::EachFrame => {
                 let moved = usize::try_from(frame % members.len() as u64).unwrap_or(0);
                 members[(at + members.len() - moved) % members.len()]
             }
-            Turns::Chosen { now, .. } => members[*now],
+            RingKind::Chosen { now, .. } => members[*now],
         }
     }
 }
@@ -149,7 +151,7 @@ fn ring_positions<'p>(count: usize, role: impl Fn(u32) -> &'p Role + Copy, rings
             let external = matches!(role(first), Role::External { .. });
             rings.push(Ring {
                 members,
-                turns: if external { Turns::Chosen { now: 0, count: 1 } } else { Turns::EachFrame },
+                turns: if external { RingKind::Chosen { now: 0, count: 1 } } else { RingKind::EachFrame },
             });
         }
     }
@@ -184,8 +186,8 @@ impl Period {
     fn number(&self, turn: Turn<'_>) -> usize {
         let by_frame = usize::try_from(turn.frame % self.frames()).unwrap_or(0);
         self.chosen.iter().map(|ring| &turn.rings.rings[*ring]).fold(by_frame, |number, ring| match ring.turns {
-            Turns::Chosen { now, count } => number * count + now,
-            Turns::EachFrame => number,
+            RingKind::Chosen { now, count } => number * count + now,
+            RingKind::EachFrame => number,
         })
     }
 }
@@ -229,12 +231,12 @@ impl<T> RingCache<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::plan::{ImageId, Initial};
+    use framewright_graph::plan::{FirstContents, ImageId};
     use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State};
 
     fn rings(next: &[Option<u32>]) -> ResourceRings {
         let state = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::General };
-        let initial = Initial::Value(FillValue::Bits([0; 4]));
+        let initial = FirstContents::Value(FillValue::Bits([0; 4]));
         let role = |(next, own): (&Option<u32>, u32)| Role::Persistent {
             becomes: next.unwrap_or(own),
             initial: initial.clone(),

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::pass::{PassPipeline, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
 use super::poison::push_poisoned_barriers;
-use super::prepared::Debugging;
+use super::prepared_step::Debugging;
 use super::rings::Period;
 use super::scope::{prepare_scope, push_scope};
 use crate::base::{Error, convert};

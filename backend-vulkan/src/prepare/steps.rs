@@ -1,6 +1,6 @@
 //! The objects of all steps of a Plan, with their pipelines.
 
-use super::check::{Refuse, check};
+use super::check::{Refusals, check};
 use super::step::PreparedStep;
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold};
@@ -35,7 +35,7 @@ impl Device {
     /// # Errors
     /// Those of the Plan, its shaders and pipelines, as of [`Executor::new`](crate::Executor::new).
     pub fn make_pipelines(&self, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<(), Error> {
-        check(&self.gpu, plan, Refuse::Violations, false)?;
+        check(&self.gpu, plan, Refusals::Violations, false)?;
         let _hold = PipelineHold::new(&self.gpu);
         prepare_steps(&self.gpu, plan, shaders).map(drop)
     }

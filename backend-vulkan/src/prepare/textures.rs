@@ -5,7 +5,7 @@ use crate::commands::staged;
 use crate::gpu::Gpu;
 use crate::memory::RawBuffer;
 use framewright_graph::frame::{TextureFile, Textures};
-use framewright_graph::plan::{Image, ImageId, Initial, Plan, Role};
+use framewright_graph::plan::{FirstContents, Image, ImageId, Plan, Role};
 use std::sync::Arc;
 
 /// The texels of one image, where the device can copy from.
@@ -17,7 +17,7 @@ pub(crate) struct StagedTexture {
 /// The file that an image comes from.
 pub(crate) fn file_of(image: &Image) -> Option<&TextureFile> {
     match &image.role {
-        Role::Persistent { initial: Initial::File(file), .. } => Some(file),
+        Role::Persistent { initial: FirstContents::File(file), .. } => Some(file),
         Role::Persistent { .. } | Role::Transient(_) | Role::External { .. } => None,
     }
 }

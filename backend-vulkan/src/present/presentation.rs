@@ -1,7 +1,7 @@
 //! Frames of a Plan that are shown in a window.
 
 use super::handle::SwapchainHandle;
-use super::swapchain::{Shown, Swapchain};
+use super::swapchain::{PresentOutcome, Swapchain};
 use crate::base::{Error, convert};
 use crate::execute::{Executor, SemaphorePoint, Submission};
 use crate::record::DrawSource;
@@ -105,9 +105,9 @@ impl Executor {
             submitted.inspect_err(|_| swapchain.give_up())?;
         }
         Ok(match swapchain.show(&image)? {
-            Shown::Right => Presentation::Shown(frame),
-            Shown::Suboptimal => Presentation::Suboptimal(frame),
-            Shown::OutOfDate => Presentation::OutOfDate,
+            PresentOutcome::Right => Presentation::Shown(frame),
+            PresentOutcome::Suboptimal => Presentation::Suboptimal(frame),
+            PresentOutcome::OutOfDate => Presentation::OutOfDate,
         })
     }
 

@@ -47,7 +47,7 @@ pub(crate) struct FreeImage {
 
 /// What became of an image that was shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub(crate) enum PresentOutcome {
     /// It fits the surface.
     Right,
     /// The surface has changed and still shows it.
@@ -201,9 +201,9 @@ impl Swapchain {
     }
 
     /// Shows an image that is being drawn.
-    pub(crate) fn show(&mut self, image: &FreeImage) -> Result<Shown, Error> {
+    pub(crate) fn show(&mut self, image: &FreeImage) -> Result<PresentOutcome, Error> {
         const DOING: &str = "showing an image in the window";
-        let Some(current) = &self.current else { return Ok(Shown::OutOfDate) };
+        let Some(current) = &self.current else { return Ok(PresentOutcome::OutOfDate) };
         let (waits, swapchains, numbers) = ([image.drawn], [current.raw], [image.number]);
         let info =
             vk::PresentInfoKHR::default().wait_semaphores(&waits).swapchains(&swapchains).image_indices(&numbers);
@@ -213,16 +213,16 @@ impl Swapchain {
         match unsafe { current.functions.queue_present(queue, &info) } {
             Ok(false) if !image.suboptimal => {
                 self.was_right = true;
-                Ok(Shown::Right)
+                Ok(PresentOutcome::Right)
             }
             Ok(_) => {
                 // Images that fitted and no longer do are made anew; those that never did stay, as on a screen that is mounted turned.
                 self.stale |= self.was_right;
-                Ok(Shown::Suboptimal)
+                Ok(PresentOutcome::Suboptimal)
             }
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => {
                 self.spent = true;
-                Ok(Shown::OutOfDate)
+                Ok(PresentOutcome::OutOfDate)
             }
             Err(result) => {
                 self.spent = true;

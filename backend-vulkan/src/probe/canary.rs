@@ -31,7 +31,7 @@ pub struct Canary {
 const EXTENT: u32 = 4;
 
 /// What mistakes are made with.
-struct Things<'g> {
+struct CanaryObjects<'g> {
     gpu: &'g Arc<Gpu>,
     messages: &'g Messages,
     /// One for all: older layers take what was recorded into a freed command buffer for the beginning of the next one.
@@ -48,7 +48,7 @@ struct Mistake {
     planted: &'static str,
     /// The checks that find it.
     checks: &'static str,
-    make: fn(&Things<'_>) -> Result<Vec<Message>, Error>,
+    make: fn(&CanaryObjects<'_>) -> Result<Vec<Message>, Error>,
     /// Whether a message is about it: ids differ between generations of the layer.
     is_told: fn(&Message) -> bool,
 }
@@ -123,7 +123,7 @@ impl Device {
         let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let buffer = RawBuffer::new(&self.gpu, "canary", 16, usage, MemoryUse::Buffers)?;
         let commands = RefCell::new(Commands::new(&self.gpu, Queue::Graphics)?);
-        let things = Things { gpu: &self.gpu, messages: &validation.messages, commands, image, view, buffer };
+        let things = CanaryObjects { gpu: &self.gpu, messages: &validation.messages, commands, image, view, buffer };
         let layer = validation.layer.shown.clone();
         let blind = |planted, checks| {
             Err(Error::LayerIsBlind { layer: layer.clone(), planted, checks, settings: switched_off::settings() })
@@ -167,7 +167,7 @@ fn breaks_a_rule(message: &Message) -> bool {
     is_validation(message) && message.id.starts_with("VUID-")
 }
 
-impl Things<'_> {
+impl CanaryObjects<'_> {
     /// What the layer says while commands are recorded.
     fn recorded(&self, record: impl Fn(vk::CommandBuffer)) -> Result<Vec<Message>, Error> {
         let mut commands = self.commands.borrow_mut();
@@ -193,7 +193,7 @@ impl Things<'_> {
         unsafe { self.gpu.raw.cmd_fill_buffer(commands, self.buffer.raw, 0, bytes, 0) };
     }
 
-    /// Two changes of layout, of which the second begins with another layout than that in which the first ends.
+    /// Two changes of layout. The second one begins with another layout than the first one ends in.
     fn transitions(&self, commands: vk::CommandBuffer) {
         use vk::ImageLayout as Layout;
         let range = convert::range(Subresources::all(self.image.descriptor.format, 1, 1));

@@ -16,7 +16,7 @@ use framewright_graph::base::Span;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, EyeForm, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay,
-    Resource, Sampled, Stereo, Work,
+    Resource, SampledImage, Stereo, Work,
 };
 use framewright_graph::vulkan::{CompareOp, Format, ResolveMode, Stages, Subresources};
 
@@ -147,7 +147,8 @@ fn frame(stereo: Stereo, format: Format, samples: u32, modes: &[ResolveMode]) ->
         };
         frame.passes.push(Pass { depth: Some(depth), ..full_screen(&format!("slope {number}"), "slope") });
     }
-    let slope = Sampled { face: Face::Samples, ..Sampled::new("slope", ImageIndex(1), Stages::FRAGMENT_SHADER) };
+    let slope =
+        SampledImage { face: Face::Samples, ..SampledImage::new("slope", ImageIndex(1), Stages::FRAGMENT_SHADER) };
     let target =
         ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });

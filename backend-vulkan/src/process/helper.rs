@@ -1,9 +1,9 @@
 //! The program that is started as a helper, and what it is asked.
 
-use super::compiled::Compiled;
+use super::compiler_answer::CompilerAnswer;
+use super::helper_process::{HelperProcess, NoAnswer, Streams};
 use super::limits::Limits;
 use super::protocol::{Answer, CompileFailure, CompileJob, IncludedFile, Request, SampleResolve, SelfTest};
-use super::running::{NoAnswer, Running, Streams};
 use crate::base::{Cache, Cancel};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -11,7 +11,7 @@ use std::time::Duration;
 use std::{fmt, io};
 
 /// The function that hears of self-tests that take long.
-type Tell = dyn Fn(&LongTest) + Send + Sync;
+type TestListener = dyn Fn(&LongTest) + Send + Sync;
 
 /// A self-test that takes long.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct Helper {
     limits: Limits,
     cache: Option<Cache>,
     /// The process that compiles, once one was started and as long as it lives.
-    compiler: Arc<Mutex<Option<Running>>>,
+    compiler: Arc<Mutex<Option<HelperProcess>>>,
     /// Cancels waits for the helper process.
     cancel: Arc<Cancel>,
     /// Hears of self-tests that take long.
@@ -39,7 +39,7 @@ pub struct Helper {
 
 /// The listener for self-tests that take long, if one was set.
 #[derive(Default)]
-struct LongTestListener(OnceLock<Box<Tell>>);
+struct LongTestListener(OnceLock<Box<TestListener>>);
 
 impl fmt::Debug for LongTestListener {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -122,7 +122,7 @@ impl Helper {
         &self,
         job: &CompileJob,
         includes: &mut dyn FnMut(&str, &str) -> Result<IncludedFile, String>,
-    ) -> Result<Result<Compiled, CompileFailure>, NoAnswer> {
+    ) -> Result<Result<CompilerAnswer, CompileFailure>, NoAnswer> {
         let mut compiler = self.compiler.lock().unwrap_or_else(PoisonError::into_inner);
         let running = match compiler.take() {
             Some(running) => running,
@@ -133,7 +133,9 @@ impl Helper {
             loop {
                 match streams.receive()? {
                     Answer::Include { from, name } => streams.send(&Request::Included(includes(&from, &name)))?,
-                    Answer::Spirv(verdict) => return Ok(Ok(Compiled { spirv: streams.receive_words()?, verdict })),
+                    Answer::Spirv(verdict) => {
+                        return Ok(Ok(CompilerAnswer { spirv: streams.receive_words()?, verdict }));
+                    }
                     Answer::CompileFailure(failure) => return Ok(Err(failure)),
                     Answer::SampleResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
                         return Err(Streams::garbage());
@@ -177,8 +179,8 @@ impl Helper {
     }
 
     /// Starts a process, unless waits for it would be given up.
-    fn start(&self, limits: &Limits) -> Result<Running, NoAnswer> {
-        if self.cancel.is_asked() { Err(NoAnswer::Cancelled) } else { Running::start(&self.program, limits) }
+    fn start(&self, limits: &Limits) -> Result<HelperProcess, NoAnswer> {
+        if self.cancel.is_asked() { Err(NoAnswer::Cancelled) } else { HelperProcess::start(&self.program, limits) }
     }
 
     /// Tests a device in a process of its own: drivers need more memory than the GLSL compiler may have.

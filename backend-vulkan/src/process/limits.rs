@@ -11,7 +11,7 @@ pub struct Limits {
     pub memory: Option<u64>,
     /// Bytes of stack.
     pub stack: usize,
-    /// Time for one self-test of a driver, of which a device has two. One takes about a second where nothing is wrong.
+    /// Time for one self-test of a driver; a device has two. One takes about a second where nothing is wrong.
     pub self_test: Duration,
 }
 

@@ -1,6 +1,6 @@
 //! The protocol between a program and its helper process: frames of bytes, each behind its length, mostly of JSON.
 
-use super::compiled::Verdict;
+use super::compiler_answer::Verdict;
 use crate::base::ShaderStage;
 use framewright_graph::vulkan::ResolveMode;
 use serde::de::DeserializeOwned;

@@ -1,7 +1,7 @@
 //! How a draw source binds its sets for a compute pass.
 
-use super::held::HeldResources;
-use super::supplied::BoundSets;
+use super::bound_sets::BoundSets;
+use super::frame_resources::HeldResources;
 use crate::gpu::Gpu;
 use crate::prepare::SuppliedSets;
 use crate::resources::BindGroup;

@@ -10,11 +10,11 @@ use framewright_graph::frame::Draw;
 pub trait DrawSource {
     /// Records the draws of `draw` and returns how many draw calls it made.
     ///
-    /// It is called once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`], where
-    /// [`Recorder::shader`] says what), and for full-screen draws whose shader reads what the draw source brings along; in
-    /// the frame's order, never for others. Pipeline, viewport and the pass's
-    /// own set, if it has bindings, are bound already; face culling is off and the front face is counter-clockwise. With several frames in
-    /// flight the frame before may still be drawn from what it was drawn from.
+    /// It is called in the frame's order: once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`],
+    /// where [`Recorder::shader`] says what). It is also called for full-screen draws whose shader reads what the draw source
+    /// brings along, and for no others. Pipeline, viewport and the pass's own set, if it has bindings, are bound already; face
+    /// culling is off and the front face is counter-clockwise. With several frames in flight, the device may still read what
+    /// the frame before was drawn from.
     ///
     /// # Errors
     /// Any error that keeps the source from drawing; [`Error::DrawSource`] is for its own reasons.

@@ -1,6 +1,7 @@
 //! Recording of a prepared frame's commands.
 
 mod bindings;
+mod bound_sets;
 mod breadcrumbs;
 mod canvas;
 mod custom;
@@ -8,15 +9,14 @@ mod custom_image;
 mod dispatch;
 mod draw_source;
 mod fragments;
-mod guarded;
-mod held;
+mod frame_resources;
+mod guarded_source;
 mod observers;
-mod recorded;
+mod recorded_frame;
 mod recorder;
 mod scope;
 mod state;
 mod step;
-mod supplied;
 mod timing;
 
 pub use custom::CustomRecorder;
@@ -29,9 +29,9 @@ pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;
 pub(crate) use fragments::FragmentCounts;
-pub(crate) use guarded::Guarded;
+pub(crate) use guarded_source::GuardedSource;
 pub(crate) use observers::Observers;
-pub(crate) use recorded::Recorded;
+pub(crate) use recorded_frame::RecordedFrame;
 pub(crate) use state::CommandState;
 pub(crate) use step::Recording;
 pub(crate) use timing::{Timing, report};

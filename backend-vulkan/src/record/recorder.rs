@@ -1,10 +1,10 @@
 //! How a draw source records its draws.
 
+use super::bound_sets::BoundSets;
 use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
-use super::held::HeldResources;
+use super::frame_resources::HeldResources;
 use super::state::{CullMode, FrontFace};
-use super::supplied::BoundSets;
 use crate::base::numbers;
 use crate::gpu::ScopeFormats;
 use crate::prepare::{Frame, PassState, PreparedDraw};

@@ -2,7 +2,7 @@
 
 use super::bindings::bind;
 use super::canvas::Canvas;
-use super::recorded::Counts;
+use super::recorded_frame::Counts;
 use super::recorder::Recorder;
 use super::step::Recording;
 use crate::base::Error;

@@ -5,7 +5,7 @@ use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
 use super::observers::Observers;
-use super::recorded::{Counts, Recorded};
+use super::recorded_frame::{Counts, RecordedFrame};
 use super::state::CommandState;
 use crate::base::Error;
 use crate::commands::barrier_call;
@@ -19,7 +19,7 @@ pub(crate) struct Recording<'r> {
     pub(crate) prepared: &'r PreparedPlan,
     pub(crate) source: &'r mut dyn DrawSource,
     pub(crate) observers: &'r mut Observers,
-    pub(crate) recorded: &'r mut Recorded,
+    pub(crate) recorded: &'r mut RecordedFrame,
     /// The state of the command buffer that is being recorded.
     pub(crate) state: CommandState,
 }

@@ -1,7 +1,7 @@
 //! Timestamps, and the report of a frame.
 
 use super::fragments::FragmentCounts;
-use super::recorded::{Counts, Recorded};
+use super::recorded_frame::{Counts, RecordedFrame};
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, view_mask};
@@ -162,7 +162,7 @@ pub(crate) fn report(
     batches: &[Batch],
     timing: Option<&Timing>,
     fragments: Option<&FragmentCounts>,
-    recorded: &Recorded,
+    recorded: &RecordedFrame,
 ) -> Result<FrameReport, Error> {
     let mut counts = recorded.counts.iter().copied();
     let mut stamps = timing.map(Timing::read).transpose()?.unwrap_or_default().into_iter();

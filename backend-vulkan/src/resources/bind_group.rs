@@ -7,7 +7,7 @@ use crate::gpu::{Device, Gpu, LayoutBinding};
 use crate::memory::RawBuffer;
 use crate::pipeline::{DescriptorSet, DescriptorTarget, check_brought, check_needs};
 use ash::vk;
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, SuppliedResource};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Something that can be bound.
@@ -243,7 +243,7 @@ impl Bound {
 
 /// Every set from 1 on is visible in all stages, so that all shaders of a kind of draw share its layout, and kinds that bring the
 /// same share bind groups.
-fn layout_binding(supplied: &Supplied) -> LayoutBinding {
+fn layout_binding(supplied: &SuppliedResource) -> LayoutBinding {
     let ty = match supplied.kind {
         SuppliedKind::UniformBlock => vk::DescriptorType::UNIFORM_BUFFER,
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,

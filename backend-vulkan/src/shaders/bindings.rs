@@ -1,10 +1,10 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
 use super::module::{IndexedModule, id, number, storage_class};
-use super::text::Refused;
+use super::text::RefusedStage;
 use crate::base::ShaderStage;
 use crate::base::named;
-use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
+use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, UnbindableResource};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
@@ -21,7 +21,7 @@ pub(super) fn bindings(
     stage: ShaderStage,
     used: &HashSet<u32>,
     in_part: bool,
-) -> Result<Vec<Binding>, Refused> {
+) -> Result<Vec<Binding>, RefusedStage> {
     let stage = stage.facts();
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
@@ -31,7 +31,7 @@ pub(super) fn bindings(
                 continue;
             }
             let what = "push constants: parameters come in the uniform block `params`".to_owned();
-            return Err(Refused::named("push_constant", what));
+            return Err(RefusedStage::named("push_constant", what));
         }
         let set = module.decoration_number(variable, Decoration::DescriptorSet);
         let binding = module.decoration_number(variable, Decoration::Binding);
@@ -52,7 +52,7 @@ pub(super) fn bindings(
         if !stage.may_store && kind.is_written() {
             let (name, stage) = (module.name(variable), stage.name);
             let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
-            return Err(Refused::named(name, what));
+            return Err(RefusedStage::named(name, what));
         }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
@@ -69,14 +69,14 @@ pub(super) fn bindings(
     bindings.sort_by_key(|it| (it.set, it.binding));
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
         let what = format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1);
-        return Err(Refused::named(&far.name, what));
+        return Err(RefusedStage::named(&far.name, what));
     }
     if let Some(pair) =
         bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
     {
         let (Binding { set, binding, name, .. }, other) = (&pair[0], &pair[1].name);
         let what = format!("`{name}` and `{other}` at the same place: set {set}, binding {binding}");
-        return Err(Refused::named(other, what));
+        return Err(RefusedStage::named(other, what));
     }
     Ok(bindings)
 }
@@ -161,7 +161,7 @@ fn endless() -> BindingKind {
 
 /// A binding that no pass can give, and the declaration to write instead.
 fn other(what: &str, instead: &str) -> BindingKind {
-    BindingKind::Other(Unbindable { what: what.to_owned(), instead: instead.to_owned(), place: None })
+    BindingKind::Other(UnbindableResource { what: what.to_owned(), instead: instead.to_owned(), place: None })
 }
 
 fn texel_buffer() -> BindingKind {

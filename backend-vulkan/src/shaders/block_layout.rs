@@ -22,7 +22,7 @@ enum Rules {
 
 /// How a type lies in a block.
 #[derive(Debug, Clone, Copy)]
-struct Lies {
+struct TypeLayout {
     align: u64,
     bytes: u64,
     /// Whether what follows it begins behind its padding.
@@ -71,7 +71,7 @@ const BOUNDARY: u64 = 16;
 struct Layouts<'m> {
     module: &'m IndexedModule<'m>,
     /// By the bytes behind the last boundary at which it begins, in steps of four.
-    structs: HashMap<u32, [[Option<Lies>; 4]; 3]>,
+    structs: HashMap<u32, [[Option<TypeLayout>; 4]; 3]>,
 }
 
 impl<'m> Layouts<'m> {
@@ -92,12 +92,12 @@ impl<'m> Layouts<'m> {
         self.known(structure, rules, 0).is_some()
     }
 
-    fn known(&self, structure: u32, rules: Rules, begin: u64) -> Option<Lies> {
+    fn known(&self, structure: u32, rules: Rules, begin: u64) -> Option<TypeLayout> {
         let by = self.structs.get(&structure)?[rules as usize];
         begin.is_multiple_of(4).then(|| by[(begin % BOUNDARY / 4) as usize]).flatten()
     }
 
-    fn structure(&self, it: &Instruction, structure: u32, rules: Rules, begin: u64) -> Option<Lies> {
+    fn structure(&self, it: &Instruction, structure: u32, rules: Rules, begin: u64) -> Option<TypeLayout> {
         let said = |member, decoration| self.module.member_decoration(structure, member, decoration).flatten();
         let members = (0_u32..).zip(it.operands.iter().map(Operand::id_ref_any));
         let placed =
@@ -127,11 +127,11 @@ impl<'m> Layouts<'m> {
             let padded = lies.padded && rules != Rules::Scalar;
             free = if padded { end.checked_next_multiple_of(lies.align)? } else { end };
         }
-        Some(Lies::padded(extended(align, rules), end))
+        Some(TypeLayout::padded(extended(align, rules), end))
     }
 
     /// How a member's type lies that begins at a byte, if it follows `rules`. `matrix`: how a matrix in it does.
-    fn lies(&self, ty: u32, matrix: Option<MatrixLayout>, rules: Rules, begin: u64) -> Option<Lies> {
+    fn lies(&self, ty: u32, matrix: Option<MatrixLayout>, rules: Rules, begin: u64) -> Option<TypeLayout> {
         let module = self.module;
         let it = module.global(ty)?;
         match it.class.opcode {
@@ -146,18 +146,18 @@ impl<'m> Layouts<'m> {
                 let line = vector(scalar, line, rules);
                 let (align, stride) = (extended(line.align, rules), u64::from(stride));
                 let fits = stride.is_multiple_of(align) && stride >= line.bytes;
-                fits.then(|| Lies::padded(align, stride * u64::from(lines)))
+                fits.then(|| TypeLayout::padded(align, stride * u64::from(lines)))
             }
             Op::TypeArray | Op::TypeRuntimeArray => self.array(it, matrix, rules, begin),
             _ => {
                 let bytes = self.scalar(ty)?;
-                Some(Lies { align: bytes, bytes, padded: false, scalar_of_vector: None })
+                Some(TypeLayout { align: bytes, bytes, padded: false, scalar_of_vector: None })
             }
         }
     }
 
     /// The same of an array, or an array of arrays.
-    fn array(&self, array: &Instruction, matrix: Option<MatrixLayout>, rules: Rules, begin: u64) -> Option<Lies> {
+    fn array(&self, array: &Instruction, matrix: Option<MatrixLayout>, rules: Rules, begin: u64) -> Option<TypeLayout> {
         let (mut levels, mut begins, mut it) = (Vec::new(), vec![begin % BOUNDARY], array);
         while matches!(it.class.opcode, Op::TypeArray | Op::TypeRuntimeArray) && levels.len() < DEEPEST {
             let stride = u64::from(self.module.decoration_number(it.result_id?, Decoration::ArrayStride)?);
@@ -187,7 +187,7 @@ impl<'m> Layouts<'m> {
             }
             // One of unknown length is the last member.
             let bytes = if length == u64::MAX { stride } else { stride.saturating_mul(length) };
-            lies = Lies::padded(align, bytes);
+            lies = TypeLayout::padded(align, bytes);
         }
         Some(lies)
     }
@@ -203,18 +203,18 @@ impl<'m> Layouts<'m> {
     }
 }
 
-impl Lies {
-    const fn padded(align: u64, bytes: u64) -> Lies {
-        Lies { align, bytes, padded: true, scalar_of_vector: None }
+impl TypeLayout {
+    const fn padded(align: u64, bytes: u64) -> TypeLayout {
+        TypeLayout { align, bytes, padded: true, scalar_of_vector: None }
     }
 }
 
-fn vector(scalar: u64, components: u32, rules: Rules) -> Lies {
+fn vector(scalar: u64, components: u32, rules: Rules) -> TypeLayout {
     let align = match rules {
         Rules::Scalar => scalar,
         Rules::Base | Rules::Extended => scalar * u64::from(components.next_power_of_two()),
     };
-    Lies { align, bytes: scalar * u64::from(components), padded: false, scalar_of_vector: Some(scalar) }
+    TypeLayout { align, bytes: scalar * u64::from(components), padded: false, scalar_of_vector: Some(scalar) }
 }
 
 fn extended(align: u64, rules: Rules) -> u64 {

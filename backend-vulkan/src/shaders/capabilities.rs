@@ -3,7 +3,7 @@
 use super::indexing;
 use super::module::IndexedModule;
 use super::needs::Feature;
-use super::text::{Refused, Words};
+use super::text::{RefusedStage, Words};
 use crate::base::ShaderStage;
 use crate::base::named;
 use rspirv::dr::Operand;
@@ -22,7 +22,7 @@ const EVERYWHERE: [Capability; 14] = [
     Capability::SampleRateShading,
     Capability::InterpolationFunction,
     Capability::DemoteToHelperInvocation,
-    // Shaders have it only where they are compiled for a local read, which is for devices that have those.
+    // Shaders have it only where they are compiled for a local read, on a device with local reads.
     Capability::InputAttachment,
     // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
     // device's choice.
@@ -145,7 +145,7 @@ pub(super) fn check_capabilities(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     both_eyes: bool,
-) -> Result<Vec<Feature>, Refused> {
+) -> Result<Vec<Feature>, RefusedStage> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
@@ -167,7 +167,7 @@ pub(super) fn check_capabilities(
     };
     let needs = |what: &str| format!("it needs SPIR-V's capability {}, which isn't supported{what}", named(capability));
     Err(match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {
-        Some((_, words, what)) => Refused::beginning(words, needs(&format!(": {what}"))),
+        Some((_, words, what)) => RefusedStage::beginning(words, needs(&format!(": {what}"))),
         None => needs("").into(),
     })
 }

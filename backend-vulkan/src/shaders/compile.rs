@@ -1,6 +1,6 @@
 //! GLSL to SPIR-V, and the validator's verdict on it.
 
-use crate::process::{CompileFailure, CompileJob, Compiled, IncludedFile};
+use crate::process::{CompileFailure, CompileJob, CompilerAnswer, IncludedFile};
 
 /// A shader may include this many files, repetitions counted.
 pub(super) const MAX_INCLUDES: usize = 256;
@@ -12,7 +12,7 @@ pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, Str
 ///
 /// # Errors
 /// The compiler's messages, or that it failed itself; [`CompileFailure::NoCompiler`] without the feature `shader-compiler`.
-pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<Compiled, CompileFailure> {
+pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<CompilerAnswer, CompileFailure> {
     #[cfg(feature = "shader-compiler")]
     {
         use super::by_shaderc;
@@ -27,7 +27,7 @@ pub(crate) fn compile(job: &CompileJob, includes: &mut Includes<'_>) -> Result<C
             },
             other => other,
         };
-        Ok(Compiled { spirv, verdict })
+        Ok(CompilerAnswer { spirv, verdict })
     }
     #[cfg(not(feature = "shader-compiler"))]
     {

@@ -3,10 +3,10 @@
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
-use super::precompiled::PrecompiledShaders;
+use super::precompiled_shaders::PrecompiledShaders;
 use super::spirv_cache::{Inclusions, SpirvCache};
 use super::validator::judge;
-use crate::process::{CompileFailure, CompileJob, Compiled, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
+use crate::process::{CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
 use std::collections::HashMap;
@@ -42,12 +42,12 @@ impl Compilers {
         job: &CompileJob,
         source: &SourceFile,
         files: &ShaderFiles,
-    ) -> Result<Compiled, ShaderProblem> {
+    ) -> Result<CompilerAnswer, ShaderProblem> {
         let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
         let file = precompiled.file(job, source, files);
         if let Some(spirv) = PrecompiledShaders::read(&file)? {
             let verdict = judge(&spirv);
-            return Ok(Compiled { spirv, verdict });
+            return Ok(CompilerAnswer { spirv, verdict });
         }
         let compiled = self.compile_now(job, source, files)?;
         precompiled.add(&file, &compiled.spirv).map_err(|what| ShaderProblem::Machine { what })?;
@@ -59,7 +59,7 @@ impl Compilers {
         job: &CompileJob,
         source: &SourceFile,
         files: &ShaderFiles,
-    ) -> Result<Compiled, ShaderProblem> {
+    ) -> Result<CompilerAnswer, ShaderProblem> {
         // Which files the compiler's names stand for, and what they hold.
         let mut known = HashMap::from([(source.shown.clone(), (source.path.clone(), source.text.clone()))]);
         let mut refused = None;
@@ -130,7 +130,7 @@ fn compile_cached(
     cache: Option<&mut SpirvCache>,
     job: &CompileJob,
     includes: &mut Includes<'_>,
-) -> Result<Result<Compiled, CompileFailure>, NoAnswer> {
+) -> Result<Result<CompilerAnswer, CompileFailure>, NoAnswer> {
     let Some(cache) = cache else { return helper.compile(job, includes) };
     if let Some(compiled) = cache.find(job, includes) {
         return Ok(Ok(compiled));

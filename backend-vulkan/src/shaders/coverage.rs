@@ -6,7 +6,7 @@
 //! its first round. An output is perhaps set if it is set where each loop has a round, and an index takes all its values.
 
 use super::module::{IndexedModule, id, storage_class};
-use framewright_graph::shader::Unset;
+use framewright_graph::shader::UnsetOutput;
 use rspirv::dr::{Function, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
 use std::collections::{HashMap, HashSet};
@@ -42,7 +42,7 @@ fn built_in(module: &IndexedModule<'_>, id: u32) -> Option<BuiltIn> {
 }
 
 /// The outputs of a fragment stage, its depth included, that aren't set on every path, by location; depth comes first.
-pub(super) fn unset(module: &IndexedModule<'_>) -> Vec<Unset> {
+pub(super) fn unset(module: &IndexedModule<'_>) -> Vec<UnsetOutput> {
     let outputs = Outputs::of(module);
     let entry = module.module.entry_points.first().and_then(|entry| id(entry, 1));
     let (Some(entry), false) = (entry, outputs.variables.is_empty()) else { return Vec::new() };
@@ -66,13 +66,13 @@ pub(super) fn unset(module: &IndexedModule<'_>) -> Vec<Unset> {
         }
         always.remove(&entry).unwrap_or_else(|| Set::none(outputs.bits))
     });
-    let mut unset: Vec<Unset> = Vec::new();
+    let mut unset: Vec<UnsetOutput> = Vec::new();
     for output in &outputs.variables {
         let own = output.first..output.first + output.elements() * output.components;
         if read_before.iter().any(|read| own.contains(&read.start)) {
             let name = module.name(output.variable).to_owned();
             let what = format!("reads `{name}` before it sets it");
-            unset.push(Unset { location: output.location, name, what, refused: true, place: None });
+            unset.push(UnsetOutput { location: output.location, name, what, refused: true, place: None });
         } else {
             unset.extend(output.unset(module, [&always, &perhaps, &ever]));
         }
@@ -145,7 +145,7 @@ struct Output {
 impl Output {
     /// Those of its elements that aren't set on every path, with how much of them is set on every path, is so perhaps, and is set
     /// on any.
-    fn unset(&self, module: &IndexedModule<'_>, [always, perhaps, ever]: [&Set; 3]) -> Vec<Unset> {
+    fn unset(&self, module: &IndexedModule<'_>, [always, perhaps, ever]: [&Set; 3]) -> Vec<UnsetOutput> {
         let name = module.name(self.variable);
         let element = |number: usize| {
             let first = self.first + number * self.components;
@@ -166,7 +166,7 @@ impl Output {
             };
             let location =
                 self.location.map(|location| location.saturating_add(u32::try_from(number).unwrap_or(u32::MAX)));
-            Some(Unset { location, name: name.to_owned(), what, refused, place: None })
+            Some(UnsetOutput { location, name: name.to_owned(), what, refused, place: None })
         };
         (0..self.elements()).filter_map(element).collect()
     }
@@ -378,8 +378,8 @@ impl Paths {
         Paths { blocks, bits }
     }
 
-    /// What is set on every path through the function that returns; all, if none does. And what it reads of which no component is
-    /// set on every path to there: part of a vector is read by a load of all of it.
+    /// What is set on every path through the function that returns; all, if none does. And what it reads although no component of it
+    /// is set on every path to there. (A load of a whole vector may be meant to read a part of it.)
     fn set_at_the_end(&self) -> (Set, Vec<Range<usize>>) {
         let mut at_the_end = Set::all(self.bits);
         if self.blocks.is_empty() {

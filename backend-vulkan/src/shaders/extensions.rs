@@ -1,7 +1,7 @@
 //! The extensions of SPIR-V that stages may declare: those that Vulkan 1.3 has without an extension of its own.
 
 use super::module::IndexedModule;
-use super::text::{Refused, Words};
+use super::text::{RefusedStage, Words};
 use rspirv::dr::Operand;
 
 /// From the appendix "Vulkan Environment for SPIR-V" of Vulkan's specification. What an extension brings takes a capability, or is
@@ -31,7 +31,7 @@ const OF_VULKAN_1_3: [&str; 18] = [
 ///
 /// # Errors
 /// The first of them.
-pub(super) fn check_extensions(module: &IndexedModule<'_>) -> Result<(), Refused> {
+pub(super) fn check_extensions(module: &IndexedModule<'_>) -> Result<(), RefusedStage> {
     let declared = module.module.extensions.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::LiteralString(name)) => Some(name.as_str()),
         _ => None,
@@ -39,5 +39,8 @@ pub(super) fn check_extensions(module: &IndexedModule<'_>) -> Result<(), Refused
     let Some(other) = declared.into_iter().find(|name| !OF_VULKAN_1_3.contains(name)) else { return Ok(()) };
     // GL_EXT_subgroup_uniform_control_flow asks for SPV_KHR_subgroup_uniform_control_flow.
     let words = other.splitn(3, '_').nth(2).map_or(Words::None, |name| Words::Ending(name.to_ascii_lowercase()));
-    Err(Refused::shown_by(words, format!("it needs SPIR-V's extension {other}, which isn't supported: do without it")))
+    Err(RefusedStage::shown_by(
+        words,
+        format!("it needs SPIR-V's extension {other}, which isn't supported: do without it"),
+    ))
 }

@@ -16,9 +16,9 @@ pub(super) const EYE: &str = "framewright_eye";
 /// The varying that hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
 pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 
-/// The location of that varying. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this
-/// is the last, so that a shader fits every way to draw for both eyes. (By "Required Limits" every device hands over 64 components,
-/// `maxVertexOutputComponents` and `maxFragmentInputComponents`: 16 locations, of which `gl_Position` may take one.)
+/// The location of that varying: the last of the 15 that Vulkan promises between stages. Shaders may take the locations below, and
+/// so fit every way to draw for both eyes. (By "Required Limits" every device hands over 64 components,
+/// `maxVertexOutputComponents` and `maxFragmentInputComponents`: 16 locations. `gl_Position` may take one.)
 pub(super) const LOCATION: u32 = 14;
 
 /// How a stage draws for both eyes at once.

@@ -29,7 +29,7 @@ pub(super) fn by_eye(spirv: &[u32], names: &[&str]) -> Result<Vec<u32>, String> 
                     .filter(|ty| ty.class.opcode == Op::TypeSampledImage)
                     .and_then(|ty| indexed.global(id(ty, 0)?))
                     .ok_or_else(|| format!("`{name}` is no image with its sampler"))?;
-                found.push((variable, Flat::of(image).ok_or_else(|| format!("`{name}` isn't declared flat"))?));
+                found.push((variable, FlatTypes::of(image).ok_or_else(|| format!("`{name}` isn't declared flat"))?));
             }
             _ => {}
         }
@@ -45,24 +45,24 @@ pub(super) fn by_eye(spirv: &[u32], names: &[&str]) -> Result<Vec<u32>, String> 
 
 /// A flat image's type, as far as it isn't the same for all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-struct Flat {
+struct FlatTypes {
     sampled: u32,
     depth: u32,
     multisampled: u32,
 }
 
-impl Flat {
-    fn of(image: &Instruction) -> Option<Flat> {
+impl FlatTypes {
+    fn of(image: &Instruction) -> Option<FlatTypes> {
         let literal = |at: usize| image.operands.get(at).and_then(number);
         let flat = image.operands.get(1) == Some(&Operand::Dim(Dim::Dim2D)) && literal(3) == Some(0);
         let (depth, multisampled) = (literal(2)?, literal(4)?);
-        flat.then_some(Flat { sampled: id(image, 0)?, depth, multisampled })
+        flat.then_some(FlatTypes { sampled: id(image, 0)?, depth, multisampled })
     }
 }
 
 /// The types of an image in layers.
 #[derive(Debug, Clone, Copy)]
-struct Arrayed {
+struct LayeredTypes {
     image: u32,
     sampled_image: u32,
     pointer: u32,
@@ -75,13 +75,13 @@ struct Layers {
     float: u32,
     int: u32,
     /// Image variables in layers.
-    variables: HashMap<u32, Arrayed>,
+    variables: HashMap<u32, LayeredTypes>,
     /// Functions as they were.
     originals: HashMap<u32, Function>,
     /// By function and by which of its parameters are in layers, what it is then.
     lifted: HashMap<(u32, Vec<Option<u32>>), u32>,
     /// Functions that are to be made.
-    wanted: Vec<(u32, Vec<Option<Arrayed>>, u32)>,
+    wanted: Vec<(u32, Vec<Option<LayeredTypes>>, u32)>,
 }
 
 impl Layers {
@@ -94,13 +94,13 @@ impl Layers {
     }
 
     /// Declares a variable in layers. It comes last then, behind its type.
-    fn declare(&mut self, variable: u32, flat: Flat) {
-        let Flat { sampled, depth, multisampled } = flat;
+    fn declare(&mut self, variable: u32, flat: FlatTypes) {
+        let FlatTypes { sampled, depth, multisampled } = flat;
         let format = ImageFormat::Unknown;
         let image = self.builder.type_image(sampled, Dim::Dim2D, depth, 1, multisampled, 1, format, None);
         let sampled_image = self.builder.type_sampled_image(image);
         let pointer = self.builder.type_pointer(None, StorageClass::UniformConstant, sampled_image);
-        self.variables.insert(variable, Arrayed { image, sampled_image, pointer });
+        self.variables.insert(variable, LayeredTypes { image, sampled_image, pointer });
         let globals = &mut self.builder.module_mut().types_global_values;
         if let Some(at) = globals.iter().position(|it| it.result_id == Some(variable)) {
             let mut declared = globals.remove(at);
@@ -128,7 +128,7 @@ impl Layers {
     }
 
     /// The function `name`, like another one but for its parameters. All ids in it are new.
-    fn copied(&mut self, mut function: Function, parameters: &[Option<Arrayed>], name: u32) -> Function {
+    fn copied(&mut self, mut function: Function, parameters: &[Option<LayeredTypes>], name: u32) -> Function {
         let mut ids = HashMap::new();
         let all = |function: &mut Function, each: &mut dyn FnMut(&mut Instruction)| {
             let Function { def, end, parameters, blocks } = function;
@@ -179,7 +179,7 @@ impl Layers {
     }
 
     /// A function in which what is `known` to be in layers, and what comes of it, is looked up so.
-    fn rewritten(&mut self, mut function: Function, mut known: HashMap<u32, Arrayed>) -> Result<Function, String> {
+    fn rewritten(&mut self, mut function: Function, mut known: HashMap<u32, LayeredTypes>) -> Result<Function, String> {
         let mut types = HashMap::new();
         for it in function.blocks.iter().flat_map(|it| &it.instructions).chain(&function.parameters) {
             types.extend(it.result_id.zip(it.result_type));
@@ -196,7 +196,7 @@ impl Layers {
     fn step(
         &mut self,
         mut it: Instruction,
-        known: &mut HashMap<u32, Arrayed>,
+        known: &mut HashMap<u32, LayeredTypes>,
         types: &HashMap<u32, u32>,
         made: &mut Vec<Instruction>,
     ) -> Result<(), String> {
@@ -295,10 +295,10 @@ impl Layers {
     }
 
     /// Calls the function that takes what it is given.
-    fn call(&mut self, it: &mut Instruction, known: &HashMap<u32, Arrayed>) {
+    fn call(&mut self, it: &mut Instruction, known: &HashMap<u32, LayeredTypes>) {
         let Some(callee) = id(it, 0) else { return };
         let given = it.operands[1..].iter().map(|it| known.get(&it.id_ref_any()?).copied());
-        let given: Vec<Option<Arrayed>> = given.collect();
+        let given: Vec<Option<LayeredTypes>> = given.collect();
         if given.iter().all(Option::is_none) {
             return;
         }

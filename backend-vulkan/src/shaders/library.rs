@@ -8,20 +8,20 @@ use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
-use super::mentioned::Mentioned;
+use super::mentioned_names::MentionedNames;
 use super::needs::Needed;
 use super::reflect::reflect;
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
-use super::text::{self, Refused, Words};
+use super::text::{self, RefusedStage, Words};
 use super::varyings::without_idle_inputs;
 use crate::base::ShaderStage;
-use crate::process::{CompileJob, Compiled, Finding, Helper, Verdict};
+use crate::process::{CompileJob, CompilerAnswer, Finding, Helper, Verdict};
 use framewright_graph::base::{FilePath, NoFile, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
     Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    Unbindable, Variant,
+    UnbindableResource, Variant,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -62,7 +62,7 @@ pub struct CompiledCompute {
 /// shipped file names is shipped: from there `NAME` is the shader `shipped:NAME`.
 ///
 /// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
-/// gives as `NAME`, in the stages that are the shader's own and whose text mentions it, included files counted. Where a pass reads the image
+/// gives as `NAME`. The shader's own stages have it if their text or an included file mentions it. Where a pass reads the image
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
@@ -86,7 +86,7 @@ const COMPUTE: ShaderStage = ShaderStage::Compute;
 struct StageSource {
     found: SourceFile,
     /// The names in the file that decide how it is compiled for a pass.
-    mentioned: Mentioned,
+    mentioned: MentionedNames,
 }
 
 /// A stage by its file, its macros, how it draws for both eyes, and what it samples in layers.
@@ -245,7 +245,7 @@ impl ShaderLibrary {
         let found = self.files.find(&FilePath::of_text(file)).map_err(ShaderProblem::from);
         let source = found.map(|found| {
             found.map(|found| {
-                let mentioned = Mentioned::by_stage(&self.files, &found);
+                let mentioned = MentionedNames::by_stage(&self.files, &found);
                 Arc::new(StageSource { found, mentioned })
             })
         });
@@ -261,8 +261,8 @@ impl ShaderLibrary {
         let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
         let parts = macros.iter().any(|(name, _)| name == PARTS);
         let (compilers, files) = (&mut self.compilers, &self.files);
-        let unsupported = |refused: Refused| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        let Compiled { spirv, verdict } = compilers.compile(&job, found, files).map_err(|problem| {
+        let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
+        let CompilerAnswer { spirv, verdict } = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
             let refused = both.and_then(|both| {
@@ -292,7 +292,7 @@ impl ShaderLibrary {
         }
         let spirv = if stage.facts().writes_attachments { without_idle_inputs(spirv) } else { spirv };
         for binding in &mut reflected.interface.bindings {
-            if let Some(Unbindable { place, .. }) = binding.kind.unbindable_mut() {
+            if let Some(UnbindableResource { place, .. }) = binding.kind.unbindable_mut() {
                 *place = text::place(files, found, |word| word == binding.name);
             }
         }
@@ -367,15 +367,15 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
-/// A compute stage says how large its workgroups are: without a word GLSL makes them one invocation each, of which hardly
-/// any shader is meant.
-fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), Refused> {
+/// A compute stage says how large its workgroups are. If it doesn't, GLSL makes them one invocation each, which hardly any shader
+/// means.
+fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), RefusedStage> {
     if text::place(files, stage, |word| word.starts_with("local_size_")).is_some() {
         return Ok(());
     }
     let what = "it doesn't say how large its workgroups are; write `layout(local_size_x = 8, local_size_y = 8) in;` for \
         workgroups of 8×8, or `layout(local_size_x = 1) in;` for single invocations";
-    Err(Refused::named("main", what.to_owned()))
+    Err(RefusedStage::named("main", what.to_owned()))
 }
 
 /// That a stage is no valid SPIR-V, with the place.
@@ -383,7 +383,7 @@ fn invalid(finding: &Finding, files: &ShaderFiles, stage: &SourceFile) -> String
     let what = format!("SPIR-V that Vulkan 1.3 doesn't allow: {}", finding.words);
     match &finding.place {
         Some((file, line)) => format!("{file}:{line}: {what}"),
-        None => Refused::shown_by(Words::First(finding.named.clone()), what).placed(files, stage),
+        None => RefusedStage::shown_by(Words::First(finding.named.clone()), what).placed(files, stage),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The macros with which a stage is compiled for a pass.
 
 use super::eyes::{BothEyes, EYE};
-use super::mentioned::{COMPONENTS, HAS, LOCAL, Mentioned, PART, TEXTURE};
+use super::mentioned_names::{COMPONENTS, HAS, LOCAL, MentionedNames, PART, TEXTURE};
 use crate::base::ShaderStage;
 use framewright_graph::frame::{Eye, EyeForm};
 use framewright_graph::shader::{EyeSource, Variant};
@@ -27,7 +27,7 @@ pub(super) fn both_eyes(variant: &Variant) -> Option<BothEyes> {
 }
 
 /// The macros that depend on a pass, with their values, in a stage whose file mentions such names.
-pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStage) -> Macros {
+pub(super) fn macros(mentioned: &MentionedNames, variant: &Variant, stage: ShaderStage) -> Macros {
     let textures = mentioned.adapting.iter().map(|name| {
         let given = variant.textures.iter().find(|(given, _)| **given == **name);
         let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());

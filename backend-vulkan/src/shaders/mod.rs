@@ -16,11 +16,11 @@ mod indexing;
 mod layers;
 mod library;
 mod macros;
-mod mentioned;
+mod mentioned_names;
 mod messages;
 mod module;
 mod needs;
-mod precompiled;
+mod precompiled_shaders;
 mod reflect;
 mod rotation;
 mod spirv_cache;
@@ -30,7 +30,7 @@ mod validator;
 mod varyings;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
-pub use precompiled::PrecompiledShaders;
+pub use precompiled_shaders::PrecompiledShaders;
 pub use stages::Spirv;
 
 pub(crate) use compile::compile;

@@ -342,7 +342,7 @@ mod tests {
     /// Deep enough to overflow any stack that is a function call for each level.
     const DEEP: usize = 100_000;
 
-    /// Types, of which each is made of those before it.
+    /// Types. Each is made of the ones before it.
     struct Types(Module);
 
     impl Types {

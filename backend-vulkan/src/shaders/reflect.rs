@@ -8,7 +8,7 @@ use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::{Needed, needs};
 use super::rotation;
-use super::text::Refused;
+use super::text::RefusedStage;
 use super::varyings::{Varying, varyings, vertex_inputs};
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
@@ -51,7 +51,7 @@ pub(super) fn reflect(
     spirv: &[u32],
     in_part: bool,
     both_eyes: bool,
-) -> Result<StageInterface, Refused> {
+) -> Result<StageInterface, RefusedStage> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = IndexedModule::new(&module);
     check_stage(&module, stage)?;
@@ -138,7 +138,7 @@ fn holds_matrix(module: &IndexedModule<'_>, ty: &rspirv::dr::Instruction) -> boo
 }
 
 /// That what has a location, used or not, ends below location `most`.
-fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -> Result<(), Refused> {
+fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -> Result<(), RefusedStage> {
     // The eye is the library's own.
     let own = module.variables().filter(|(id, it)| storage_class(it) == Some(class) && module.name(*id) != HANDED_ON);
     for (id, variable) in own {
@@ -148,7 +148,7 @@ fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -
             // A block without a name of its own has the name of its type.
             let name = Some(module.name(id)).filter(|name| !name.is_empty()).unwrap_or_else(|| module.name(ty));
             let what = format!("`{name}` at location {last}: locations go up to {}", most - 1);
-            return Err(Refused::named(name, what));
+            return Err(RefusedStage::named(name, what));
         }
     }
     Ok(())
@@ -170,7 +170,7 @@ fn workgroup_size(module: &IndexedModule<'_>) -> [u32; 3] {
 }
 
 /// No more memory for variables than an invocation may have.
-fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
+fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), RefusedStage> {
     let local = module.code().filter(|it| it.class.opcode == Op::Variable);
     let global = module.variables().map(|(_, it)| it).filter(|it| storage_class(it) == Some(StorageClass::Private));
     let mut total: u64 = 0;
@@ -180,14 +180,14 @@ fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
         if total > OWN_BYTES {
             let name = variable.result_id.map_or("", |id| module.name(id));
             let what = format!("with `{name}` its variables take {total} bytes: at most {OWN_BYTES} are allowed");
-            return Err(Refused::named(name, what));
+            return Err(RefusedStage::named(name, what));
         }
     }
     Ok(())
 }
 
 /// Colour outputs by location; an array takes a location for each element.
-fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, Refused> {
+fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, RefusedStage> {
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
@@ -207,7 +207,7 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
             let name = module.name(id_of);
             let most = OUTPUTS - 1;
             let what = format!("output `{name}`: {elements} from location {location} on; locations go up to {most}");
-            return Err(Refused::named(name, what));
+            return Err(RefusedStage::named(name, what));
         }
         outputs.extend((0..elements).map(|element| FragmentOutput {
             location: location + element,
@@ -229,7 +229,7 @@ fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, R
 }
 
 /// Checks that the module is one of `stage`: a file may hold another one than its name says.
-fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
+fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), RefusedStage> {
     let StageFacts { model: wanted, name, .. } = stage.facts();
     let main = |it: &rspirv::dr::Instruction| match &it.operands[..] {
         [Operand::ExecutionModel(model), _, Operand::LiteralString(entry), ..] => *model == wanted && entry == "main",
@@ -238,7 +238,7 @@ fn check_stage(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Ref
     if module.module.entry_points.first().is_some_and(main) {
         return Ok(());
     }
-    Err(Refused::from(format!("its SPIR-V has no entry point `main` of a {name} stage")))
+    Err(RefusedStage::from(format!("its SPIR-V has no entry point `main` of a {name} stage")))
 }
 
 /// Whether the code uses one of these built-in variables.

@@ -1,14 +1,14 @@
 //! Parts of a shader stage that go wrong where its picture is turned.
 //!
-//! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function that reads where the
-//! fragment lies, or differentiates to one side, and looks at that constant too is taken to know what it does; so is a vertex
-//! stage that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
+//! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function may read where the fragment
+//! lies, or differentiate to one side: if it also looks at that constant, it is taken to know what it does. So is a vertex stage
+//! that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
 //! only partly turns.
 
 use super::module::{IndexedModule, id};
-use super::text::Refused;
+use super::text::RefusedStage;
 use crate::base::{ShaderStage, StageFacts};
-use framewright_graph::shader::Unturned;
+use framewright_graph::shader::UnturnedPart;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op};
 use std::collections::HashSet;
@@ -20,7 +20,7 @@ const ROTATION: u32 = 100;
 const CONSTANTS: [&str; 3] = ["framewright_rotation", "framewright_turned_width", "framewright_turned_height"];
 
 /// That a stage which draws has no constant of its own in the place of one of these.
-pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), Refused> {
+pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), RefusedStage> {
     if !stage.facts().draws {
         return Ok(());
     }
@@ -35,14 +35,14 @@ pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) ->
                 "`{name}` has the `constant_id` {number}: {ROTATION} to {last} say how pictures are turned, and would change it; \
                  take another number"
             );
-            return Err(Refused::named(name, what));
+            return Err(RefusedStage::named(name, what));
         }
     }
     Ok(())
 }
 
 /// The parts that go wrong.
-pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Unturned> {
+pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<UnturnedPart> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
     let functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
@@ -52,7 +52,7 @@ pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Un
     }
     if places_vertices {
         let all = module.module.functions.len();
-        return if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() };
+        return if functions.count() == all { vec![UnturnedPart::Vertices] } else { Vec::new() };
     }
     let places = places(module);
     let (mut reads, mut differentiates) = (false, false);
@@ -60,7 +60,7 @@ pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Un
         reads |= code(function).any(|it| mentions(it, &places) && !is_beyond_y(module, it));
         differentiates |= code(function).any(|it| is_sideways(it.class.opcode));
     }
-    let found = [(reads, Unturned::FragCoord), (differentiates, Unturned::Derivatives)];
+    let found = [(reads, UnturnedPart::FragCoord), (differentiates, UnturnedPart::Derivatives)];
     found.into_iter().filter(|(found, _)| *found).map(|(_, what)| what).collect()
 }
 

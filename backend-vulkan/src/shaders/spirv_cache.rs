@@ -6,7 +6,7 @@
 use super::compile::Includes;
 use crate::base::{Cache, bytes_in, digest, identity_of, read_file, replace_file, shrink, used_now};
 use crate::process::{
-    CompileJob, Compiled, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, Verdict, parse, read_frame, write,
+    CompileJob, CompilerAnswer, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Limits, Verdict, parse, read_frame, write,
     write_frame,
 };
 use framewright_graph::base::unix_lines;
@@ -87,7 +87,7 @@ impl SpirvCache {
     }
 
     /// The SPIR-V of a stage, if it was compiled before and `includes` finds the same files as then.
-    pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<Compiled> {
+    pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<CompilerAnswer> {
         let path = self.path(job);
         let file = read_file(&path, LARGEST_FILE)?;
         let mut rest = &*file;
@@ -110,12 +110,17 @@ impl SpirvCache {
         }
         used_now(&path);
         let spirv = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-        Some(Compiled { spirv, verdict: header.verdict })
+        Some(CompilerAnswer { spirv, verdict: header.verdict })
     }
 
     /// Keeps a stage that includes these files. Where that isn't possible, or it is very large or invalid, it is compiled again next
     /// time.
-    pub(super) fn keep(&mut self, job: &CompileJob, includes: Inclusions, Compiled { spirv, verdict }: &Compiled) {
+    pub(super) fn keep(
+        &mut self,
+        job: &CompileJob,
+        includes: Inclusions,
+        CompilerAnswer { spirv, verdict }: &CompilerAnswer,
+    ) {
         if size_of_val(&spirv[..]) as u64 > LARGEST_FILE / 2 || matches!(verdict, Verdict::Invalid(_)) {
             return;
         }
@@ -161,8 +166,8 @@ mod tests {
         CompileJob { stage: ShaderStage::Vertex, shown: "a.vert".to_owned(), text: text.to_owned(), macros: Vec::new() }
     }
 
-    fn compiled(spirv: &[u32]) -> Compiled {
-        Compiled { spirv: spirv.to_vec(), verdict: Verdict::Valid }
+    fn compiled(spirv: &[u32]) -> CompilerAnswer {
+        CompilerAnswer { spirv: spirv.to_vec(), verdict: Verdict::Valid }
     }
 
     fn found(cache: &SpirvCache, text: &str) -> bool {
@@ -191,7 +196,7 @@ mod tests {
         assert!(found(&cache, "a"));
         assert_eq!(shrink(&cache.folder, all / 2), all / 2);
         assert_eq!(["a", "b", "c", "d"].map(|text| found(&cache, text)), [true, false, false, true]);
-        // A time to come is none at which a file was used.
+        // Times in the future are ignored: a clock was wrong.
         let file = File::options().append(true).open(cache.path(&job("d"))).expect("it is there");
         file.set_modified(SystemTime::now() + Duration::from_secs(1 << 30)).expect("its time is set");
         assert!(found(&cache, "d") && file.metadata().expect("there").modified().expect("a time") <= SystemTime::now());

@@ -1,7 +1,7 @@
 //! Compiled stages, and how a vertex and a fragment stage go together.
 
 use super::reflect::StageInterface;
-use super::text::Refused;
+use super::text::RefusedStage;
 use framewright_graph::shader::{PASS_SET, ShaderInterface};
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
 ///
 /// # Errors
 /// What of the fragment stage doesn't fit.
-pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, Refused> {
+pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, RefusedStage> {
     // An input that isn't used is left out of the stage.
     for input in fragment.reflected.inputs.iter().filter(|input| input.used) {
         let mut handed = vertex.reflected.outputs.iter().filter(|output| output.used);
@@ -42,7 +42,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                 "it reads `{} {}` at location {}{component}, where {} hands over {found}",
                 input.ty, input.name, input.location, vertex.file
             );
-            return Err(Refused::named(&input.name, what));
+            return Err(RefusedStage::named(&input.name, what));
         }
     }
     let mut joined = fragment.reflected.interface.clone();
@@ -60,7 +60,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                     "it declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",
                     other.name, binding.set, binding.binding, vertex.file, binding.name
                 );
-                return Err(Refused::named(&other.name, what));
+                return Err(RefusedStage::named(&other.name, what));
             }
         }
     }

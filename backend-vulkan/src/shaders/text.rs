@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 /// Why a stage can't be used, and the words of its text that show where.
 #[derive(Debug)]
-pub(super) struct Refused {
+pub(super) struct RefusedStage {
     what: String,
     shown_by: Words,
 }
@@ -43,26 +43,26 @@ impl Words {
     }
 }
 
-impl From<String> for Refused {
-    fn from(what: String) -> Refused {
-        Refused { what, shown_by: Words::None }
+impl From<String> for RefusedStage {
+    fn from(what: String) -> RefusedStage {
+        RefusedStage { what, shown_by: Words::None }
     }
 }
 
-impl Refused {
+impl RefusedStage {
     /// With the name that the text gives to what is refused.
-    pub(super) fn named(name: &str, what: String) -> Refused {
-        Refused { what, shown_by: Words::Whole(name.to_owned()) }
+    pub(super) fn named(name: &str, what: String) -> RefusedStage {
+        RefusedStage { what, shown_by: Words::Whole(name.to_owned()) }
     }
 
     /// With beginnings of the words that are refused.
-    pub(super) fn beginning(words: &'static [&'static str], what: String) -> Refused {
-        Refused { what, shown_by: Words::Beginning(words) }
+    pub(super) fn beginning(words: &'static [&'static str], what: String) -> RefusedStage {
+        RefusedStage { what, shown_by: Words::Beginning(words) }
     }
 
     /// With the words that are refused.
-    pub(super) fn shown_by(shown_by: Words, what: String) -> Refused {
-        Refused { what, shown_by }
+    pub(super) fn shown_by(shown_by: Words, what: String) -> RefusedStage {
+        RefusedStage { what, shown_by }
     }
 
     /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.

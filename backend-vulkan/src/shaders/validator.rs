@@ -5,7 +5,7 @@ use crate::process::Verdict;
 /// Judges a module by the rules of Vulkan 1.3. Which layout blocks may have is the device's matter, see `block_layout.rs`.
 pub(crate) fn judge(spirv: &[u32]) -> Verdict {
     #[cfg(spirv_validator)]
-    return linked::judge(spirv);
+    return spirv_tools::judge(spirv);
     #[cfg(not(spirv_validator))]
     {
         let _ = spirv;
@@ -16,11 +16,11 @@ pub(crate) fn judge(spirv: &[u32]) -> Verdict {
 /// Whether a module is valid with the layouts that blocks may have: those of std430 in uniform blocks, and scalar ones.
 #[cfg(all(test, spirv_validator))]
 pub(super) fn is_valid(spirv: &[u32], standard: bool, scalar: bool) -> bool {
-    linked::validate(spirv, standard, scalar).0 == 0
+    spirv_tools::validate(spirv, standard, scalar).0 == 0
 }
 
 #[cfg(spirv_validator)]
-mod told {
+mod findings {
     use crate::process::Finding;
     use std::collections::HashMap;
 
@@ -142,9 +142,9 @@ mod told {
 }
 
 #[cfg(spirv_validator)]
-mod linked {
+mod spirv_tools {
     use super::Verdict;
-    use super::told::{finding, is_unknown_word};
+    use super::findings::{finding, is_unknown_word};
     use std::ffi::{CStr, c_char};
 
     // SPIRV-Tools' SPV_ERROR_INVALID_BINARY.

@@ -1,7 +1,7 @@
 //! Values at locations: vertex attributes, what a vertex stage hands over, and what a fragment stage takes.
 
 use super::module::{IndexedModule, number, storage_class};
-use super::text::Refused;
+use super::text::RefusedStage;
 use framewright_graph::shader::{VertexInput, VertexLayout};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
@@ -55,7 +55,7 @@ fn of_variable(module: &IndexedModule<'_>, id: u32, it: &Instruction, used: bool
 ///
 /// # Errors
 /// In words: an attribute that no buffer can hold.
-pub(super) fn vertex_inputs(declared: &[Varying]) -> Result<Vec<VertexInput>, Refused> {
+pub(super) fn vertex_inputs(declared: &[Varying]) -> Result<Vec<VertexInput>, RefusedStage> {
     let input = |it: &Varying| {
         let Varying { location, component, name, ty, used } = it.clone();
         VertexInput { location, component, name, ty, used }
@@ -63,7 +63,7 @@ pub(super) fn vertex_inputs(declared: &[Varying]) -> Result<Vec<VertexInput>, Re
     let inputs: Vec<VertexInput> = declared.iter().map(input).collect();
     match VertexLayout::of(&inputs, 1) {
         Ok(_) => Ok(inputs),
-        Err(fault) => Err(Refused::named(&fault.name, fault.message)),
+        Err(fault) => Err(RefusedStage::named(&fault.name, fault.message)),
     }
 }
 

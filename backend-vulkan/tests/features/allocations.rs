@@ -8,7 +8,7 @@ use crate::testing::{OVER_ALL, WHITE};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups, Image, Lifetime, Resource, Work};
 use framewright_graph::plan;
-use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{FillValue, Filter, Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, CustomRecorder, Device, DrawSource, Error, Executor, ExecutorOptions, Recorder,
@@ -48,7 +48,7 @@ const SHADERS: &[(&str, &str)] = &[
 ];
 
 fn interface(draw: Draw) -> DrawInterface {
-    let view = Supplied::new(1, 0, "view", SuppliedKind::UniformBlock);
+    let view = SuppliedResource::new(1, 0, "view", SuppliedKind::UniformBlock);
     let supplied = if draw == Draw::Objects(DrawList::Opaque) { vec![view] } else { Vec::new() };
     DrawInterface { supplied, ..DrawInterface::default() }
 }

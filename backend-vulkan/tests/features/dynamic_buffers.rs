@@ -3,7 +3,7 @@
 use crate::frames::{Small, Uses, draw, on_each_driver, planned, to_bytes, to_words};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DrawSource, DynamicBuffer, Error, Executor, ExecutorOptions, Recorder, Resource,
@@ -40,9 +40,9 @@ fn interface(draw: Draw) -> DrawInterface {
         vertex_stride: 8,
         attributes: vec![Attribute::new("place", 2, 0)],
         supplied: vec![
-            Supplied::new(1, 0, "camera", SuppliedKind::UniformBlock),
-            Supplied::new(1, 1, "objects", SuppliedKind::StorageBlock),
-            Supplied::new(1, 2, "fixed_number", SuppliedKind::UniformBlock),
+            SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock),
+            SuppliedResource::new(1, 1, "objects", SuppliedKind::StorageBlock),
+            SuppliedResource::new(1, 2, "fixed_number", SuppliedKind::UniformBlock),
         ],
     }
 }

@@ -5,7 +5,7 @@ use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Frame, Groups, Image,
-    ImageIndex, Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    ImageIndex, Lifetime, Pass, Resource, SampledImage, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::Plan;
 use framewright_graph::shader::DrawInterface;
@@ -211,8 +211,8 @@ fn stages(pass: &Pass) -> Stages {
     if matches!(pass.work, Work::Dispatch { .. }) { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER }
 }
 
-fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -> Sampled {
-    Sampled { range, ..Sampled::new(binding, image, stages(pass)) }
+fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -> SampledImage {
+    SampledImage { range, ..SampledImage::new(binding, image, stages(pass)) }
 }
 
 fn stored(mut pass: Pass, binding: &str, image: ImageIndex, range: Subresources, access: (bool, bool)) -> Pass {
@@ -234,7 +234,7 @@ impl Uses for Pass {
     }
 
     fn samples_earlier(mut self, binding: &str, image: ImageIndex, frames_ago: u32) -> Pass {
-        self.sampled.push(Sampled { frames_ago, ..sampled(&self, binding, image, Subresources::WHOLE) });
+        self.sampled.push(SampledImage { frames_ago, ..sampled(&self, binding, image, Subresources::WHOLE) });
         self
     }
 

@@ -3,7 +3,7 @@
 use crate::frames::{Small, Uses, draw, on_each_driver, planned, to_bytes, to_words};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{
     BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, Resource, ShaderLibrary,
@@ -34,7 +34,7 @@ fn interface(draw: Draw) -> DrawInterface {
     DrawInterface {
         vertex_stride: 8,
         attributes: vec![Attribute::new("place", 2, 0)],
-        supplied: vec![Supplied::new(1, 0, "given", SuppliedKind::UniformBlock)],
+        supplied: vec![SuppliedResource::new(1, 0, "given", SuppliedKind::UniformBlock)],
     }
 }
 

@@ -5,7 +5,7 @@ use ash::vk;
 use framewright_graph::base::Span;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{DepthTarget, Draw, Image};
-use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{CompareOp, Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, Resource, ScopeFormats,
@@ -193,7 +193,7 @@ fn a_pass_without_a_shader_sees_its_images_and_binds_no_groups() {
     on_each_driver(|device| {
         let plan = planned(device, &small.frame, &Options::default());
         let interface = DrawInterface {
-            supplied: vec![Supplied::new(1, 0, "camera", SuppliedKind::UniformBlock)],
+            supplied: vec![SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock)],
             ..DrawInterface::default()
         };
         let brought = interface.clone();

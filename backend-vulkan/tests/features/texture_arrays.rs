@@ -3,7 +3,7 @@
 use crate::frames::{Small, Uses, dispatch, draw, indexing, lacks, on_each_driver, placeless, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups};
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DispatchRecorder, DrawSource, Error, Executor, ExecutorOptions, Recorder, Resource,
@@ -102,8 +102,8 @@ const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-fn textures(count: u32) -> Supplied {
-    Supplied::new(2, 3, "textures", SuppliedKind::SampledImage).with_count(count)
+fn textures(count: u32) -> SuppliedResource {
+    SuppliedResource::new(2, 3, "textures", SuppliedKind::SampledImage).with_count(count)
 }
 
 fn interface(count: u32) -> DrawInterface {

@@ -2,7 +2,7 @@
 
 use crate::testing;
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
-use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Executor, Resource, SamplerDescriptor, Texture,
@@ -24,9 +24,9 @@ fn buffers_textures_and_bind_groups_come_and_go_in_silence() {
     let messages = device.messages();
     let interface = DrawInterface {
         supplied: vec![
-            Supplied::new(1, 0, "view", SuppliedKind::UniformBlock),
-            Supplied::new(1, 1, "objects", SuppliedKind::StorageBlock),
-            Supplied::new(1, 2, "base_color_texture", SuppliedKind::SampledImage),
+            SuppliedResource::new(1, 0, "view", SuppliedKind::UniformBlock),
+            SuppliedResource::new(1, 1, "objects", SuppliedKind::StorageBlock),
+            SuppliedResource::new(1, 2, "base_color_texture", SuppliedKind::SampledImage),
         ],
         ..DrawInterface::default()
     };
@@ -59,7 +59,7 @@ fn the_layer_is_given_only_settings_that_it_knows() {
 #[test]
 fn a_bind_group_refuses_what_its_interface_does_not_name() {
     let Some(device) = testing::device() else { return };
-    let view = Supplied::new(1, 0, "view", SuppliedKind::UniformBlock);
+    let view = SuppliedResource::new(1, 0, "view", SuppliedKind::UniformBlock);
     let interface = DrawInterface { supplied: vec![view], ..DrawInterface::default() };
     let buffer = device.buffer(BufferUsage::Storage, &[0; 16]).expect("a buffer");
     let message = |set, resources: &[(u32, Resource<'_>)]| match device.bind_group(&interface, set, resources) {

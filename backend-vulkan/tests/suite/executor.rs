@@ -4,7 +4,7 @@ use crate::testing::plans::{EXTENT, RESOLVED, add_up, resolve_then_sample};
 use crate::testing::{self, Nothing, OVER_ALL, WHITE};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{ImageBarrier, Plan, Role, Work};
-use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{Accesses, LoadOp, Stages};
 use framewright_vulkan::{
     BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, Resource, ShaderLibrary,
@@ -55,7 +55,7 @@ fn interface(draw: Draw) -> DrawInterface {
         Draw::Objects(_) => DrawInterface {
             vertex_stride: 12,
             attributes: vec![Attribute::new("place", 2, 4)],
-            supplied: vec![Supplied::new(1, 0, "view", SuppliedKind::UniformBlock)],
+            supplied: vec![SuppliedResource::new(1, 0, "view", SuppliedKind::UniformBlock)],
         },
         _ => DrawInterface::default(),
     }

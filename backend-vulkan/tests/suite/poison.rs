@@ -3,7 +3,7 @@
 use crate::testing::{self, Nothing, OVER_ALL};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, Sampled, Work};
+use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, SampledImage, Work};
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::shader::DrawInterface;
 use framewright_graph::vulkan::{Format, Stages, Subresources};
@@ -42,7 +42,7 @@ const EXTENT: [u32; 2] = [8, 8];
 
 fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass {
     let sampled =
-        sampled.iter().map(|(binding, image)| Sampled::new(*binding, ImageIndex(*image), Stages::FRAGMENT_SHADER));
+        sampled.iter().map(|(binding, image)| SampledImage::new(*binding, ImageIndex(*image), Stages::FRAGMENT_SHADER));
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
     let (image, range) = (ImageIndex(target), Subresources::WHOLE);
     Pass {

@@ -8,7 +8,7 @@ use framewright_graph::plan::{
     Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId,
     Placement, Plan, Role, StepId, Work,
 };
-use framewright_graph::shader::{Attribute, BINDINGS, DrawInterface, ShaderInterfaces, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, BINDINGS, DrawInterface, ShaderInterfaces, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{
     Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage, name_of,
 };
@@ -58,7 +58,7 @@ const SHADERS: &[(&str, &str)] = &[
 ];
 
 const PLACE: Attribute = Attribute::new("place", 2, 0);
-const PICTURE: Supplied = Supplied::new(1, 0, "picture", SuppliedKind::SampledImage);
+const PICTURE: SuppliedResource = SuppliedResource::new(1, 0, "picture", SuppliedKind::SampledImage);
 
 fn plain(_: Draw) -> DrawInterface {
     DrawInterface { vertex_stride: 8, attributes: vec![PLACE], supplied: vec![PICTURE] }
@@ -92,17 +92,17 @@ fn a_draw_interface_that_vulkan_can_not_bind_is_refused() {
     let wide = refusal(device, "white", "show", |draw| DrawInterface { vertex_stride: u32::MAX, ..plain(draw) });
     assert_eq!(wide, "pass `draw`: vertices of 4294967295 bytes: every device allows 2048, and not all more");
     let far = refusal(device, "white", "show", |draw| DrawInterface {
-        supplied: vec![Supplied { set: u32::MAX, ..PICTURE }],
+        supplied: vec![SuppliedResource { set: u32::MAX, ..PICTURE }],
         ..plain(draw)
     });
     assert_eq!(far, "pass `draw`: `picture` can't be brought along in set 4294967295: a draw source has sets 1 to 3");
     let twice = refusal(device, "white", "show", |draw| DrawInterface {
-        supplied: vec![PICTURE, Supplied::new(1, 0, "other", SuppliedKind::UniformBlock)],
+        supplied: vec![PICTURE, SuppliedResource::new(1, 0, "other", SuppliedKind::UniformBlock)],
         ..plain(draw)
     });
     assert_eq!(twice, "pass `draw`: `other` is brought along where something else is");
     let buffer = device.buffer(BufferUsage::Uniform, &[0; 16]).expect("a buffer");
-    let block = Supplied { kind: SuppliedKind::UniformBlock, ..PICTURE };
+    let block = SuppliedResource { kind: SuppliedKind::UniformBlock, ..PICTURE };
     let interface = DrawInterface { supplied: vec![block.clone(), block], ..DrawInterface::default() };
     let group = device.bind_group(&interface, 1, &[(0, Resource::Buffer(&buffer))]).err();
     let said = group.map(|error| error.to_string()).unwrap_or_default();
@@ -130,9 +130,9 @@ fn more_resources_than_a_stage_may_have_are_refused() {
     let Some(device) = testing::open() else { return };
     let messages = device.messages();
     let said = refusal(&device, "white", "show", |draw| {
-        let block = |number| Supplied {
+        let block = |number| SuppliedResource {
             name: format!("block_{number}").into(),
-            ..Supplied::new(1 + number / BINDINGS, number % BINDINGS, "", SuppliedKind::StorageBlock)
+            ..SuppliedResource::new(1 + number / BINDINGS, number % BINDINGS, "", SuppliedKind::StorageBlock)
         };
         DrawInterface { supplied: (0..3 * BINDINGS).map(block).collect(), ..plain(draw) }
     });

@@ -1,6 +1,6 @@
 //! What a bound is on, and how much of it each step of a Plan adds.
 
-use framewright_graph::plan::{Moved, Plan, Role, Step, Totals};
+use framewright_graph::plan::{MovedBytes, Plan, Role, Step, Totals};
 
 /// A quantity that a budget bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl Bound {
 
     fn of_step(self, plan: &Plan, step: &Step) -> f64 {
         let totals = Totals::count(std::slice::from_ref(step));
-        let Moved { loaded, stored, resolved, copied } = plan.moved_by(step);
+        let MovedBytes { loaded, stored, resolved, copied } = plan.moved_by(step);
         match self {
             Bound::Passes => totals.passes.into(),
             Bound::InsertedPasses => totals.inserted_passes.into(),

@@ -41,7 +41,7 @@ struct Entry<'a> {
 }
 
 /// The features that a device is used without, or why it can't be opened.
-type Opened = Result<Vec<String>, String>;
+type OpenResult = Result<Vec<String>, String>;
 
 /// Lists the devices, or saves the profile of one.
 ///
@@ -92,7 +92,7 @@ fn save(arguments: &DevicesArguments, file: &Path) -> Result<Exit, Error> {
 ///
 /// # Errors
 /// In words: why it can't be opened.
-fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
+fn used_without(device: &DeviceSummary, helper: &Helper) -> OpenResult {
     if !device.missing.is_empty() {
         return Ok(Vec::new());
     }
@@ -108,11 +108,11 @@ fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
     }
 }
 
-fn answer(devices: &[(Opened, DeviceSummary)]) -> Answer<'_> {
+fn answer(devices: &[(OpenResult, DeviceSummary)]) -> Answer<'_> {
     Answer { format_version: 1, devices: devices.iter().map(|(opened, device)| entry(device, opened)).collect() }
 }
 
-fn entry<'a>(device: &'a DeviceSummary, opened: &'a Opened) -> Entry<'a> {
+fn entry<'a>(device: &'a DeviceSummary, opened: &'a OpenResult) -> Entry<'a> {
     Entry {
         index: device.index,
         summary: device.into(),
@@ -125,7 +125,7 @@ fn entry<'a>(device: &'a DeviceSummary, opened: &'a Opened) -> Entry<'a> {
     }
 }
 
-fn table(devices: &[(Opened, DeviceSummary)]) -> String {
+fn table(devices: &[(OpenResult, DeviceSummary)]) -> String {
     let mut table = Table::new();
     let header = ["#", "name", "driver", "kind", "Vulkan", "queues", "local reads", "usable"];
     table.load_preset(ASCII_MARKDOWN).set_header(header);
@@ -161,7 +161,7 @@ mod tests {
     use crate::command_line::args::CachingArguments;
 
     /// The devices of this machine, and one that is listed and is gone when it is opened.
-    fn with_one_that_is_gone() -> Option<Vec<(Opened, DeviceSummary)>> {
+    fn with_one_that_is_gone() -> Option<Vec<(OpenResult, DeviceSummary)>> {
         let list = || Device::list().ok().filter(|devices| !devices.is_empty());
         let mut gone = list()?.swap_remove(0);
         gone.index = 99;

@@ -5,7 +5,7 @@ use crate::command_line::values::{self, Assignment};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
-use crate::inspection::{self, Page, Shown};
+use crate::inspection::{self, Page, ShownPlan};
 use crate::planning::{self, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
@@ -40,8 +40,8 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
         DifferenceFormat::Html => {
             let detail = Detail { verbose: true, ..Detail::default() };
             let plans = vec![
-                Shown { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
-                Shown { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
+                ShownPlan { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
+                ShownPlan { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
             ];
             inspection::page(&Page { plans, differences: Some(&differences), devices: &[], captures: &[] })?
         }

@@ -5,12 +5,12 @@ use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
-use crate::inspection::{self, MOST_NODES, Page, Shown, Thumbnail};
+use crate::inspection::{self, MOST_NODES, Page, ShownPlan, Thumbnail};
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::dataflow::Dataflow;
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
 use framewright_lab::picture::FileFormat;
@@ -48,7 +48,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let options = subject.planning.options();
     let planned = match &drawn_on {
         Some(device) => pipeline.planned(&choices, &profile, &mut device.memory(), &options)?,
-        None => pipeline.planned(&choices, &profile, &mut Estimated(&profile), &options)?,
+        None => pipeline.planned(&choices, &profile, &mut MemoryEstimate(&profile), &options)?,
     };
     let plan = &planned.plan;
     let counted = |list| scene.as_ref().map_or(0, |scene| scene.count(list));
@@ -65,7 +65,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             _ => Vec::new(),
         };
         let detail = Detail { verbose: true, ..detail };
-        let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
         Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?)
     })?;
     put(arguments, &shown, &read)
@@ -83,7 +83,8 @@ fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, 
     let detail = Detail { verbose: arguments.verbose, ..Detail::default() };
     let shown = shown(arguments.format, &plan, detail, || {
         let detail = Detail { verbose: true, ..detail };
-        let shown = Shown { name: pipeline.file.to_string_lossy().into_owned(), plan: &plan, detail, sources: None };
+        let shown =
+            ShownPlan { name: pipeline.file.to_string_lossy().into_owned(), plan: &plan, detail, sources: None };
         Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
     })?;
     put(arguments, &shown, read)

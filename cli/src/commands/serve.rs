@@ -26,7 +26,7 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     interrupt::watch();
     let helper = helper::of(&arguments.pipeline)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
-    let (publish, shown) = watch::channel(serving::Published::default());
+    let (publish, shown) = watch::channel(serving::PublishedState::default());
     let (send, choices) = mpsc::channel();
     let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
     let device = device::open(choice, false, &helper)?;
@@ -46,7 +46,7 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
             match choices.recv_timeout(EVERY) {
                 Ok(choice) => {
                     session.choose(choice);
-                    // Of a slider that is pulled only the last value is drawn.
+                    // Only the last value of a slider that is pulled is drawn.
                     choices.try_iter().for_each(|choice| session.choose(choice));
                     break;
                 }

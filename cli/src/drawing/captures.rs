@@ -39,7 +39,7 @@ pub(crate) struct Drawing<'a> {
 }
 
 /// What a pass left in an image. Layers and slices stand side by side.
-pub(crate) struct Captured {
+pub(crate) struct CapturedImage {
     /// Its number, counted over all captures.
     pub(crate) number: usize,
     pub(crate) capture: Capture,
@@ -49,7 +49,7 @@ pub(crate) struct Captured {
     pub(crate) bytes: Vec<u8>,
 }
 
-impl Captured {
+impl CapturedImage {
     /// The part of the image in words; empty for its first level and layers.
     fn part(&self) -> String {
         let range = &self.capture.range;
@@ -110,7 +110,10 @@ impl<'a> Drawing<'a> {
 ///
 /// # Errors
 /// Those of planning and drawing, and of `take`.
-pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Result<(), Error>) -> Result<usize, Error> {
+pub(crate) fn draw(
+    drawing: Drawing<'_>,
+    mut take: impl FnMut(CapturedImage) -> Result<(), Error>,
+) -> Result<usize, Error> {
     let Drawing { device, pipeline, made: (plan, frame), scene, options, executor, frames } = drawing;
     let flow = Dataflow::of(plan);
     let runs: HashSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
@@ -136,7 +139,8 @@ pub(crate) fn draw(drawing: Drawing<'_>, mut take: impl FnMut(Captured) -> Resul
             let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(vec![texels]);
             // Stencil is read as bytes.
             let format = if plane == Aspects::STENCIL { Format::R8_UINT } else { format };
-            let captured = Captured { number: done, capture: capture.clone(), format, extent: [width, height], bytes };
+            let captured =
+                CapturedImage { number: done, capture: capture.clone(), format, extent: [width, height], bytes };
             take(captured)?;
             done += 1;
         }

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::system::text;
 use framewright::{FileOptions, PipelineFile, Reach};
 use framewright_graph::base::{ReadFiles, text_of};
-use framewright_graph::language::Shipped;
+use framewright_graph::language::ShippedFiles;
 use framewright_lab::Error as LabError;
 use framewright_lab::picture::Light;
 use framewright_passes::scene::Scene;
@@ -172,7 +172,7 @@ pub(crate) fn are_there(pipeline: &Path, scene: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-fn missing(what: &'static str, path: &Path, files: Shipped) -> Error {
+fn missing(what: &'static str, path: &Path, files: ShippedFiles) -> Error {
     Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() }
 }
 

@@ -38,8 +38,9 @@ pub(crate) fn prepare<'a>(written: impl Iterator<Item = &'a Path>, read: &ReadFi
 /// Those of [`prepare`], before anything is written; then [`Error::Write`] and [`Error::InterruptedWriting`].
 pub(crate) fn write(files: &[(&Path, &[u8])], read: &ReadFiles) -> Result<(), Error> {
     prepare(files.iter().map(|(path, _)| *path), read)?;
-    let filled = files.iter().map(|(path, contents)| Filled::of(path, contents)).collect::<Result<Vec<_>, Error>>()?;
-    filled.into_iter().try_for_each(Filled::finish)
+    let filled =
+        files.iter().map(|(path, contents)| FileContents::of(path, contents)).collect::<Result<Vec<_>, Error>>()?;
+    filled.into_iter().try_for_each(FileContents::finish)
 }
 
 /// Whether a file is a shader, or a part of one, by its name. Those of passes that are off aren't read, and would be lost all
@@ -68,31 +69,31 @@ fn probe(path: &Path) -> Result<Option<PathBuf>, Error> {
 
 /// Contents that are about to be written: of a file they lie beside it already, and take its place in one step, so that every
 /// reader sees the old contents or the new ones.
-enum Filled<'a> {
+enum FileContents<'a> {
     Beside { path: &'a Path, file: PathBuf, beside: NamedTempFile },
     Stream { stream: PathBuf, contents: &'a [u8] },
 }
 
-impl<'a> Filled<'a> {
-    fn of(path: &'a Path, contents: &'a [u8]) -> Result<Filled<'a>, Error> {
+impl<'a> FileContents<'a> {
+    fn of(path: &'a Path, contents: &'a [u8]) -> Result<FileContents<'a>, Error> {
         let problem = |source| Error::Write { path: path.to_owned(), source };
         match Target::of(path).map_err(problem)? {
             Target::File(file) => {
                 let beside = filled(&file, contents).map_err(problem)?;
-                Ok(Filled::Beside { path, file, beside })
+                Ok(FileContents::Beside { path, file, beside })
             }
-            Target::Stream(stream) | Target::Pipe(stream) => Ok(Filled::Stream { stream, contents }),
+            Target::Stream(stream) | Target::Pipe(stream) => Ok(FileContents::Stream { stream, contents }),
         }
     }
 
     fn finish(self) -> Result<(), Error> {
         match self {
-            Filled::Beside { path, file, beside } => {
+            FileContents::Beside { path, file, beside } => {
                 let problem = |source| Error::Write { path: path.to_owned(), source };
                 beside.persist(&file).map_err(|error| problem(error.error))?;
                 Ok(())
             }
-            Filled::Stream { stream, contents } => stream::write(&stream, contents),
+            FileContents::Stream { stream, contents } => stream::write(&stream, contents),
         }
     }
 }
@@ -183,7 +184,7 @@ mod tests {
     use super::*;
 
     fn write_alone(path: &Path, contents: &[u8]) -> Result<(), Error> {
-        Filled::of(path, contents)?.finish()
+        FileContents::of(path, contents)?.finish()
     }
 
     #[test]

@@ -47,7 +47,7 @@ mod tests {
     /// A finding, and the line that GitHub's own package writes for it.
     #[derive(Deserialize)]
     #[serde(rename_all = "camelCase")]
-    struct Judged {
+    struct WorkflowLine {
         title: String,
         file: String,
         message: String,
@@ -62,9 +62,9 @@ mod tests {
     fn commands_are_those_that_the_package_of_github_writes() {
         let file: serde_json::Value =
             serde_json::from_str(include_str!("../../tests/formats/annotations.json")).expect("JSON");
-        let judged: Vec<Judged> = serde_json::from_value(file["findings"].clone()).expect("findings");
+        let judged: Vec<WorkflowLine> = serde_json::from_value(file["findings"].clone()).expect("findings");
         assert!(judged.len() > 5);
-        for Judged { title, file, message, start_line, start_column, end_line, end_column, line } in judged {
+        for WorkflowLine { title, file, message, start_line, start_column, end_line, end_column, line } in judged {
             let place = FilePlace { file, line: start_line, column: start_column, end: [end_line, end_column] };
             let finding = Finding::at(Kind::Mistake, message, place);
             assert_eq!(github("p.ron", &[Case { name: title, findings: vec![finding] }]), line);

@@ -18,7 +18,7 @@ mod thumbnail;
 
 pub(crate) use dot::dot;
 pub(crate) use mermaid::mermaid;
-pub(crate) use page::{OnDevice, Page, Shown, live_page, page, page_data};
+pub(crate) use page::{DeviceDifferences, Page, ShownPlan, live_page, page, page_data};
 pub(crate) use svg::svg;
 pub(crate) use thumbnail::Thumbnail;
 

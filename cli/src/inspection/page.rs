@@ -7,7 +7,7 @@ use crate::system::html::{self, Template};
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
-use framewright_graph::plan::{Detail, ImageId, Moved, Outline, Plan, Resource, Step};
+use framewright_graph::plan::{Detail, ImageId, MovedBytes, Outline, Plan, Resource, Step};
 use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {
@@ -35,17 +35,17 @@ const TEMPLATE: Template<'_> = Template {
 /// What a page shows.
 pub(crate) struct Page<'a> {
     /// One Plan, or two that are compared.
-    pub(crate) plans: Vec<Shown<'a>>,
+    pub(crate) plans: Vec<ShownPlan<'a>>,
     /// The differences between the two.
     pub(crate) differences: Option<&'a Differences>,
     /// What other devices change.
-    pub(crate) devices: &'a [OnDevice],
+    pub(crate) devices: &'a [DeviceDifferences],
     /// Images after the passes that wrote them, in the order of the passes.
     pub(crate) captures: &'a [Thumbnail],
 }
 
 /// A Plan on a page.
-pub(crate) struct Shown<'a> {
+pub(crate) struct ShownPlan<'a> {
     /// Its name for people.
     pub(crate) name: String,
     /// The Plan.
@@ -58,7 +58,7 @@ pub(crate) struct Shown<'a> {
 
 /// The differences that another device makes.
 #[derive(Serialize)]
-pub(crate) struct OnDevice {
+pub(crate) struct DeviceDifferences {
     /// The name of the device's profile.
     pub(crate) profile: String,
     /// The differences; else why there is no Plan for it.
@@ -72,7 +72,7 @@ struct Data<'a> {
     live: bool,
     plans: Vec<PlanData<'a>>,
     differences: Option<&'a Differences>,
-    devices: &'a [OnDevice],
+    devices: &'a [DeviceDifferences],
     captures: &'a [Thumbnail],
 }
 
@@ -94,9 +94,9 @@ enum Body<'a> {
         plan: &'a Plan,
         nodes: Vec<Node>,
         edges: Vec<Edge>,
-        moved: Vec<Vec<(Resource, Moved)>>,
+        moved: Vec<Vec<(Resource, MovedBytes)>>,
         on_chip: Vec<Vec<(ImageId, u64)>>,
-        graph: Drawn,
+        graph: GraphDrawing,
     },
     /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
     Summary { steps: usize, most: usize },
@@ -104,7 +104,7 @@ enum Body<'a> {
 
 /// The graph with its layout.
 #[derive(Serialize)]
-struct Drawn {
+struct GraphDrawing {
     vertices: Vec<DrawnVertex>,
     edges: Vec<DrawnEdge>,
     #[serde(flatten)]
@@ -165,8 +165,8 @@ fn data<'a>(page: &'a Page<'a>) -> Data<'a> {
     Data { live: false, plans, differences, devices, captures }
 }
 
-fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
-    let Shown { name, plan, detail, sources } = shown;
+fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
+    let ShownPlan { name, plan, detail, sources } = shown;
     let flow = Dataflow::of(plan);
     let outline = plan.outline(*detail);
     let files = sources.iter().flat_map(|sources| (0..).map_while(|file| sources.file(file)));
@@ -194,7 +194,7 @@ fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
         to,
         resources: resources.clone(),
     };
-    let drawn = Drawn {
+    let drawn = GraphDrawing {
         vertices: graph.vertices.iter().map(vertex).collect(),
         edges: graph.edges.iter().map(edge).collect(),
         layout: layout(&graph),
@@ -206,6 +206,6 @@ fn plan_data<'a>(shown: &'a Shown<'a>) -> PlanData<'a> {
 }
 
 /// The bytes that a step moves, image by image, without those of which there are none.
-fn moved(plan: &Plan, step: &Step) -> Vec<(Resource, Moved)> {
+fn moved(plan: &Plan, step: &Step) -> Vec<(Resource, MovedBytes)> {
     plan.moved_of_each(step).into_iter().filter(|(_, moved)| moved.sum() > 0).collect()
 }

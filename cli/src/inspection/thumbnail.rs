@@ -88,8 +88,8 @@ fn is_32_bits(format: Format) -> bool {
     largest || format.is_depth()
 }
 
-/// The texels of a smaller picture: means of those that each covers, in which a NaN or an infinity stays one. Of depth and
-/// integers, whose means say nothing, the one in the middle is taken.
+/// The texels of a smaller picture: means of those that each covers, in which a NaN or an infinity stays one. Means of depth and
+/// integers say nothing: there the texel in the middle is taken.
 fn shrunk(texels: &[[f32; 4]], size: [u32; 2], small: [u32; 2], light: bool) -> Vec<[f32; 4]> {
     let [width, height] = size.map(|side| side as usize);
     let [columns, rows] = small.map(|side| side as usize);

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use framewright_lab::metric::{Errors, Flicker};
-use framewright_lab::results::{Cost, Measured, Outcome, Results, Row, Spread};
+use framewright_lab::results::{Cost, Outcome, Results, Row, RowFigures, Spread};
 
 /// The columns after the swept settings.
 const FIGURES: [&str; 33] = [
@@ -84,7 +84,7 @@ fn figures(row: &Row) -> [Option<String>; FIGURES.len()] {
     };
     let flicker = |figure: fn(&Flicker) -> String| measured.and_then(|it| it.flicker.as_ref()).map(figure);
     let cost = |number: fn(&Cost) -> Option<u64>| measured.and_then(|it| number(&it.cost)).map(|it| it.to_string());
-    let path = |path: fn(&Measured) -> &Option<String>| measured.and_then(|it| path(it).clone());
+    let path = |path: fn(&RowFigures) -> &Option<String>| measured.and_then(|it| path(it).clone());
     let spread = |spread: fn(&Cost) -> Option<Spread>| {
         let figures = |Spread { median, low, high }: Spread| [median, low, high].map(|number| Some(number.to_string()));
         measured.and_then(|it| spread(&it.cost)).map_or([None, None, None], figures)

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::files::{inputs, outputs};
 use framewright_graph::base::ReadFiles;
 use framewright_lab::Digest;
-use framewright_lab::results::{Measured, Outcome, Results};
+use framewright_lab::results::{Outcome, Results, RowFigures};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ impl Pictures {
         let mut known: BTreeMap<String, String> = BTreeMap::new();
         for row in &mut results.rows {
             let Outcome::Measured(measured) = &mut row.outcome else { continue };
-            let Measured { picture, reference, heat_map, flicker_map, .. } = &mut **measured;
+            let RowFigures { picture, reference, heat_map, flicker_map, .. } = &mut **measured;
             for path in [picture, reference, heat_map, flicker_map].into_iter().flatten() {
                 let name = match known.get(path) {
                     Some(name) => name.clone(),

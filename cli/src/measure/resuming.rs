@@ -7,13 +7,13 @@ use crate::command_line::measuring::MeasureArguments;
 use crate::error::Error;
 use crate::files::{inputs, outputs};
 use crate::planning::{self, device, helper};
-use crate::system::counted::{Progress, Words};
+use crate::system::counted_work::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::vulkan::Rotation;
 use framewright_lab::Error as LabError;
 use framewright_lab::bench::{
-    AT_ONCE, Bench, BenchOptions, Choice, Drawn, HeldAgainst, REFERENCE, WARM_UP, check_sizes, check_values,
+    AT_ONCE, BatchProgress, Bench, BenchOptions, Choice, ErrorBaseline, REFERENCE, WARM_UP, check_sizes, check_values,
     reference_settings,
 };
 use framewright_lab::results::{FORMAT_VERSION, Outcome, Results, Row, Subject, difference};
@@ -26,7 +26,7 @@ use std::time::{Duration, Instant};
 const AUTO: &str = "auto";
 const NONE: &str = "none";
 
-/// How often files for people are made anew while a sweep goes on. Of many rows they take longer than a batch.
+/// How often files for people are made anew while a sweep goes on. With many rows they take longer than a batch.
 const VIEWS_EVERY: Duration = Duration::from_secs(60);
 /// How often a line says how far the work is, where there is no terminal.
 const LINES_EVERY: Duration = Duration::from_secs(60);
@@ -51,17 +51,17 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     }
     check_values(&pipeline, &of_all, &choices)?;
     let held_against = match arguments.reference.to_str() {
-        Some(AUTO) => HeldAgainst::References,
-        Some(NONE) => HeldAgainst::Nothing,
+        Some(AUTO) => ErrorBaseline::References,
+        Some(NONE) => ErrorBaseline::Nothing,
         _ => {
             let file = &arguments.reference;
             let picture = inputs::picture(file, &read)?;
             // Before it is decoded: a few bytes may stand for any size.
             check_sizes((file, picture.extent), (&mut pipeline, &of_all), &baseline, &choices)?;
-            HeldAgainst::Picture { file: file.clone(), picture: picture.decoded()? }
+            ErrorBaseline::Picture { file: file.clone(), picture: picture.decoded()? }
         }
     };
-    if arguments.flicker.is_some() && !matches!(held_against, HeldAgainst::References) {
+    if arguments.flicker.is_some() && !matches!(held_against, ErrorBaseline::References) {
         let what =
             "flicker is measured against references of each frame: leave out --reference or --flicker".to_owned();
         return Err(LabError::Sweep { what }.into());
@@ -147,8 +147,8 @@ impl Sweep<'_> {
             let mut rows = Vec::with_capacity(batch.len());
             let of_subject = (&self.baseline, &self.results.subject);
             let told = |drawn| match drawn {
-                Drawn::Frame => progress.step(),
-                Drawn::Choice => progress.done_one(),
+                BatchProgress::Frame => progress.step(),
+                BatchProgress::Choice => progress.done_one(),
             };
             let ended = self.bench.batch(of_subject, batch, &told, &mut rows).map_err(Error::from);
             // Rows that were finished before an error stay.

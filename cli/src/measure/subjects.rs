@@ -9,7 +9,7 @@ use framewright::Pipeline;
 use framewright_graph::base::ReadFiles;
 use framewright_graph::expand;
 use framewright_lab::bench::{Choice, MeasuredScene, REFERENCE, of_reference};
-use framewright_lab::sweep::{self, Combined, SCENE, SIZE, STEREO, Sweep};
+use framewright_lab::sweep::{self, Combination, SCENE, SIZE, STEREO, Sweep};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -25,9 +25,9 @@ pub(crate) fn choices(
 ) -> Result<(Choice, Vec<Choice>), Error> {
     let wrong = |what: String| Error::from(framewright_lab::Error::Sweep { what });
     let (sweeps, combined) = match (arguments.sweep.is_empty(), arguments.pairwise) {
-        (true, _) => (of_reference(pipeline), Combined::OneByOne),
-        (false, true) => (arguments.sweep.clone(), Combined::Pairwise),
-        (false, false) => (arguments.sweep.clone(), Combined::All),
+        (true, _) => (of_reference(pipeline), Combination::OneByOne),
+        (false, true) => (arguments.sweep.clone(), Combination::Pairwise),
+        (false, false) => (arguments.sweep.clone(), Combination::All),
     };
     if sweeps.is_empty() {
         return Err(wrong(format!(
@@ -49,7 +49,7 @@ pub(crate) fn choices(
     let count = sweep::count(&sweeps, combined);
     if count > sweep::MOST_CHOICES as u128 {
         let fits =
-            combined == Combined::All && sweep::count(&sweeps, Combined::Pairwise) <= sweep::MOST_CHOICES as u128;
+            combined == Combination::All && sweep::count(&sweeps, Combination::Pairwise) <= sweep::MOST_CHOICES as u128;
         let or_pairs = if fits { ", or add --pairwise" } else { "" };
         let most = sweep::MOST_CHOICES;
         return Err(wrong(format!(

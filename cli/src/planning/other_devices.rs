@@ -2,10 +2,10 @@
 
 use super::device;
 use crate::error::Error;
-use crate::inspection::{MOST_NODES, OnDevice};
+use crate::inspection::{DeviceDifferences, MOST_NODES};
 use framewright::{Choices, Pipeline};
 use framewright_graph::compile::Options;
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::Plan;
 
@@ -18,17 +18,17 @@ pub(crate) fn on_other_devices(
     choices: &Choices,
     options: &Options,
     (name, plan): (&str, &Plan),
-) -> Result<Vec<OnDevice>, Error> {
+) -> Result<Vec<DeviceDifferences>, Error> {
     // The differences of a Plan that is summarised would be longer than its page.
     let shown = plan.steps.len() <= MOST_NODES;
     let others = device::all()?.into_iter().filter(|(_, profile)| shown && profile.name != plan.device.name);
     Ok(others
         .map(|(profile, device)| {
-            let differences = match pipeline.planned(choices, &device, &mut Estimated(&device), options) {
+            let differences = match pipeline.planned(choices, &device, &mut MemoryEstimate(&device), options) {
                 Ok(other) => Ok(Differences::between((name, plan), (name, &other.plan))),
                 Err(error) => Err(Error::from(error).shown()),
             };
-            OnDevice { profile: profile.to_owned(), differences }
+            DeviceDifferences { profile: profile.to_owned(), differences }
         })
         .collect())
 }

@@ -7,9 +7,9 @@ use crate::command_line::values::Size;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::system::Exit;
-use framewright::{Choices, DrawInterfaces, Helper, Pipeline, Planned, PrecompiledShaders, RendererOptions};
+use framewright::{Choices, DrawInterfaces, Helper, Pipeline, PlannedFrame, PrecompiledShaders, RendererOptions};
 use framewright_graph::base::{ReadFiles, Sources};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::shader;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw;
@@ -92,11 +92,11 @@ pub(crate) fn planned(
     arguments: &PipelineArguments,
     subject: &SubjectArguments,
     read: &ReadFiles,
-) -> Result<(Pipeline, Planned), Error> {
+) -> Result<(Pipeline, PlannedFrame), Error> {
     let profile = device::choose(subject.device.as_deref(), read)?;
     let mut pipeline = load(arguments, read)?;
     let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, read)).transpose()?;
     let choices = undrawn(arguments, subject, scene.as_ref());
-    let planned = pipeline.planned(&choices, &profile, &mut Estimated(&profile), &subject.planning.options())?;
+    let planned = pipeline.planned(&choices, &profile, &mut MemoryEstimate(&profile), &subject.planning.options())?;
     Ok((pipeline, planned))
 }

@@ -9,7 +9,7 @@
 //! | `POST /choose` | takes a [`Choice`] as JSON |
 
 use super::controls::Choice;
-use super::published::Published;
+use super::published_state::PublishedState;
 use crate::error::Error;
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Path, Request, State};
@@ -35,10 +35,10 @@ const LARGEST_CHOICE: usize = 64 << 10;
 
 /// What answers are made of.
 #[derive(Clone)]
-struct Shared {
+struct ServerState {
     address: SocketAddr,
     page: Bytes,
-    shown: Receiver<Published>,
+    shown: Receiver<PublishedState>,
     choices: Sender<Choice>,
 }
 
@@ -50,7 +50,7 @@ struct Shared {
 pub(crate) fn start(
     port: u16,
     page: String,
-    shown: Receiver<Published>,
+    shown: Receiver<PublishedState>,
     choices: Sender<Choice>,
 ) -> Result<SocketAddr, Error> {
     let problem = |source| Error::Port { port, source };
@@ -58,7 +58,7 @@ pub(crate) fn start(
     listener.set_nonblocking(true).map_err(problem)?;
     let address = listener.local_addr().map_err(problem)?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(problem)?;
-    let shared = Shared { address, page: page.into(), shown, choices };
+    let shared = ServerState { address, page: page.into(), shown, choices };
     let routes = Router::new()
         .route("/", get(whole_page))
         .route("/state/{after}", get(|shared, Path(after): Path<u64>| state(shared, None, after)))
@@ -85,7 +85,7 @@ pub(crate) fn start(
 }
 
 /// Refuses requests of other sites' pages, by whatever name they reach this address; and forbids browsers to keep or frame answers.
-async fn own_pages_alone(State(shared): State<Shared>, request: Request, next: Next) -> Response {
+async fn own_pages_alone(State(shared): State<ServerState>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     let port = shared.address.port();
     // Browsers leave out the port that HTTP has anyway.
@@ -113,11 +113,11 @@ async fn own_pages_alone(State(shared): State<Shared>, request: Request, next: N
     answer
 }
 
-async fn whole_page(State(shared): State<Shared>) -> impl IntoResponse {
+async fn whole_page(State(shared): State<ServerState>) -> impl IntoResponse {
     ([(CONTENT_TYPE, "text/html; charset=utf-8")], shared.page)
 }
 
-async fn state(State(mut shared): State<Shared>, server: Option<String>, after: u64) -> Response {
+async fn state(State(mut shared): State<ServerState>, server: Option<String>, after: u64) -> Response {
     // A browser that outlived a server at the same address knows numbers of that one.
     let newer = shared.shown.wait_for(|shown| {
         let is_own = server.as_ref().is_none_or(|server| **server == *shown.server);
@@ -130,7 +130,7 @@ async fn state(State(mut shared): State<Shared>, server: Option<String>, after: 
     }
 }
 
-async fn picture(State(shared): State<Shared>, Path(name): Path<String>) -> Response {
+async fn picture(State(shared): State<ServerState>, Path(name): Path<String>) -> Response {
     let picture = shared.shown.borrow().pictures.get(&name).cloned();
     match picture {
         Some(png) => ([(CONTENT_TYPE, "image/png")], Bytes::from_owner(png)).into_response(),
@@ -138,7 +138,7 @@ async fn picture(State(shared): State<Shared>, Path(name): Path<String>) -> Resp
     }
 }
 
-async fn choose(State(shared): State<Shared>, body: Bytes) -> Response {
+async fn choose(State(shared): State<ServerState>, body: Bytes) -> Response {
     match serde_json::from_slice(&body) {
         Ok(choice) => match shared.choices.send(choice) {
             Ok(()) => StatusCode::NO_CONTENT.into_response(),

@@ -1,15 +1,15 @@
 //! A pipeline and a scene that are drawn anew whenever their files or choices change. What is wrong leaves the last good frame.
 
 use super::controls::{Choice, Controls};
-use super::published::{Live, Output, Published, SourceText};
+use super::published_state::{LiveState, Output, PublishedState, SourceText};
 use crate::command_line::serving::ServeArguments;
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs;
-use crate::inspection::{self, Page, Shown, Thumbnail};
+use crate::inspection::{self, Page, ShownPlan, Thumbnail};
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
-use framewright::{Choices, Pipeline, Planned, SceneRenderer};
+use framewright::{Choices, Pipeline, PlannedFrame, SceneRenderer};
 use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::Detail;
@@ -31,8 +31,8 @@ pub(crate) struct Session<'a> {
     arguments: &'a ServeArguments,
     device: &'a Device,
     helper: Helper,
-    scene: Held<Scene>,
-    pipeline: Held<Pipeline>,
+    scene: FileValue<Scene>,
+    pipeline: FileValue<Pipeline>,
     /// Settings that were chosen in the page.
     chosen: BTreeMap<String, String>,
     /// The preset that was chosen in the page.
@@ -43,19 +43,19 @@ pub(crate) struct Session<'a> {
     version: u64,
     /// Whether a frame was drawn, or tried.
     begun: bool,
-    good: Good,
-    wrong: Wrong,
+    good: GoodFrame,
+    wrong: SessionMistakes,
 }
 
 /// A thing that was read, with the files that it was read from; `None`: they were wrong.
-struct Held<T> {
+struct FileValue<T> {
     value: Option<T>,
     read: ReadFiles,
 }
 
 /// The last good frame.
 #[derive(Default)]
-struct Good {
+struct GoodFrame {
     /// The state that had it first.
     version: u64,
     page: Option<String>,
@@ -67,15 +67,15 @@ struct Good {
 
 /// What keeps a newer frame from being drawn.
 #[derive(Default)]
-struct Wrong {
+struct SessionMistakes {
     mistakes: Value,
     message: String,
     sources: Vec<SourceText>,
 }
 
-impl<T> Held<T> {
-    fn nothing() -> Held<T> {
-        Held { value: None, read: ReadFiles::default() }
+impl<T> FileValue<T> {
+    fn nothing() -> FileValue<T> {
+        FileValue { value: None, read: ReadFiles::default() }
     }
 }
 
@@ -88,15 +88,15 @@ impl<'a> Session<'a> {
             arguments,
             device,
             helper,
-            scene: Held::nothing(),
-            pipeline: Held::nothing(),
+            scene: FileValue::nothing(),
+            pipeline: FileValue::nothing(),
             chosen: BTreeMap::new(),
             preset: None,
             server: server.into(),
             version: 0,
             begun: false,
-            good: Good::default(),
-            wrong: Wrong { mistakes: json!([]), ..Wrong::default() },
+            good: GoodFrame::default(),
+            wrong: SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() },
         }
     }
 
@@ -125,7 +125,7 @@ impl<'a> Session<'a> {
                 self.chosen.clear();
                 self.preset = preset;
                 // Presets are chosen when a pipeline is read.
-                self.pipeline = Held::nothing();
+                self.pipeline = FileValue::nothing();
             }
         }
     }
@@ -141,13 +141,13 @@ impl<'a> Session<'a> {
         match self.drawn() {
             Ok(good) => {
                 let seconds = begun.elapsed().as_secs_f64();
-                self.good = Good { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
-                self.wrong = Wrong { mistakes: json!([]), ..Wrong::default() };
+                self.good = GoodFrame { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
+                self.wrong = SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() };
                 text::say(&self.good.took);
                 Ok(())
             }
             Err(error) if error.can_be_mended_in_files() && !(first && is_about_the_command_line(&error)) => {
-                self.wrong = Wrong::of(&error);
+                self.wrong = SessionMistakes::of(&error);
                 text::say(&self.wrong.message);
                 Ok(())
             }
@@ -159,9 +159,9 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// If it has no JSON form.
-    pub(crate) fn published(&mut self, busy: bool) -> Result<Published, Error> {
+    pub(crate) fn published(&mut self, busy: bool) -> Result<PublishedState, Error> {
         self.version += 1;
-        let live = Live {
+        let live = LiveState {
             format_version: 1,
             server: &self.server,
             version: self.version,
@@ -179,7 +179,7 @@ impl<'a> Session<'a> {
         let live = serde_json::to_string(&live)?;
         let page = self.good.page.as_deref().unwrap_or("null");
         let json = format!("{{\"live\":{live},\"page\":{page}}}").into();
-        Ok(Published {
+        Ok(PublishedState {
             version: self.version,
             server: Arc::clone(&self.server),
             json,
@@ -187,12 +187,12 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn drawn(&mut self) -> Result<Good, Error> {
+    fn drawn(&mut self) -> Result<GoodFrame, Error> {
         // Both are read before a mistake in either is told: a file that isn't read again counts as changed for ever.
         let (scene, pipeline) = (self.read_scene(), self.read_pipeline());
         scene.and(pipeline)?;
         let (Some(scene), Some(pipeline)) = (&self.scene.value, &mut self.pipeline.value) else {
-            return Ok(Good::default());
+            return Ok(GoodFrame::default());
         };
         // A setting that the file doesn't have, or no longer, can't be chosen.
         self.chosen.retain(|name, _| pipeline.document.settings.iter().any(|setting| *setting.name.text == **name));
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
 
     fn read_scene(&mut self) -> Result<(), Error> {
         if self.scene.value.is_none() || self.scene.read.changed() {
-            self.scene = Held::nothing();
+            self.scene = FileValue::nothing();
             let drawn = &self.arguments.drawn;
             self.scene.value = Some(inputs::scene(&drawn.scene, drawn.reading.strict, &self.scene.read)?);
         }
@@ -218,7 +218,7 @@ impl<'a> Session<'a> {
 
     fn read_pipeline(&mut self) -> Result<(), Error> {
         if self.pipeline.value.is_none() || self.pipeline.read.changed() {
-            self.pipeline = Held::nothing();
+            self.pipeline = FileValue::nothing();
             let mut of_page = self.arguments.pipeline.clone();
             of_page.preset = self.preset.clone().or(of_page.preset);
             let mut loaded = planning::load_with(&of_page, &self.pipeline.read, self.helper.clone());
@@ -246,7 +246,7 @@ fn drawn(
     scene: &Scene,
     (pipeline, choices): (&mut Pipeline, &Choices),
     version: u64,
-) -> Result<Good, Error> {
+) -> Result<GoodFrame, Error> {
     let (options, profile) = (arguments.planning.options(), device.profile());
     let planned = pipeline.planned(choices, &profile, &mut device.memory(), &options)?;
     framewright::check_cameras(&planned.plan, Some(&planned.frame), scene)?;
@@ -274,9 +274,9 @@ fn drawn(
     let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
-    let shown = Shown { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+    let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
     let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &thumbnails };
-    Ok(Good {
+    Ok(GoodFrame {
         version,
         page: Some(inspection::page_data(&page)?),
         controls: Controls::of(&pipeline.document, plan),
@@ -292,7 +292,7 @@ fn output_pictures(
     device: &Device,
     scene: &Scene,
     pipeline: &mut Pipeline,
-    planned: &Planned,
+    planned: &PlannedFrame,
 ) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let mut prepared = SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
@@ -310,8 +310,8 @@ fn output_pictures(
     encoded.collect()
 }
 
-impl Wrong {
-    fn of(error: &Error) -> Wrong {
+impl SessionMistakes {
+    fn of(error: &Error) -> SessionMistakes {
         let message = error.shown();
         let placed = |sources: &Sources, mistakes: &[Diagnostic]| (base::to_json(sources, mistakes), texts(sources));
         let found = match error {
@@ -323,8 +323,8 @@ impl Wrong {
             _ => None,
         };
         match found {
-            Some((mistakes, sources)) => Wrong { mistakes, message, sources },
-            None => Wrong {
+            Some((mistakes, sources)) => SessionMistakes { mistakes, message, sources },
+            None => SessionMistakes {
                 mistakes: json!([{ "message": message.trim_start_matches("error: "), "help": null, "labels": [] }]),
                 message,
                 sources: Vec::new(),

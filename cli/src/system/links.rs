@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 /// A path has at most this many links: the limit of Linux.
 const MOST_LINKS: usize = 40;
 
-/// `path` with every link in it replaced by its target, even if no file is there. Of links that form a circle one stays.
+/// `path` with every link in it replaced by its target, even if no file is there. A circle of links ends at one of them.
 pub(crate) fn destination(path: &Path) -> PathBuf {
     let mut links = 0;
     let mut left: Vec<PathBuf> = parts(path);

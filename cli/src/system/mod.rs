@@ -1,6 +1,6 @@
 //! The process around a command: exit codes, signals, symbolic links, the operating system, printed text, pages and progress bars.
 
-pub(crate) mod counted;
+pub(crate) mod counted_work;
 mod exit;
 pub(crate) mod html;
 pub(crate) mod interrupt;

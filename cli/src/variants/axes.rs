@@ -1,6 +1,6 @@
 //! The axes along which a pipeline varies: settings, facts of the scene, devices.
 
-use super::axis::{Axis, Varied};
+use super::axis::{Axis, AxisSubject};
 use super::facts;
 use super::space::Choice;
 use framewright_graph::base::Sources;
@@ -31,9 +31,9 @@ impl Axes {
             let in_presets = in_presets.filter(|choice| choice.setting == at).count();
             // A setting that stands in its declaration and in presets alone changes nothing.
             let varies = mentions.may_hold(name, 2 + in_presets) && !is_fixed(name);
-            varies.then(|| Axis::new(Varied::Setting(name.to_owned()), values(&setting.kind)))
+            varies.then(|| Axis::new(AxisSubject::Setting(name.to_owned()), values(&setting.kind)))
         });
-        let device = Axis::new(Varied::Device, devices.to_vec());
+        let device = Axis::new(AxisSubject::Device, devices.to_vec());
         let list =
             settings.chain(facts::axes(&mentions)).filter(|axis| axis.values.len() > 1).chain([device]).collect();
         let mut axes = Axes { list, fixed, presets: Vec::new() };
@@ -49,7 +49,8 @@ impl Axes {
         let mut choice = vec![0; self.list.len()];
         for chosen in &preset.set {
             let Some(setting) = pipeline.settings.get(chosen.setting) else { continue };
-            let own = |varied: &Varied| matches!(varied, Varied::Setting(name) if **name == *setting.name.text);
+            let own =
+                |varied: &AxisSubject| matches!(varied, AxisSubject::Setting(name) if **name == *setting.name.text);
             let Some(at) = self.list.iter().position(|axis| own(&axis.varied)) else { continue };
             let values = &mut self.list[at].values;
             let value = text(&chosen.value);
@@ -80,12 +81,12 @@ impl Axes {
     }
 
     /// The values of a variant, axis by axis.
-    pub(crate) fn chosen<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
+    pub(crate) fn chosen<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a AxisSubject, &'a str)> {
         self.list.iter().zip(choice).map(|(axis, value)| (&axis.varied, &*axis.values[*value]))
     }
 
     /// The values of a variant that depart from the defaults.
-    pub(crate) fn departures<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
+    pub(crate) fn departures<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a AxisSubject, &'a str)> {
         self.chosen(choice).zip(choice).filter(|(_, value)| **value != 0).map(|(chosen, _)| chosen)
     }
 
@@ -93,8 +94,8 @@ impl Axes {
     #[must_use]
     pub(crate) fn settings(&self, choice: &[usize]) -> Vec<(String, String)> {
         let chosen = self.chosen(choice).filter_map(|(varied, value)| match varied {
-            Varied::Setting(name) => Some((name.clone(), value.to_owned())),
-            Varied::Fact(_) | Varied::Device => None,
+            AxisSubject::Setting(name) => Some((name.clone(), value.to_owned())),
+            AxisSubject::Fact(_) | AxisSubject::Device => None,
         });
         self.fixed.iter().cloned().chain(chosen).collect()
     }
@@ -103,8 +104,8 @@ impl Axes {
     #[must_use]
     pub(crate) fn facts(&self, choice: &[usize]) -> Facts {
         self.chosen(choice).fold(Facts::UNKNOWN, |known, (varied, value)| match varied {
-            Varied::Fact(fact) => known.with(*fact, facts::value(*fact, value)),
-            Varied::Setting(_) | Varied::Device => known,
+            AxisSubject::Fact(fact) => known.with(*fact, facts::value(*fact, value)),
+            AxisSubject::Setting(_) | AxisSubject::Device => known,
         })
     }
 }

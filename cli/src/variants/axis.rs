@@ -4,7 +4,7 @@ use framewright_graph::language::Fact;
 
 /// The thing that an axis varies.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Varied {
+pub(crate) enum AxisSubject {
     /// A setting, by name.
     Setting(String),
     /// A fact of the scene.
@@ -17,7 +17,7 @@ pub(crate) enum Varied {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Axis {
     /// The thing that varies.
-    pub(crate) varied: Varied,
+    pub(crate) varied: AxisSubject,
     /// Its values as the command line writes them, each once, the default first.
     pub(crate) values: Vec<String>,
     /// The first of them are combined with those of other axes, this many. The rest occur in presets alone.
@@ -25,7 +25,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(varied: Varied, values: Vec<String>) -> Axis {
+    pub(super) fn new(varied: AxisSubject, values: Vec<String>) -> Axis {
         Axis { varied, combined: values.len(), values }
     }
 }

@@ -10,7 +10,7 @@ use crate::system::interrupt;
 use framewright::Choices;
 use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::compile::{Compiler, Options, heap_size, shaders};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::{Document, Read, Reads};
@@ -101,7 +101,8 @@ impl<'a> VariantChecker<'a> {
     /// Compiles and verifies a frame, and compiles its shaders as they are drawn.
     fn judge(&mut self, frame: &Arc<Frame>, device: usize) -> Verdict {
         let profile = &self.subject.devices[device];
-        let plan = self.compilers[device].compile(frame, profile, &mut Estimated(profile), &self.subject.options)?;
+        let plan =
+            self.compilers[device].compile(frame, profile, &mut MemoryEstimate(profile), &self.subject.options)?;
         let violations = verify::verify(plan);
         if let Some(large) = heap_size::too_large(plan, frame, profile) {
             return Err(vec![large]);

@@ -3,7 +3,7 @@
 //! An expansion reads settings and facts one after the other, and the values that it finds decide what it reads next. So the
 //! verdicts form a tree: each node is a read, each branch a value of it, and each leaf a verdict.
 
-use super::axis::{Axis, Varied};
+use super::axis::{Axis, AxisSubject};
 use super::checker::Verdict;
 use framewright_graph::language::{Fact, Read};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -81,9 +81,9 @@ impl Decisions {
 pub(super) fn axes_of(reads: &[Read], settings: &[&str], axes: &[Axis]) -> Vec<usize> {
     let mut numbers = Vec::new();
     for read in reads {
-        let is_read = |varied: &Varied| match (read, varied) {
-            (Read::Setting(at), Varied::Setting(name)) => settings.get(*at) == Some(&name.as_str()),
-            (Read::Fact(read), Varied::Fact(fact)) => parts_of(*read).contains(fact),
+        let is_read = |varied: &AxisSubject| match (read, varied) {
+            (Read::Setting(at), AxisSubject::Setting(name)) => settings.get(*at) == Some(&name.as_str()),
+            (Read::Fact(read), AxisSubject::Fact(fact)) => parts_of(*read).contains(fact),
             _ => false,
         };
         for (number, _) in axes.iter().enumerate().filter(|(_, axis)| is_read(&axis.varied)) {
@@ -135,7 +135,8 @@ mod tests {
     fn the_number_of_lights_reads_both_of_its_parts_and_what_does_not_vary_is_no_axis() {
         let axis = |varied| Axis::new(varied, vec!["0".to_owned(), "1".to_owned()]);
         let axes =
-            [Varied::Fact(Fact::Suns), Varied::Setting("b".to_owned()), Varied::Fact(Fact::PointLights)].map(axis);
+            [AxisSubject::Fact(Fact::Suns), AxisSubject::Setting("b".to_owned()), AxisSubject::Fact(Fact::PointLights)]
+                .map(axis);
         let reads = [Read::Setting(1), Read::Fact(Fact::Objects), Read::Fact(Fact::Lights), Read::Setting(0)];
         assert_eq!(axes_of(&reads, &["a", "b"], &axes), [1, 0, 2]);
     }

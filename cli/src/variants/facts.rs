@@ -1,6 +1,6 @@
 //! Facts of the scene that vary, and the values that are tried.
 
-use super::axis::{Axis, Varied};
+use super::axis::{Axis, AxisSubject};
 use framewright_graph::language::{Fact, FactType, FactValue, Facts};
 use framewright_lab::mentions::Mentions;
 
@@ -9,7 +9,7 @@ const MOST: usize = 16;
 
 /// An axis for each fact that the files mention. Its first value is the one without a scene: true, or the largest.
 pub(super) fn axes(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
-    let axis = |fact| Axis::new(Varied::Fact(fact), values(fact, mentions));
+    let axis = |fact| Axis::new(AxisSubject::Fact(fact), values(fact, mentions));
     Fact::ALL.into_iter().filter(|fact| !names(*fact).is_empty() && mentioned(*fact, mentions)).map(axis)
 }
 
@@ -90,7 +90,7 @@ mod tests {
         sources.add("a.ron", "a.ron", text.to_owned());
         let mentions = Mentions::of(&sources);
         let told = axes(&mentions).map(|axis| match axis.varied {
-            Varied::Fact(fact) => (fact, axis.values),
+            AxisSubject::Fact(fact) => (fact, axis.values),
             other => panic!("{other:?}"),
         });
         told.collect()

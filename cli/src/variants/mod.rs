@@ -25,7 +25,7 @@ use crate::command_line::args::{CheckArguments, CheckFormat};
 use crate::error::Error;
 use crate::findings;
 use crate::planning::{self, device};
-use crate::system::counted::{Progress, Words};
+use crate::system::counted_work::{Progress, Words};
 use crate::system::{Exit, interrupt, text};
 use axes::Axes;
 use checker::{CheckedPipeline, VariantChecker};

@@ -1,7 +1,7 @@
 //! The report for programs.
 
 use super::axes::Axes;
-use super::axis::Varied;
+use super::axis::AxisSubject;
 use super::causes::Cause;
 use super::checker::CheckedPipeline;
 use super::run::Findings;
@@ -160,20 +160,20 @@ impl Variant {
         for (varied, value) in axes.departures(choice) {
             let chosen = |name: &str| Assignment { name: name.to_owned(), value: value.to_owned() };
             match varied {
-                Varied::Setting(name) => variant.settings.push(chosen(name)),
-                Varied::Fact(fact) => variant.facts.push(chosen(fact.name())),
-                Varied::Device => variant.device = Some(value.to_owned()),
+                AxisSubject::Setting(name) => variant.settings.push(chosen(name)),
+                AxisSubject::Fact(fact) => variant.facts.push(chosen(fact.name())),
+                AxisSubject::Device => variant.device = Some(value.to_owned()),
             }
         }
         variant
     }
 }
 
-fn axis_entry(varied: &Varied, values: &[String]) -> AxisEntry {
+fn axis_entry(varied: &AxisSubject, values: &[String]) -> AxisEntry {
     let (kind, name) = match varied {
-        Varied::Setting(name) => ("setting", Some(name.clone())),
-        Varied::Fact(fact) => ("fact", Some(fact.name().to_owned())),
-        Varied::Device => ("device", None),
+        AxisSubject::Setting(name) => ("setting", Some(name.clone())),
+        AxisSubject::Fact(fact) => ("fact", Some(fact.name().to_owned())),
+        AxisSubject::Device => ("device", None),
     };
     AxisEntry { kind, name, values: values.to_vec() }
 }

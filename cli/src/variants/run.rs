@@ -6,7 +6,7 @@ use super::decisions::SharedDecisions;
 use super::identity::Identity;
 use super::shaders::SharedShaders;
 use super::space::Space;
-use crate::system::counted::Progress;
+use crate::system::counted_work::Progress;
 use crate::system::interrupt;
 use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::plan::Totals;

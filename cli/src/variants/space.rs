@@ -4,7 +4,7 @@ use crate::error::Error;
 use framewright_lab::sweep::cover;
 use std::collections::HashSet;
 
-/// Of more combinations pairs of values are checked; at two thousand variants a second two minutes pass.
+/// If there are more combinations, pairs of values are checked. This many take two minutes, at two thousand variants a second.
 pub(crate) const MOST_VARIANTS: usize = 250_000;
 
 /// One value of each axis, by its number.

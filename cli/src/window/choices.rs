@@ -22,7 +22,7 @@ pub(super) fn next(setting: &Setting, value: &str, forwards: bool) -> Option<Str
             let one = if forwards { 1.0 } else { -1.0 };
             let step = step.unwrap_or(range / STEPS);
             let steps = (range / step + 1e-9).floor();
-            // Of a range that is longer than any number the next whole number.
+            // If the range is longer than any number, the next whole number.
             let number = match steps.is_finite() {
                 true => min + (((now - min) / step).round() + one).clamp(0.0, steps) * step,
                 false => now + one,

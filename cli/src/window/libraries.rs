@@ -1,6 +1,6 @@
 //! Libraries of window systems, which `winit` opens when it needs them: programs that open no window run without them.
 
-/// Parts of the words in which `winit` says that it can't open a library, and Debian's packages that it may be of. Of several that fit
+/// Parts of the words in which `winit` says that it can't open a library, and Debian's packages that it may be of. If several fit,
 /// the first one counts.
 const LIBRARIES: [(&str, &[&str]); 5] = [
     ("libxkbcommon-x11.so", &["libxkbcommon-x11-0"]),

@@ -1,8 +1,8 @@
 //! `framewright window`: a scene through a pipeline, in a window that follows files, mouse and keys.
 
 mod choices;
-mod chosen;
-mod following;
+mod chosen_setting;
+mod followed_files;
 mod libraries;
 mod list;
 mod opening;
@@ -21,7 +21,7 @@ use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
 use framewright_vulkan::raw_window_handle::HasDisplayHandle;
 use framewright_vulkan::{Canary, Device, DeviceOptions, Messages};
-use session::{Drawn, Session};
+use session::{FrameOutcome, Session};
 use std::panic;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -60,7 +60,7 @@ pub(crate) fn window(arguments: &WindowArguments) -> Result<Exit, Error> {
     if let Some(Err(error)) = app.ended {
         return Err(error);
     }
-    let Some(Open { session, messages, canary, device, .. }) = app.open else { return Ok(Exit::Fine) };
+    let Some(OpenWindow { session, messages, canary, device, .. }) = app.open else { return Ok(Exit::Fine) };
     // The layer may have something to say about the device's end too.
     drop((session, device));
     Ok(if canary.is_some() && report(&messages) { Exit::Found } else { Exit::Fine })
@@ -109,13 +109,13 @@ fn report(messages: &Messages) -> bool {
 /// The window and what happens to it.
 struct App<'a> {
     arguments: &'a WindowArguments,
-    open: Option<Open<'a>>,
+    open: Option<OpenWindow<'a>>,
     /// How it ended.
     ended: Option<Result<(), Error>>,
 }
 
 /// An open window.
-struct Open<'a> {
+struct OpenWindow<'a> {
     session: Session<'a>,
     device: Device,
     messages: Messages,
@@ -131,7 +131,7 @@ struct Open<'a> {
 
 impl<'a> App<'a> {
     /// Opens the window.
-    fn open(&mut self, events: &ActiveEventLoop) -> Result<Open<'a>, Error> {
+    fn open(&mut self, events: &ActiveEventLoop) -> Result<OpenWindow<'a>, Error> {
         let arguments = self.arguments;
         let size = PhysicalSize::new(arguments.size.width, arguments.size.height);
         let attributes = Window::default_attributes().with_title("framewright").with_inner_size(size);
@@ -152,7 +152,7 @@ impl<'a> App<'a> {
         session.rescaled(window.scale_factor());
         text::say(KEYS);
         let messages = device.messages();
-        Ok(Open { session, device, messages, canary, asked: false, held: None, cursor: [0.0; 2], window })
+        Ok(OpenWindow { session, device, messages, canary, asked: false, held: None, cursor: [0.0; 2], window })
     }
 
     fn end(&mut self, events: &ActiveEventLoop, how: Result<(), Error>) {
@@ -167,13 +167,13 @@ impl<'a> App<'a> {
     fn draw(&mut self, events: &ActiveEventLoop) -> Result<(), Error> {
         let Some(open) = self.open.as_mut().filter(|_| self.ended.is_none()) else { return Ok(()) };
         let drawn = open.session.frame(|| open.window.pre_present_notify())?;
-        open.asked = drawn == Drawn::Shown;
+        open.asked = drawn == FrameOutcome::Shown;
         if open.asked {
             open.window.request_redraw();
         }
         events.set_control_flow(match drawn {
-            Drawn::Shown | Drawn::Nothing => ControlFlow::WaitUntil(Instant::now() + ASLEEP),
-            Drawn::OutOfDate => ControlFlow::Poll,
+            FrameOutcome::Shown | FrameOutcome::Nothing => ControlFlow::WaitUntil(Instant::now() + ASLEEP),
+            FrameOutcome::OutOfDate => ControlFlow::Poll,
         });
         if let Some(title) = open.session.title() {
             open.window.set_title(&title);
@@ -194,7 +194,7 @@ impl<'a> App<'a> {
     }
 
     fn happens(&mut self, events: &ActiveEventLoop, event: WindowEvent) -> Result<(), Error> {
-        let Some(Open { session, held, cursor, window, .. }) = &mut self.open else { return Ok(()) };
+        let Some(OpenWindow { session, held, cursor, window, .. }) = &mut self.open else { return Ok(()) };
         match event {
             WindowEvent::CloseRequested => self.close(events),
             WindowEvent::RedrawRequested => return self.draw(events),
@@ -236,7 +236,7 @@ impl<'a> App<'a> {
     }
 
     fn pressed(&mut self, events: &ActiveEventLoop, key: &Key) -> Result<(), Error> {
-        let Some(Open { session, .. }) = &mut self.open else { return Ok(()) };
+        let Some(OpenWindow { session, .. }) = &mut self.open else { return Ok(()) };
         match key {
             Key::Named(NamedKey::Escape) => return self.happens(events, WindowEvent::CloseRequested),
             Key::Named(NamedKey::ArrowUp) => session.choose_setting(false),

@@ -14,14 +14,14 @@ const LEAST_TILT: f64 = 0.01;
 pub(super) struct Orbit {
     own: Camera,
     /// `None`: the scene's own.
-    moved: Option<Moved>,
+    moved: Option<CameraMove>,
     /// The point that it looks at to begin with.
     target: DVec3,
 }
 
 /// Where the mouse has moved the camera.
 #[derive(Debug, Clone, Copy)]
-struct Moved {
+struct CameraMove {
     target: DVec3,
     distance: f64,
     /// Around the vertical, from +z towards +x.
@@ -81,18 +81,18 @@ impl Orbit {
         self.moved = None;
     }
 
-    fn begin(&mut self) -> &mut Moved {
+    fn begin(&mut self) -> &mut CameraMove {
         let (position, target) = (self.own.position(), self.target);
         self.moved.get_or_insert_with(|| {
             let back = position - target;
             let distance = back.length();
             let pitch = (back.y / distance).clamp(-1.0, 1.0).asin();
-            Moved { target, distance, yaw: back.x.atan2(back.z), pitch }
+            CameraMove { target, distance, yaw: back.x.atan2(back.z), pitch }
         })
     }
 }
 
-impl Moved {
+impl CameraMove {
     /// `None` where the numbers have left what a camera can be.
     fn camera(&self, own: &Camera) -> Option<Camera> {
         let back = DVec3::new(self.yaw.sin() * self.pitch.cos(), self.pitch.sin(), self.yaw.cos() * self.pitch.cos());

@@ -9,7 +9,7 @@ const TOLD: Duration = Duration::from_millis(500);
 pub(super) struct Pace {
     since: Instant,
     frames: u32,
-    /// Of the last frame that is done.
+    /// The time of the last frame that is done.
     milliseconds: f64,
 }
 

@@ -1,7 +1,7 @@
 //! What a window shows: a scene through a pipeline, with the choices of the user, frame after frame.
 
-use super::chosen::Chosen;
-use super::following::Following;
+use super::chosen_setting::ChosenSetting;
+use super::followed_files::FollowedFiles;
 use super::list::{Contents, List, NoObjects};
 use super::orbit::Orbit;
 use super::pace::{Pace, Speed};
@@ -30,7 +30,7 @@ pub(super) struct Session<'a> {
     size: [u32; 2],
     /// Whether the images no longer fit the window.
     refit: bool,
-    chosen: Chosen,
+    chosen: ChosenSetting,
     /// The last frame that was shown.
     last: Option<u64>,
     /// How many were shown.
@@ -38,7 +38,7 @@ pub(super) struct Session<'a> {
     /// Whether the next one is to be written.
     picture_wanted: bool,
     problems: Problems,
-    following: Following,
+    following: FollowedFiles,
     pace: Pace,
     /// The speed that was told last.
     speed: Option<Speed>,
@@ -49,7 +49,7 @@ pub(super) struct Session<'a> {
 
 /// What became of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Drawn {
+pub(super) enum FrameOutcome {
     /// It was shown.
     Shown,
     /// The window's images were no longer right.
@@ -86,12 +86,12 @@ impl<'a> Session<'a> {
             view: View::new(arguments.planning.rotate, stereo),
             size,
             refit: false,
-            chosen: Chosen::default(),
+            chosen: ChosenSetting::default(),
             last: None,
             shown: 0,
             picture_wanted: false,
             problems: Problems::default(),
-            following: Following::new(scene_read),
+            following: FollowedFiles::new(scene_read),
             pace: Pace::new(),
             speed: None,
             list: List::new(arguments.list, opening::list_options(arguments, helper)),
@@ -108,10 +108,10 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// Those of the device and of the window, which no change to a file mends.
-    pub(super) fn frame(&mut self, before_shown: impl FnOnce()) -> Result<Drawn, Error> {
+    pub(super) fn frame(&mut self, before_shown: impl FnOnce()) -> Result<FrameOutcome, Error> {
         if self.refit {
             if !self.swapchain.resize(self.size)? {
-                return Ok(Drawn::Nothing);
+                return Ok(FrameOutcome::Nothing);
             }
             self.refit = false;
             let fitted = self.fit();
@@ -124,7 +124,7 @@ impl<'a> Session<'a> {
         if self.list.is_due() {
             self.show_list()?;
         }
-        let Some(source) = &mut self.source else { return Ok(Drawn::Nothing) };
+        let Some(source) = &mut self.source else { return Ok(FrameOutcome::Nothing) };
         source.set_camera(self.orbit.camera())?;
         before_shown();
         let presented = match self.list.renderer() {
@@ -139,22 +139,22 @@ impl<'a> Session<'a> {
             }
             Ok(Presentation::OutOfDate) => {
                 self.refit = true;
-                return Ok(Drawn::OutOfDate);
+                return Ok(FrameOutcome::OutOfDate);
             }
             Ok(_) => {
                 self.refit = true;
-                return Ok(Drawn::Nothing);
+                return Ok(FrameOutcome::Nothing);
             }
             // The last good frame has another size or form than the window has now.
             Err(framewright::Error::Vulkan(error @ framewright_vulkan::Error::BadResource { .. }))
                 if self.shown > 0 =>
             {
                 self.problems.refuse(Err(error.into()))?;
-                return Ok(Drawn::Nothing);
+                return Ok(FrameOutcome::Nothing);
             }
             Err(error) => return Err(error.into()),
         }
-        Ok(Drawn::Shown)
+        Ok(FrameOutcome::Shown)
     }
 
     /// Fits the frame to the window's images.
@@ -167,7 +167,7 @@ impl<'a> Session<'a> {
         use framewright::Change;
         let device = self.renderer.device().clone();
         self.chosen.planned();
-        let framewright::Prepared { plan, change, .. } = self.renderer.prepare()?;
+        let framewright::PreparedFrame { plan, change, .. } = self.renderer.prepare()?;
         match (&mut self.source, change) {
             (Some(_), Change::Nothing) => {}
             (Some(source), Change::Values) => source.change(plan)?,

@@ -126,10 +126,10 @@ layout(location = 0) out vec4 o;
 void main() { o = texture(c, vec3(uv - 0.5, 0.5)); }";
 
 /// A pipeline by its name, with the captures that there are, and what is left out of them.
-pub(crate) type Captured = (&'static str, &'static str, &'static [&'static str], Option<&'static str>);
+pub(crate) type CapturedImage = (&'static str, &'static str, &'static [&'static str], Option<&'static str>);
 
 /// What is drawn and was refused by each tool that captures.
-pub(crate) fn odd_pipelines() -> [Captured; 4] {
+pub(crate) fn odd_pipelines() -> [CapturedImage; 4] {
     let cube = r#"Pipeline(version: 1,
         images: [(name: "c", format: R16G16B16A16_SFLOAT, size: Fixed(16, 16), shape: Cube), (name: "screen", format: Output, size: Output)],
         passes: [

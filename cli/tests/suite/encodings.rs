@@ -8,7 +8,7 @@ use crate::testing::{self, Vulkan};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
-    Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, SampledImage, Work,
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{self, *};
@@ -57,7 +57,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
     let height = u32::try_from(TINTS.len()).expect("few");
     frame.images.push(Image::new(&format!("{shader}ed"), format, WIDTH, height));
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
-    let sampled = from.map(|image| Sampled::new("source", image, Stages::FRAGMENT_SHADER));
+    let sampled = from.map(|image| SampledImage::new("source", image, Stages::FRAGMENT_SHADER));
     let color =
         ColorTarget { image: to, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: sampled.into_iter().collect(), color: vec![color], ..Pass::new(shader, work) });

@@ -9,10 +9,10 @@
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! use framewright::{Choices, Device, DeviceOptions, Pipeline, ReadFiles, RendererOptions, Stereo, load_scene};
-//! use framewright_lab::bench::{Bench, BenchOptions, Choice, HeldAgainst, MeasuredScene, Program};
-//! use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
+//! use framewright_lab::bench::{Bench, BenchOptions, Choice, ErrorBaseline, MeasuredScene, Program};
+//! use framewright_lab::choosing::{Candidates, Limit, Quantity, SettingsAnswer};
 //! use framewright_lab::results::{FORMAT_VERSION, Results};
-//! use framewright_lab::sweep::{self, Combined, Sweep};
+//! use framewright_lab::sweep::{self, Combination, Sweep};
 //! use std::collections::BTreeMap;
 //! use std::rc::Rc;
 //!
@@ -25,10 +25,10 @@
 //! let scene = Rc::new(MeasuredScene::new("spheres_and_cubes".to_owned(), load_scene("spheres_and_cubes")?));
 //! let baseline = Choice { values: BTreeMap::new(), scene, size: [640, 360], stereo: vec![Stereo::Off] };
 //! let swept = [Sweep { name: "msaa".to_owned(), values: vec!["1".to_owned(), "4".to_owned()] }];
-//! let choices = sweep::choices(&swept, Combined::All).into_iter().map(|values| Choice { values, ..baseline.clone() });
+//! let choices = sweep::choices(&swept, Combination::All).into_iter().map(|values| Choice { values, ..baseline.clone() });
 //! let choices: Vec<Choice> = choices.collect();
 //!
-//! let options = BenchOptions { frames: 9, flicker: None, held_against: HeldAgainst::References };
+//! let options = BenchOptions { frames: 9, flicker: None, held_against: ErrorBaseline::References };
 //! let mut bench = Bench::new(&device, pipeline, Choices::default(), options, &Quiet);
 //! let subject = bench.subject("forward".to_owned(), &baseline)?;
 //! let mut rows = Vec::new();
@@ -36,7 +36,7 @@
 //!
 //! let candidates = Candidates::of(&Results { format_version: FORMAT_VERSION, subject, rows });
 //! let limits = [Limit { quantity: Quantity::Milliseconds, value: 4.0 }];
-//! if let Chosen::Best { best, .. } = candidates.choose(&limits) {
+//! if let SettingsAnswer::Best { best, .. } = candidates.choose(&limits) {
 //!     println!("msaa = {}", best.settings["msaa"]);
 //! }
 //! # Ok(())

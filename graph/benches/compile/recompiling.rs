@@ -4,7 +4,7 @@ use crate::changed::with_values;
 use crate::graphs;
 use crate::timing::{Timing, beside, microseconds};
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Frame;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ fn alternate(timing: &Timing, frames: [&Arc<Frame>; 2], expected: Reuse, anew: b
             compiler = Compiler::new();
         }
         let start = Instant::now();
-        let compiled = compiler.compile(frames[at], &device, &mut Estimated(&device), &options);
+        let compiled = compiler.compile(frames[at], &device, &mut MemoryEstimate(&device), &options);
         let time = start.elapsed();
         black_box(&compiled).as_ref().expect("the graph is valid");
         // The first of all has nothing to follow.

@@ -3,7 +3,7 @@
 use crate::graphs;
 use crate::timing::{Timing, beside, microseconds};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::verify;
@@ -116,14 +116,15 @@ fn growth(rows: &[Row]) {
 /// The order that saves memory.
 fn low_memory(device: &Profile) {
     let options = Options { order: Order::LowMemory, ..Options::default() };
-    let plan = compile(&graphs::wide(1000), device, &mut Estimated(device), &options).expect("the graph is valid");
+    let plan = compile(&graphs::wide(1000), device, &mut MemoryEstimate(device), &options).expect("the graph is valid");
     let share = plan.totals.placed_bytes as f64 / plan.totals.transient_bytes as f64;
     println!("low memory, wide 1000: {share:.3} of the sum of all images (0.381)");
 }
 
 fn measure(timing: &Timing, name: &'static str, frame: &Frame, device: &Profile, goals: Goals) -> Row {
-    let compiled =
-        || compile(frame, device, &mut Estimated(device), &Options::default()).expect("the measured graphs are valid");
+    let compiled = || {
+        compile(frame, device, &mut MemoryEstimate(device), &Options::default()).expect("the measured graphs are valid")
+    };
     let plan = compiled();
     let passes = frame.passes.len() as u32;
     let compile = microseconds(timing.least(|| black_box(compiled()))) / f64::from(passes);

@@ -44,12 +44,12 @@ pub enum MistakeKind {
     #[default]
     Other,
     /// Nothing has the name that stands at the primary place.
-    UnknownName(Sought),
+    UnknownName(NameKind),
 }
 
 /// What a name that nothing has was to name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sought {
+pub enum NameKind {
     /// A setting.
     Setting,
     /// A preset.
@@ -70,19 +70,19 @@ pub enum Sought {
     Other,
 }
 
-impl Sought {
+impl NameKind {
     /// Its word in messages.
     pub(crate) const fn word(self) -> &'static str {
         match self {
-            Sought::Setting => "setting",
-            Sought::Preset => "preset",
-            Sought::View => "view",
-            Sought::Image => "image",
-            Sought::Buffer => "buffer",
-            Sought::ImageOrBuffer => "image or buffer",
-            Sought::Pass => "pass",
-            Sought::Value => "value",
-            Sought::Other => "thing",
+            NameKind::Setting => "setting",
+            NameKind::Preset => "preset",
+            NameKind::View => "view",
+            NameKind::Image => "image",
+            NameKind::Buffer => "buffer",
+            NameKind::ImageOrBuffer => "image or buffer",
+            NameKind::Pass => "pass",
+            NameKind::Value => "value",
+            NameKind::Other => "thing",
         }
     }
 }
@@ -163,7 +163,7 @@ impl Diagnostic {
 
     /// Nothing has this name.
     #[track_caller]
-    pub(crate) fn unknown_name(sought: Sought, name: &str) -> Diagnostic {
+    pub(crate) fn unknown_name(sought: NameKind, name: &str) -> Diagnostic {
         let message = format!("there is no {} named `{name}`", sought.word());
         Diagnostic { kind: MistakeKind::UnknownName(sought), ..Diagnostic::nowhere(message) }
     }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 /// A file that a pipeline is made of. The same path is the same file.
 ///
-/// Its text stands in Plans: the path, behind `shipped:` if it is a shipped one. Of the user's own files those that would
-/// look so have `./` before them.
+/// Its text stands in Plans: the path, behind `shipped:` if it is a shipped one. A user's own file that would look so has
+/// `./` before it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FilePath {
     /// A file of the user's own, counted from the pipeline's own folder. Names are divided by `/`.

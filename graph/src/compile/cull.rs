@@ -1,6 +1,6 @@
 //! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
-use super::link::{self, Linked};
+use super::link::{self, FrameLinks};
 use super::parts::{Grids, Parts};
 use super::validate;
 use crate::base::Diagnostic;
@@ -8,7 +8,7 @@ use crate::frame::Frame;
 
 /// Which passes stay.
 #[derive(Debug)]
-pub(super) struct Live {
+pub(super) struct LivePasses {
     /// Indices of the passes that stay, in frame order.
     pub(super) passes: Vec<u32>,
     /// Indices of the passes that go.
@@ -16,20 +16,20 @@ pub(super) struct Live {
 }
 
 /// Validates a frame and culls its passes.
-pub(super) fn live(frame: &Frame) -> Result<(Grids, Live), Vec<Diagnostic>> {
+pub(super) fn live(frame: &Frame) -> Result<(Grids, LivePasses), Vec<Diagnostic>> {
     validate::check(frame)?;
     let grids = Grids::new(&frame.images, frame.passes.iter());
     let parts = Parts::new(&frame.images, frame.buffers.len(), &grids);
     let linked = link::link(frame, &parts)?;
     debug_assert_eq!(linked.all_are_needed, cull(frame, &parts, &linked).culled.is_empty());
     let live = match linked.all_are_needed {
-        true => Live { passes: (0..frame.passes.len() as u32).collect(), culled: Vec::new() },
+        true => LivePasses { passes: (0..frame.passes.len() as u32).collect(), culled: Vec::new() },
         false => cull(frame, &parts, &linked),
     };
     Ok((grids, live))
 }
 
-fn cull(frame: &Frame, parts: &Parts<'_>, linked: &Linked) -> Live {
+fn cull(frame: &Frame, parts: &Parts<'_>, linked: &FrameLinks) -> LivePasses {
     let mut needed = vec![false; parts.len()];
     linked.kept.iter().for_each(|kept| needed[kept.clone()].fill(true));
     let (mut passes, mut culled) = (Vec::with_capacity(frame.passes.len()), Vec::new());
@@ -52,5 +52,5 @@ fn cull(frame: &Frame, parts: &Parts<'_>, linked: &Linked) -> Live {
     }
     passes.reverse();
     culled.reverse();
-    Live { passes, culled }
+    LivePasses { passes, culled }
 }

@@ -1,7 +1,7 @@
 //! Whether a device has the memory that a Plan takes.
 
 use crate::base::{Diagnostic, Span, amount};
-use crate::device::{Estimated, ImageDescriptor, MemoryProvider, Profile};
+use crate::device::{ImageDescriptor, MemoryEstimate, MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::{Image, Plan};
 
@@ -48,5 +48,7 @@ fn bytes(image: &Image, device: &Profile) -> u64 {
     }
     let Image { format, shape, mips, samples, usage, sharing, .. } = *image;
     let (extent, layers) = (image.made(), image.made_layers());
-    Estimated(device).image(&ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing }).bytes
+    MemoryEstimate(device)
+        .image(&ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing })
+        .bytes
 }

@@ -3,20 +3,20 @@
 
 use super::parts::Parts;
 use crate::base::Diagnostic;
-use crate::frame::check::contents::{Contents, NOTHING, Unwritten};
+use crate::frame::check::contents::{Contents, MissingContents, NOTHING};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Resource};
 use std::ops::Range;
 
 /// What a frame leaves, and whether any pass can be culled.
 #[derive(Debug)]
-pub(super) struct Linked {
+pub(super) struct FrameLinks {
     /// The parts that are needed when the frame is done.
     pub(super) kept: Vec<Range<usize>>,
     /// Whether no pass can be culled.
     pub(super) all_are_needed: bool,
 }
 
-pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagnostic>> {
+pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<FrameLinks, Vec<Diagnostic>> {
     let mut kept: Vec<Range<usize>> = Vec::new();
     let mut contents = Contents::new(parts, frame.passes.len());
     let mut begin = |of: Resource, lifetime: &Lifetime| {
@@ -60,11 +60,11 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<Linked, Vec<Diagn
     // `needed` may mark too many passes, never too few: a read counts even if its pass is culled. `all_are_needed` is exact, because
     // all passes behind the last culled one stay, and none of them reads its writes.
     let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
-    Ok(Linked { kept, all_are_needed })
+    Ok(FrameLinks { kept, all_are_needed })
 }
 
 /// Says that a pass needs what nothing has written, once for all planes.
-fn unwritten(frame: &Frame, pass: &str, found: &Unwritten, errors: &mut Vec<Diagnostic>) {
+fn unwritten(frame: &Frame, pass: &str, found: &MissingContents, errors: &mut Vec<Diagnostic>) {
     let name = frame.name(found.of);
     let (message, help) = if found.writes {
         (format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched"), "clear it")

@@ -3,7 +3,7 @@
 use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
-use crate::plan::{AttachmentKind, Inserted, Note};
+use crate::plan::{AttachmentKind, InsertionCause, Note};
 use crate::vulkan::{
     AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
     Stages, State, Subresources, Usage,
@@ -22,7 +22,7 @@ pub(super) struct PhysicalResource {
     /// Its name, if that isn't the one of what it was made for.
     pub(super) renamed: Option<Arc<str>>,
     /// Why it was inserted, if it was.
-    pub(super) inserted: Option<Box<Inserted>>,
+    pub(super) inserted: Option<Box<InsertionCause>>,
     pub(super) kind: Kind,
     /// The format that it would have if the pipeline hadn't chosen another one.
     pub(super) usual: Option<Format>,
@@ -129,14 +129,14 @@ impl PhysicalResource {
     }
 }
 
-/// Index into [`Adapted::resources`].
+/// Index into [`AdaptedFrame::resources`].
 pub(super) type PhysicalIndex = u32;
 /// Number of a part of a physical image, or of a buffer, among all of them.
 pub(super) type SubresourceIndex = u32;
 
 /// Physical images and buffers, and the operations on them, in frame order.
 #[derive(Debug, Default)]
-pub(super) struct Adapted {
+pub(super) struct AdaptedFrame {
     pub(super) resources: Vec<PhysicalResource>,
     pub(super) ops: Vec<Op>,
     pub(super) uses: Vec<Use>,
@@ -154,7 +154,7 @@ pub(super) struct Adapted {
     pub(super) eyes: HashMap<PhysicalIndex, (EyeForm, Rotation)>,
 }
 
-impl Adapted {
+impl AdaptedFrame {
     /// Whether each resource is one subresource, which has the number of the resource. Mostly so: then a walk through the
     /// subresources needs nothing of the resources.
     pub(super) fn is_uncut(&self) -> bool {
@@ -225,7 +225,7 @@ impl Adapted {
 #[derive(Debug)]
 pub(super) struct Op {
     pub(super) kind: OpKind,
-    /// Into [`Adapted::uses`].
+    /// Into [`AdaptedFrame::uses`].
     pub(super) uses: Range<u32>,
     /// Whether it has an effect that no image or buffer shows.
     pub(super) side_effect: bool,
@@ -245,7 +245,7 @@ pub(super) enum OpKind {
         /// Filter between texels of the source.
         filter: Filter,
         /// Why.
-        why: Box<Inserted>,
+        why: Box<InsertionCause>,
     },
     /// A draw of the frame again, of nothing but its depth and with one sample; its only use is that depth.
     DepthOnly {
@@ -259,7 +259,7 @@ pub(super) enum OpKind {
         /// The pass of the frame.
         pass: u32,
         /// Why.
-        why: Box<Inserted>,
+        why: Box<InsertionCause>,
     },
     /// An inserted full-screen draw that resolves depth or colour; its uses are source and target.
     ResolveDraw {
@@ -275,17 +275,17 @@ pub(super) enum OpKind {
         /// How samples become one value.
         mode: ResolveMode,
         /// Why.
-        why: Box<Inserted>,
+        why: Box<InsertionCause>,
     },
     /// An inserted copy; its uses are source and target.
-    Copy(Box<Inserted>),
+    Copy(Box<InsertionCause>),
 }
 
 /// An inserted draw that has a name of its own.
 #[derive(Debug)]
 pub(super) struct InsertedDraw {
     pub(super) name: Arc<str>,
-    pub(super) why: Inserted,
+    pub(super) why: InsertionCause,
 }
 
 /// The values that a full-screen draw resolves.
@@ -293,7 +293,7 @@ pub(super) struct InsertedDraw {
 pub(super) enum ResolveShader {
     /// Depth, in this mode.
     Depth(ResolveMode),
-    /// Colour, of which bright samples weigh less.
+    /// Colour: bright samples weigh less.
     Weighted,
     /// Sample zero of unsigned integers.
     Uint,
@@ -325,7 +325,7 @@ impl OpKind {
     }
 
     /// Why it was inserted, if it was.
-    pub(super) fn inserted(&self) -> Option<&Inserted> {
+    pub(super) fn inserted(&self) -> Option<&InsertionCause> {
         match self {
             OpKind::Draw(_) | OpKind::Pass(_) => None,
             OpKind::DepthOnly { draw, .. } | OpKind::ResolveDraw { draw, .. } => Some(&draw.why),
@@ -341,7 +341,7 @@ impl OpKind {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Use {
     pub(super) resource: PhysicalIndex,
-    /// Into [`Adapted::ranges`]; [`Use::ALL`]: all of it.
+    /// Into [`AdaptedFrame::ranges`]; [`Use::ALL`]: all of it.
     pub(super) range: u32,
     /// The one subresource that it is about; [`Use::SEVERAL`] if there may be several.
     pub(super) subresource: SubresourceIndex,

@@ -1,7 +1,7 @@
 //! `retain`: load and store operations of attachments. Contents are kept only where a later use needs them.
 
-use super::model::{Adapted, InitialContents, MemorySource, OpKind, Role, Use};
-use super::scope::{Scope, Scoped, Step, Target};
+use super::model::{AdaptedFrame, InitialContents, MemorySource, OpKind, Role, Use};
+use super::scope::{Scope, ScopedSteps, Step, Target};
 use crate::frame::Frame;
 use crate::plan::AttachmentKind;
 use crate::vulkan::{AccessKind, Accesses, LoadOp, Stages, StoreOp};
@@ -17,14 +17,14 @@ pub(super) struct AttachmentOps {
     /// The operation that uses it first.
     pub(super) first: u32,
     /// The next use of its contents.
-    pub(super) next: Next,
+    pub(super) next: LaterUse,
     /// Whether a pass of the scope writes it.
     written: bool,
 }
 
 /// The next use of an attachment's contents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Next {
+pub(super) enum LaterUse {
     /// None.
     Nobody,
     /// They are overwritten.
@@ -74,7 +74,7 @@ impl AttachmentOps {
     }
 }
 
-pub(super) fn retain(frame: &Frame, adapted: &Adapted, scoped: &Scoped) -> LoadStoreOps {
+pub(super) fn retain(frame: &Frame, adapted: &AdaptedFrame, scoped: &ScopedSteps) -> LoadStoreOps {
     if !scoped.steps.iter().any(|step| matches!(step, Step::Scope(_))) {
         return LoadStoreOps::default();
     }
@@ -94,8 +94,8 @@ pub(super) fn retain(frame: &Frame, adapted: &Adapted, scoped: &Scoped) -> LoadS
     for attachment in &mut ops {
         attachment.store = match (attachment.written, attachment.next) {
             (false, _) => StoreOp::None,
-            (true, Next::Op(_) | Next::After) => StoreOp::Store,
-            (true, Next::Nobody | Next::Replaced) => StoreOp::DontCare,
+            (true, LaterUse::Op(_) | LaterUse::After) => StoreOp::Store,
+            (true, LaterUse::Nobody | LaterUse::Replaced) => StoreOp::DontCare,
         };
     }
     LoadStoreOps { ops, starts }
@@ -106,7 +106,7 @@ const NONE: u32 = u32::MAX;
 
 struct Walk<'w> {
     frame: &'w Frame,
-    adapted: &'w Adapted,
+    adapted: &'w AdaptedFrame,
     ops: Vec<AttachmentOps>,
     /// For each subresource the attachment that holds its contents.
     last: Vec<u32>,
@@ -125,7 +125,7 @@ impl Walk<'_> {
         for at in first..self.ops.len() {
             if self.ops[at].load == LoadOp::Load {
                 let AttachmentOps { target, first, .. } = self.ops[at];
-                self.each(target, |walk, subresource| walk.needed(subresource, Next::Op(first)));
+                self.each(target, |walk, subresource| walk.needed(subresource, LaterUse::Op(first)));
             }
         }
         for op in &scope.ops {
@@ -159,7 +159,7 @@ impl Walk<'_> {
             store: StoreOp::None,
             clear: None,
             first: NONE,
-            next: Next::Nobody,
+            next: LaterUse::Nobody,
             written: false,
         };
         for op in &scope.ops {
@@ -186,7 +186,7 @@ impl Walk<'_> {
         let adapted = self.adapted;
         adapted.for_each_subresource(used, |subresource| {
             if used.reads {
-                self.needed(subresource, Next::Op(op));
+                self.needed(subresource, LaterUse::Op(op));
             }
             if used.writes {
                 self.replaced(subresource, NONE);
@@ -195,9 +195,9 @@ impl Walk<'_> {
     }
 
     /// Notes that the contents of a subresource are needed.
-    fn needed(&mut self, subresource: u32, by: Next) {
+    fn needed(&mut self, subresource: u32, by: LaterUse) {
         if let Some(attachment) = self.ops.get_mut(self.last[subresource as usize] as usize)
-            && !matches!(attachment.next, Next::Op(_))
+            && !matches!(attachment.next, LaterUse::Op(_))
         {
             attachment.next = by;
         }
@@ -207,9 +207,9 @@ impl Walk<'_> {
     fn replaced(&mut self, subresource: u32, by: u32) {
         let last = std::mem::replace(&mut self.last[subresource as usize], by);
         if let Some(attachment) = self.ops.get_mut(last as usize).filter(|_| last != by)
-            && attachment.next == Next::Nobody
+            && attachment.next == LaterUse::Nobody
         {
-            attachment.next = Next::Replaced;
+            attachment.next = LaterUse::Replaced;
         }
     }
 
@@ -220,14 +220,14 @@ impl Walk<'_> {
         {
             if resource.memory != MemorySource::Transient {
                 let end = next.map_or(self.adapted.subresources, |next| next.first_subresource);
-                (resource.first_subresource..end).for_each(|subresource| self.needed(subresource, Next::After));
+                (resource.first_subresource..end).for_each(|subresource| self.needed(subresource, LaterUse::After));
             }
         }
     }
 }
 
 /// Takes over the clear values that the frame says now.
-pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, load_store: &mut LoadStoreOps) {
+pub(super) fn renew_clear_values(frame: &Frame, adapted: &AdaptedFrame, load_store: &mut LoadStoreOps) {
     for attachment in load_store.ops.iter_mut().filter(|attachment| attachment.load == LoadOp::Clear) {
         let AttachmentOps { target, role, first, .. } = *attachment;
         let is_it =

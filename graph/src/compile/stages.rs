@@ -1,12 +1,12 @@
 //! Runs the stages, one after the other.
 
-use super::cull::{self, Live};
-use super::memory::{self, AliasEdge, Placed};
-use super::model::Adapted;
+use super::cull::{self, LivePasses};
+use super::memory::{self, AliasEdge, PlacedResources};
+use super::model::AdaptedFrame;
 use super::options::{Options, Order};
-use super::queues::{self, Assigned};
+use super::queues::{self, QueueAssignment};
 use super::retain::{self, LoadStoreOps};
-use super::scope::{self, Scoped};
+use super::scope::{self, ScopedSteps};
 use super::sync::{self, AccessTimeline, Barriers, States};
 use super::{adapt, fit, schedule, usage};
 use crate::base::Diagnostic;
@@ -17,15 +17,15 @@ use crate::plan::Note;
 /// All that was decided about a frame: the Plan is made of it.
 #[derive(Debug)]
 pub(super) struct Decisions {
-    pub(super) live: Live,
+    pub(super) live: LivePasses,
     /// Notes of the stages from `fit` on, in their order.
     pub(super) notes: Vec<Note>,
-    pub(super) adapted: Adapted,
-    pub(super) scoped: Scoped,
+    pub(super) adapted: AdaptedFrame,
+    pub(super) scoped: ScopedSteps,
     pub(super) load_store: LoadStoreOps,
     /// For each physical resource its states around the frame; `None` if it lives within the frame.
     pub(super) states: Vec<Option<States>>,
-    pub(super) placed: Placed,
+    pub(super) placed: PlacedResources,
     pub(super) barriers: Barriers,
     pub(super) exact_memory: bool,
 }
@@ -47,7 +47,7 @@ pub(super) fn decide(
     let (adapted, of_adapt) = adapt::adapt(input)?;
     let order = schedule::schedule(&adapted, options.order);
     let (scoped, adapted, of_scope) = scope::scope(frame, adapted, &order, device);
-    let Assigned { scoped, queues, notes: of_queues, sharing } =
+    let QueueAssignment { scoped, queues, notes: of_queues, sharing } =
         queues::assign(frame, &adapted, scoped, device, options);
     let load_store = retain::retain(frame, &adapted, &scoped);
     let mut timeline = sync::timeline(&adapted, &scoped, &load_store, queues);
@@ -73,13 +73,13 @@ pub(super) fn decide(
 
 /// Places transient images and buffers in memory. Returns who takes over whose memory, too.
 fn place(
-    adapted: &Adapted,
-    scoped: &Scoped,
+    adapted: &AdaptedFrame,
+    scoped: &ScopedSteps,
     timeline: &AccessTimeline,
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
-) -> Result<(Placed, Vec<AliasEdge>), Vec<Diagnostic>> {
+) -> Result<(PlacedResources, Vec<AliasEdge>), Vec<Diagnostic>> {
     let lifetimes = &timeline.lifetimes[..];
     let by_first_step = memory::by_first_step(adapted, lifetimes);
     let spans = timeline.queues.memory_spans(adapted, scoped, lifetimes);

@@ -1,23 +1,23 @@
-//! `usage`: how each image and buffer is made and used. Its usage flags are those that its steps take, and those that follow
-//! from its lifetime and from its states before and after the frame.
+//! `usage`: how each image and buffer is made and used. Usage flags come from its steps, from its lifetime,
+//! and from its states before and after the frame.
 
 use super::history_ring::last_of_ring;
-use super::model::{Adapted, Kind, MemorySource, PhysicalIndex};
+use super::model::{AdaptedFrame, Kind, MemorySource, PhysicalIndex};
 use super::options::Options;
 use super::retain::{AttachmentOps, LoadStoreOps};
-use super::scope::{Scoped, Step};
+use super::scope::{ScopedSteps, Step};
 use super::sync::AccessTimeline;
 use crate::vulkan::{BufferUsage, LoadOp, Sharing, StoreOp, Usage};
 
 /// Gives each physical resource its sharing and its usage flags, and each use the layout that it has in its step.
 pub(super) fn finish(
-    mut adapted: Adapted,
+    mut adapted: AdaptedFrame,
     sharing: &[(PhysicalIndex, Sharing)],
     timeline: &AccessTimeline,
     load_store: &LoadStoreOps,
-    scoped: &Scoped,
+    scoped: &ScopedSteps,
     options: &Options,
-) -> Adapted {
+) -> AdaptedFrame {
     for at in 0..adapted.resources.len() as PhysicalIndex {
         let bits = usage(&adapted, at, timeline, load_store, scoped, options);
         adapted.resources[at as usize].set_usage(bits);
@@ -32,11 +32,11 @@ pub(super) fn finish(
 /// outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only scope
 /// become transient attachments.
 fn usage(
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     at: PhysicalIndex,
     timeline: &AccessTimeline,
     load_store: &LoadStoreOps,
-    scoped: &Scoped,
+    scoped: &ScopedSteps,
     options: &Options,
 ) -> u32 {
     let stays_in_scope = || {
@@ -87,7 +87,7 @@ fn of_buffer(memory: MemorySource, poison: bool) -> BufferUsage {
 }
 
 /// History images and buffers rotate from frame to frame, so each gets the usages of all.
-fn share_usages(adapted: &mut Adapted) {
+fn share_usages(adapted: &mut AdaptedFrame) {
     let mut first = 0;
     while (first as usize) < adapted.resources.len() {
         let last = last_of_ring(adapted, first);

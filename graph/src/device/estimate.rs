@@ -4,9 +4,9 @@ use super::{BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, Memor
 use crate::vulkan::{Aspects, BufferUsage, Format, Shape, Sharing, Usage};
 
 /// Memory needs as a profile estimates them: values that were read from the device, else values of its model.
-pub struct Estimated<'p>(pub &'p Profile);
+pub struct MemoryEstimate<'p>(pub &'p Profile);
 
-impl MemoryProvider for Estimated<'_> {
+impl MemoryProvider for MemoryEstimate<'_> {
     fn exact(&self) -> bool {
         false
     }

@@ -1,6 +1,6 @@
 //! Images and buffers by their full descriptors, and the memory that they need.
 
-use super::sound;
+use super::profile_rules;
 use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Subresources, Usage, extent_at};
 use serde::{Deserialize, Serialize};
 
@@ -60,10 +60,10 @@ pub struct MemoryNeeds {
     /// Bytes.
     pub bytes: u64,
     /// Alignment of the offset, a power of two.
-    #[serde(deserialize_with = "sound::alignment")]
+    #[serde(deserialize_with = "profile_rules::alignment")]
     pub alignment: u64,
     /// Which memory types will do, one bit each (`memoryTypeBits`).
-    #[serde(deserialize_with = "sound::type_bits")]
+    #[serde(deserialize_with = "profile_rules::type_bits")]
     pub type_bits: u32,
 }
 

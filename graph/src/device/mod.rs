@@ -5,13 +5,13 @@ mod limits;
 mod memory;
 mod needs;
 mod profile;
-mod saved;
-mod sound;
-mod usual;
+mod profile_rules;
+mod saved_profiles;
+mod usual_images;
 
-pub use estimate::Estimated;
+pub use estimate::MemoryEstimate;
 pub use limits::{Limit, Limits};
 pub use memory::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider};
 pub use needs::{Abilities, Need, NeedKind};
 pub use profile::{FormatSupport, KnownNeeds, MemoryModel, Profile, Queues};
-pub use saved::{ProfileError, SHIPPED_PROFILES};
+pub use saved_profiles::{ProfileError, SHIPPED_PROFILES};

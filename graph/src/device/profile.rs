@@ -2,7 +2,7 @@
 
 use super::limits::Limits;
 use super::memory::MemoryNeeds;
-use super::sound;
+use super::profile_rules;
 use crate::vulkan::{Format, ResolveMode, Sharing, Usage};
 use serde::{Deserialize, Serialize};
 
@@ -13,21 +13,21 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// The device's own name.
-    #[serde(deserialize_with = "sound::name")]
+    #[serde(deserialize_with = "profile_rules::name")]
     pub name: String,
     /// Driver and version, and where the figures come from.
     pub source: String,
     /// Largest width and height of an attachment, in texels.
-    #[serde(deserialize_with = "sound::extent")]
+    #[serde(deserialize_with = "profile_rules::extent")]
     pub max_attachment_extent: u32,
     /// Largest width, height and depth of a three-dimensional image, in texels.
-    #[serde(default = "least_extent_3d", deserialize_with = "sound::extent")]
+    #[serde(default = "least_extent_3d", deserialize_with = "profile_rules::extent")]
     pub max_extent_3d: u32,
     /// Most array layers of an image.
-    #[serde(default = "least_layers", deserialize_with = "sound::extent")]
+    #[serde(default = "least_layers", deserialize_with = "profile_rules::extent")]
     pub max_layers: u32,
     /// Most colour attachments of one rendering scope.
-    #[serde(deserialize_with = "sound::attachments")]
+    #[serde(deserialize_with = "profile_rules::attachments")]
     pub max_color_attachments: u32,
     /// Whether it has lazily allocated memory for transient attachments.
     pub lazily_allocated_memory: bool,
@@ -39,7 +39,7 @@ pub struct Profile {
     #[serde(default)]
     pub local_read: bool,
     /// Most views that a rendering scope draws at once (`maxMultiviewViewCount`).
-    #[serde(default = "least_views", deserialize_with = "sound::views")]
+    #[serde(default = "least_views", deserialize_with = "profile_rules::views")]
     pub max_multiview_views: u32,
     /// Whether the device says that it draws several views at once, and a test showed that it doesn't: then
     /// `max_multiview_views` is 1.
@@ -55,8 +55,8 @@ pub struct Profile {
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
-        serialize_with = "sound::known",
-        deserialize_with = "sound::clip_distances"
+        serialize_with = "profile_rules::known",
+        deserialize_with = "profile_rules::clip_distances"
     )]
     pub max_clip_distances: Option<u32>,
     /// Features beyond the minimum that shaders and draws can need, by Vulkan's names; `None` where they aren't known: then
@@ -64,16 +64,16 @@ pub struct Profile {
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
-        serialize_with = "sound::known",
-        deserialize_with = "sound::where_known"
+        serialize_with = "profile_rules::known",
+        deserialize_with = "profile_rules::where_known"
     )]
     pub features: Option<Vec<String>>,
     /// Limits for shaders and buffers; `None` where they aren't known: then nothing exceeds them.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
-        serialize_with = "sound::known",
-        deserialize_with = "sound::where_known"
+        serialize_with = "profile_rules::known",
+        deserialize_with = "profile_rules::where_known"
     )]
     pub limits: Option<Limits>,
     /// Modes in which the rendering scope that draws depth can resolve it, without those that a test refuted.
@@ -94,13 +94,13 @@ pub struct Profile {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub refuted_integer_resolve: bool,
     /// The support for each format, each format once; absent formats have no support.
-    #[serde(deserialize_with = "sound::formats")]
+    #[serde(deserialize_with = "profile_rules::formats")]
     pub formats: Vec<FormatSupport>,
     /// How much memory images and buffers take.
     pub memory: MemoryModel,
     /// Memory needs of images that were read from the device, sorted by format and sample count; all others are estimated
     /// by the model.
-    #[serde(default, deserialize_with = "sound::known_needs")]
+    #[serde(default, deserialize_with = "profile_rules::known_needs")]
     pub known_needs: Vec<KnownNeeds>,
     /// Values above that no public source states, and the assumptions in their place.
     #[serde(default)]
@@ -206,32 +206,32 @@ pub struct FormatSupport {
 #[serde(deny_unknown_fields)]
 pub struct MemoryModel {
     /// Alignment of an image's offset and of a mip level's size, in bytes: a power of two.
-    #[serde(deserialize_with = "sound::alignment")]
+    #[serde(deserialize_with = "profile_rules::alignment")]
     pub alignment: u64,
     /// Rows are padded to a multiple of this many texels: a power of two.
-    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
+    #[serde(default = "no_padding", deserialize_with = "profile_rules::padding")]
     pub row_texels: u32,
     /// Rows are padded to a multiple of this many bytes: a power of two.
-    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
+    #[serde(default = "no_padding", deserialize_with = "profile_rules::padding")]
     pub row_bytes: u32,
     /// Heights are padded to a multiple of this many rows: a power of two.
-    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
+    #[serde(default = "no_padding", deserialize_with = "profile_rules::padding")]
     pub rows: u32,
     /// Whether the stencil of depth formats lies in a plane of its own, a byte for each texel, instead of beside the depth.
     #[serde(default)]
     pub separate_stencil: bool,
     /// Alignment of a buffer's offset, in bytes: a power of two.
-    #[serde(default = "safe_buffer_alignment", deserialize_with = "sound::alignment")]
+    #[serde(default = "safe_buffer_alignment", deserialize_with = "profile_rules::alignment")]
     pub buffer_alignment: u64,
     /// Memory types that images and buffers accept, one bit each (`memoryTypeBits`).
-    #[serde(default = "first_type", deserialize_with = "sound::type_bits")]
+    #[serde(default = "first_type", deserialize_with = "profile_rules::type_bits")]
     pub type_bits: u32,
     /// Bytes of the largest heap that images can lie in; `None`: not known.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
-        serialize_with = "sound::known",
-        deserialize_with = "sound::heap_bytes"
+        serialize_with = "profile_rules::known",
+        deserialize_with = "profile_rules::heap_bytes"
     )]
     pub heap_bytes: Option<u64>,
 }

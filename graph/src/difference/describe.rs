@@ -1,13 +1,13 @@
 //! A Plan as a list of entries that can be compared by their names.
 
-use super::steps::OfStep;
+use super::steps::EntryStep;
 use super::{Change, Entry, Field, Kind};
 use crate::base::Place;
 use crate::base::amount::bytes;
 use crate::frame::{Allowances, EyeForm, Stereo};
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::text::size;
-use crate::plan::{self, Buffer, Cause, Image, Initial, Item, Moved, Note, Output, Plan, Role, View};
+use crate::plan::{self, Buffer, Cause, FirstContents, Image, Item, MovedBytes, Note, Output, Plan, Role, View};
 use crate::vulkan::{Shape, Sharing, State, in_plan, name_of};
 
 /// An entry of one Plan.
@@ -32,7 +32,7 @@ impl Description {
     }
 
     fn caused(self, cause: &Cause) -> Description {
-        let because = cause.because().map(|because| Shown(because).to_string());
+        let because = cause.because().map(|because| ShownText(because).to_string());
         Description { because, at: cause.at().cloned(), ..self }
     }
 
@@ -52,7 +52,7 @@ impl Field {
 /// The sums of a Plan: name, whether it counts bytes, and value.
 pub(super) fn figures(plan: &Plan) -> [(&'static str, bool, u64); 18] {
     let totals = &plan.totals;
-    let Moved { loaded, stored, resolved, copied } = plan.moved();
+    let MovedBytes { loaded, stored, resolved, copied } = plan.moved();
     let count = |name, count: u32| (name, false, u64::from(count));
     let amount = |name, bytes| (name, true, bytes);
     [
@@ -91,7 +91,7 @@ pub(super) fn describe(plan: &Plan) -> Vec<Description> {
 
 /// An entry, if it has a name. A memory barrier is one for each image and buffer.
 fn of_entry(plan: &Plan, entry: plan::Entry<'_>) -> Vec<Description> {
-    let of_step = OfStep { plan, id: entry.step };
+    let of_step = EntryStep { plan, id: entry.step };
     let described = match entry.item {
         Item::Setting(used) => setting(&used.name, &used.value),
         Item::View(it) => view(it),
@@ -119,11 +119,11 @@ fn of_entry(plan: &Plan, entry: plan::Entry<'_>) -> Vec<Description> {
 
 /// A name from a file.
 pub(super) fn code(name: &str) -> String {
-    format!("`{}`", Shown(name))
+    format!("`{}`", ShownText(name))
 }
 
 fn setting(name: &str, value: &str) -> Description {
-    Description::new(Kind::Setting, code(name), vec![("value", Shown(value).to_string())])
+    Description::new(Kind::Setting, code(name), vec![("value", ShownText(value).to_string())])
 }
 
 fn image(plan: &Plan, image: &Image) -> Description {
@@ -174,8 +174,10 @@ fn memory(plan: &Plan, role: &Role) -> String {
             let lazy = plan.heaps.get(placement.heap as usize).is_some_and(|heap| heap.lazily_allocated);
             format!("transient, {}{}", bytes(placement.bytes), if lazy { ", lazily allocated" } else { "" })
         }
-        Role::Persistent { initial: Initial::Value(value), .. } => format!("persistent, at first {}", in_plan(value)),
-        Role::Persistent { initial: Initial::File(file), .. } => {
+        Role::Persistent { initial: FirstContents::Value(value), .. } => {
+            format!("persistent, at first {}", in_plan(value))
+        }
+        Role::Persistent { initial: FirstContents::File(file), .. } => {
             format!("persistent, of the file {}", code(&file.path))
         }
         Role::External { .. } => "external".to_owned(),
@@ -210,12 +212,12 @@ fn view(view: &View) -> Description {
 fn output(plan: &Plan, output: &Output) -> Description {
     let mut fields = vec![("is", code(plan.resource_name(output.resource)))];
     fields.extend(output.encoding.iter().map(|encoding| ("encoding", name_of(encoding))));
-    fields.extend(output.encoded.iter().map(|place| ("encoded", Shown(place).to_string())));
+    fields.extend(output.encoded.iter().map(|place| ("encoded", ShownText(place).to_string())));
     fields.extend(output.eye.iter().map(|eye| ("eye", eye.name().to_owned())));
     Description::new(Kind::Output, code(&output.name), fields)
 }
 
 fn note(note: &Note) -> Description {
-    let name = format!("{}: {}", code(&note.subject), Shown(&note.text));
+    let name = format!("{}: {}", code(&note.subject), ShownText(&note.text));
     Description { at: note.at.clone(), ..Description::new(Kind::Note, name, Vec::new()) }
 }

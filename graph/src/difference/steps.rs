@@ -3,7 +3,7 @@
 use super::Kind;
 use super::describe::{Description, code};
 use crate::frame::Blend;
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::text::{bound, fill_value, size};
 use crate::plan::{
     Access, Attachment, AttachmentResolve, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, Resource,
@@ -13,12 +13,12 @@ use crate::vulkan::{Subresources, in_plan, name_of};
 
 /// The step that an entry is or belongs to.
 #[derive(Clone, Copy)]
-pub(super) struct OfStep<'p> {
+pub(super) struct EntryStep<'p> {
     pub(super) plan: &'p Plan,
     pub(super) id: Option<StepId>,
 }
 
-impl<'p> OfStep<'p> {
+impl<'p> EntryStep<'p> {
     fn step(self) -> Option<&'p Step> {
         self.plan.steps.get(self.id?.0 as usize)
     }
@@ -65,7 +65,7 @@ impl<'p> OfStep<'p> {
         fields.push(("attached as", name_of(&attachment.kind)));
         let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
         let name = format!("{of_itself}, of the scope of {}", self.name_of_first());
-        let because = Some(Shown(&attachment.because.to_string()).to_string());
+        let because = Some(ShownText(&attachment.because.to_string()).to_string());
         Description { because, ..Description::new(Kind::Attachment, name, fields).of_step(of_itself) }
     }
 
@@ -109,17 +109,17 @@ impl<'p> OfStep<'p> {
         }
         let images = pass.accesses.iter().filter_map(|access| {
             let binding = access.binding.as_ref()?;
-            Some(format!("{} = {}", Shown(&binding.name), self.part(access.image, access.range)))
+            Some(format!("{} = {}", ShownText(&binding.name), self.part(access.image, access.range)))
         });
         let buffers = pass.buffers.iter().map(|access| {
-            let name = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
+            let name = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", ShownText(name)));
             format!("{name}{}", self.resource(Resource::Buffer(access.buffer)))
         });
         let bound: Vec<String> = images.chain(buffers).collect();
         if !bound.is_empty() {
             fields.push(("binds", bound.join(", ")));
         }
-        let params = pass.params.iter().map(|param| format!("{} = {}", Shown(&param.name), param.value));
+        let params = pass.params.iter().map(|param| format!("{} = {}", ShownText(&param.name), param.value));
         let params: Vec<String> = params.collect();
         if !params.is_empty() {
             fields.push(("parameters", params.join(", ")));

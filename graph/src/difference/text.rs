@@ -2,7 +2,7 @@
 
 use super::{Change, Differences, Entry, Field, Figure, Side};
 use crate::base::{Place, amount};
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use std::fmt::Write;
 
 /// Fields that are told where they differ, and not of what only one Plan has.
@@ -45,7 +45,7 @@ impl Differences {
 
 /// The name of a Plan, and its device.
 pub(super) fn of(side: &Side) -> String {
-    format!("{} on {}", Shown(&side.name), Shown(&side.device.name))
+    format!("{} on {}", ShownText(&side.name), ShownText(&side.device.name))
 }
 
 /// A figure's value.
@@ -86,5 +86,5 @@ fn both(field: &Field) -> String {
 }
 
 fn place(at: Option<&Place>) -> String {
-    at.map_or_else(String::new, |at| format!(" ({}:{})", Shown(&at.file), at.line))
+    at.map_or_else(String::new, |at| format!(" ({}:{})", ShownText(&at.file), at.line))
 }

@@ -1,16 +1,14 @@
 //! A pipeline becomes a frame, stage by stage.
 
-use super::accesses::CutImages;
+use super::contents::accesses::CutImages;
+use super::contents::{history, order, padding, storage_writes};
 use super::expander::Expander;
 use super::inputs::{Inputs, check_extent, surroundings};
-use super::instances::used_here;
-use super::outputs::outputs;
+use super::mistakes::{ReportedMistakes, used_here};
+use super::outputs::{dumped, outputs};
+use super::passes::{State, casters, depth_only, targets, views};
 use super::resources::Resources;
-use super::state::State;
-use super::{
-    casters, decided, depth_only, eyes, history, once, order, padding, passes, precision, settings, shader, stored,
-    targets, views,
-};
+use super::{decisions, eyes, passes, precision, settings, shader};
 use crate::base::{Diagnostic, MOST_KEPT, Sources};
 use crate::frame::{Frame, Remark, Stereo, SwitchedOff, View};
 use crate::language::{self, Document, Read, Reads};
@@ -65,6 +63,23 @@ pub(super) fn for_eyes(
     one.and(expanded)
 }
 
+/// Mistakes in `inputs` themselves: settings that the pipeline doesn't have, values that they don't allow, a size that no
+/// frame has, names of no image. [`expand`] reports these too; a program that tells its user's command
+/// line from its user's files asks here first.
+#[must_use]
+pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    let values = settings::choose(document, inputs.set, &mut errors);
+    check_extent(inputs.output_extent, &mut errors);
+    if errors.is_empty()
+        && !inputs.dump.is_empty()
+        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs, None))
+    {
+        dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
+    }
+    errors
+}
+
 fn expand_so(
     document: &Document,
     sources: Arc<Sources>,
@@ -97,17 +112,17 @@ fn expand_so(
     let stereo = inputs.stereo;
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
-    let mut reported = once::Reported::default();
+    let mut reported = ReportedMistakes::default();
     let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
     reported.each_once(&mut errors, 0);
     kept.iter_mut().for_each(|kept| kept.begin(&resources, inputs));
 
-    let mut checked = shader::Checked::new(shaders, &sources);
+    let mut checked = shader::CheckedShaders::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
         let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
-        switched_off.extend(left_out.map(|language::LeftOut { binding, off, .. }| SwitchedOff {
+        switched_off.extend(left_out.map(|language::LeftOutSample { binding, off, .. }| SwitchedOff {
             name: pass.name.text.clone(),
             sampled: Some(binding.text.clone()),
             span: off.span,
@@ -121,7 +136,7 @@ fn expand_so(
         let before = errors.len();
         targets::fit(&resources, pass, &mut errors);
         states.push(match &pass.off {
-            Some(language::Off { span, because }) => {
+            Some(language::OffReason { span, because }) => {
                 let name = pass.name.text.clone();
                 switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
                 // Mistakes of a pass that is off do no harm.
@@ -149,13 +164,13 @@ fn expand_so(
     let before = errors.len();
     let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
     let parts = cut.parts();
-    let stored = stored::keep(&resources, &mut states, &parts, &mut checked);
+    let stored = storage_writes::keep(&resources, &mut states, &parts, &mut checked);
     order::check(&resources, &states, &outputs, &parts, &mut errors);
     reported.each_once(&mut errors, before);
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }
-    let decided = decided::decided(&pipeline, &states, &outputs);
+    let decided = decisions::decided(&pipeline, &states, &outputs);
     let depth_range = inputs.facts().depth_range;
     let kept = precision::choose(depth_range, &mut resources, &states, &outputs);
     let coarse = precision::too_coarse(depth_range, &resources, &states);

@@ -1,11 +1,9 @@
 //! Inputs beside the file: settings, scene facts, size, device, eyes.
 
-use super::outputs::dumped;
-use super::settings;
 use crate::base::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Allowances, Stereo};
-use crate::language::{Document, Facts, LARGEST_SIZE, Reads, Surroundings};
+use crate::language::{Facts, LARGEST_SIZE, Reads, Surroundings};
 use crate::vulkan::{Format, Rotation};
 
 /// The inputs that a pipeline is expanded with, beside its file.
@@ -40,23 +38,6 @@ impl Inputs<'_> {
     pub(super) fn facts(&self) -> Facts {
         if self.facts_known { self.facts } else { Facts::UNKNOWN }
     }
-}
-
-/// Mistakes in `inputs` themselves: settings that the pipeline doesn't have, values that they don't allow, a size that no
-/// frame has, names of no image. [`expand`](super::expand()) reports these too; a program that tells its user's command
-/// line from its user's files asks here first.
-#[must_use]
-pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    let values = settings::choose(document, inputs.set, &mut errors);
-    check_extent(inputs.output_extent, &mut errors);
-    if errors.is_empty()
-        && !inputs.dump.is_empty()
-        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs, None))
-    {
-        dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
-    }
-    errors
 }
 
 pub(super) fn surroundings<'a>(inputs: &Inputs<'a>, reads: Option<&'a Reads>) -> Surroundings<'a> {

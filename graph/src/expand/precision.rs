@@ -4,8 +4,8 @@
 //! storage image, or is copied to or from buffers or by custom passes has the usual format: others may rely on it. Images
 //! that follow each other, or are copied texel for texel, have one format. Colour keeps its alpha, unless its format has none.
 
+use super::passes::State;
 use super::resources::Resources;
-use super::state::State;
 use crate::base::Span;
 use crate::frame::{Access, ChosenFormat, Draw, ImageIndex, Lifetime, NoteKind, Output, Pass, Remark, Resource};
 use crate::language::{self, Format as Described, Precision, Precisions};
@@ -15,14 +15,14 @@ use std::collections::BTreeSet;
 
 /// The format that a pipeline's policy wants in place of `usual`. `range`: how far the scene reaches that is drawn into the
 /// image as depth, in near distances.
-fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range: f64) -> Wanted {
+fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range: f64) -> WantedFormat {
     let pipeline = resources.pipeline;
     let policy = match described {
         Described::Color { .. } => &pipeline.color,
         Described::Depth | Described::DepthStencil => &pipeline.depth_format,
-        Described::Output | Described::Named(_) | Described::Like(_) => return Wanted::Usual,
+        Described::Output | Described::Named(_) | Described::Like(_) => return WantedFormat::Usual,
     };
-    let Some(Precisions { precision, said, .. }) = policy.as_ref() else { return Wanted::Usual };
+    let Some(Precisions { precision, said, .. }) = policy.as_ref() else { return WantedFormat::Usual };
     let formats: &[Format] = match (described, precision) {
         (Described::Color { hdr: true, .. }, Precision::Smallest) => &[Format::B10G11R11_UFLOAT_PACK32],
         (Described::Color { hdr: true, .. }, Precision::Exact) => &[Format::R32G32B32A32_SFLOAT],
@@ -32,16 +32,16 @@ fn wanted(resources: &Resources<'_>, described: &Described, usual: Format, range
         (Described::DepthStencil, Precision::Smallest | Precision::Balanced) => &[Format::D24_UNORM_S8_UINT],
         _ => &[],
     };
-    let Some(first) = formats.iter().find(|format| **format != usual) else { return Wanted::Usual };
+    let Some(first) = formats.iter().find(|format| **format != usual) else { return WantedFormat::Usual };
     let choice = ChosenFormat { usual, because: said.clone() };
     match formats.iter().find(|format| range <= reach(**format)) {
-        Some(format) if format == first => Wanted::Asked(*format, choice),
-        fits => Wanted::Finer { format: *fits.unwrap_or(&usual), too_coarse: *first, choice },
+        Some(format) if format == first => WantedFormat::Asked(*format, choice),
+        fits => WantedFormat::Finer { format: *fits.unwrap_or(&usual), too_coarse: *first, choice },
     }
 }
 
 /// The format that a pipeline's policy wants for an image.
-enum Wanted {
+enum WantedFormat {
     /// The usual format, as without a policy.
     Usual,
     /// The format that the policy names.
@@ -98,9 +98,11 @@ pub(super) fn choose(
         let of_group = group.iter().filter_map(|at| {
             let described = &pipeline.images[*at as usize];
             match wanted(resources, &described.format.value, format(at)?, range) {
-                Wanted::Usual => None,
-                Wanted::Asked(format, choice) => Some((described, format, choice, None)),
-                Wanted::Finer { format, too_coarse, choice } => Some((described, format, choice, Some(too_coarse))),
+                WantedFormat::Usual => None,
+                WantedFormat::Asked(format, choice) => Some((described, format, choice, None)),
+                WantedFormat::Finer { format, too_coarse, choice } => {
+                    Some((described, format, choice, Some(too_coarse)))
+                }
             }
         });
         // All images of a group have one format; the first of them decides.

@@ -1,13 +1,13 @@
 //! Values of settings: the user's choice where it is allowed, else the choice of a file or a preset, else the default.
 
-use crate::base::{Diagnostic, Sought, shown_number, suggestion};
+use crate::base::{Diagnostic, NameKind, shown_number, suggestion};
 use crate::expression::Value;
-use crate::language::{ChosenBy, Document, InForce, Setting, SettingKind};
+use crate::language::{ChosenBy, ChosenValue, Document, Setting, SettingKind};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A value for every setting, in their order.
-pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut Vec<Diagnostic>) -> Vec<InForce> {
+pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut Vec<Diagnostic>) -> Vec<ChosenValue> {
     let settings = &document.settings;
     let mut values = document.in_force().to_vec();
     let index: HashMap<&str, usize> = (0..).zip(settings).map(|(at, s)| (&*s.name.text, at)).collect();
@@ -15,12 +15,12 @@ pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut
         let Some(at) = index.get(name.as_str()) else {
             let help = suggestion(name, settings.iter().map(|setting| &*setting.name.text))
                 .or_else(|| Some("this pipeline has no settings".to_owned()));
-            errors.push(Diagnostic { help, ..Diagnostic::unknown_name(Sought::Setting, name) });
+            errors.push(Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Setting, name) });
             continue;
         };
         let setting = &settings[*at];
         match parse(&setting.kind, text) {
-            Some(value) if setting.kind.allows(&value) => values[*at] = InForce { value, by: ChosenBy::Set },
+            Some(value) if setting.kind.allows(&value) => values[*at] = ChosenValue { value, by: ChosenBy::Set },
             other => errors.push(not_allowed(setting, text, other.as_ref())),
         }
     }
@@ -28,7 +28,7 @@ pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut
 }
 
 /// The values alone.
-pub(super) fn values(chosen: &[InForce]) -> Vec<Value> {
+pub(super) fn values(chosen: &[ChosenValue]) -> Vec<Value> {
     chosen.iter().map(|chosen| chosen.value.clone()).collect()
 }
 
@@ -39,7 +39,7 @@ pub fn canonical_value(kind: &SettingKind, text: &str) -> Option<String> {
 }
 
 /// Settings in force, as they are shown.
-pub(super) fn shown(settings: &[Setting], values: &[InForce]) -> Vec<(Arc<str>, String)> {
+pub(super) fn shown(settings: &[Setting], values: &[ChosenValue]) -> Vec<(Arc<str>, String)> {
     settings.iter().zip(values).map(|(setting, chosen)| (setting.name.text.clone(), show(&chosen.value))).collect()
 }
 

@@ -1,18 +1,18 @@
 //! Names are bound, and types checked: one pass over the program, with a stack of types in place of values.
 
-use super::bound::Expression;
-use super::environment::{Bound, Declarations, Found, Origin, Symbol};
+use super::environment::{Bound, Declarations, NameMeaning, Origin, Symbol};
 use super::functions::{Callee, Function};
+use super::program::Expression;
 use super::program::{Binary, Operation, Program, shown};
-use super::types::{Type, Value, Wanted};
-use crate::base::{Diagnostic, MistakeKind, Sought, Span, nearest, suggestion, without_quotes};
+use super::types::{Type, Value, WantedTypes};
+use crate::base::{Diagnostic, MistakeKind, NameKind, Span, nearest, suggestion, without_quotes};
 use crate::vulkan::{Format, vulkans_name};
 
 /// Binds the names of a program, and checks its types and its value's.
 pub(super) fn check(
     program: Program,
     declarations: &dyn Declarations,
-    wanted: Wanted<'_>,
+    wanted: WantedTypes<'_>,
 ) -> Result<Expression, Vec<Diagnostic>> {
     let mut check = Check { program, declarations, names: Vec::new(), stack: Vec::new(), errors: Vec::new() };
     check.bind(wanted);
@@ -34,22 +34,22 @@ pub(super) fn check(
 
 /// The type of the value that a node leaves.
 #[derive(Clone, Copy)]
-enum Leaves {
+enum NodeType {
     Known(Type),
     /// Unknown, since a mistake was reported.
     Unknown,
 }
 
-impl Leaves {
+impl NodeType {
     fn known(self) -> Option<Type> {
         match self {
-            Leaves::Known(ty) => Some(ty),
-            Leaves::Unknown => None,
+            NodeType::Known(ty) => Some(ty),
+            NodeType::Unknown => None,
         }
     }
 
-    fn of(ty: Option<Type>) -> Leaves {
-        ty.map_or(Leaves::Unknown, Leaves::Known)
+    fn of(ty: Option<Type>) -> NodeType {
+        ty.map_or(NodeType::Unknown, NodeType::Known)
     }
 }
 
@@ -79,22 +79,22 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn bind(&mut self, wanted: Wanted<'_>) {
+    fn bind(&mut self, wanted: WantedTypes<'_>) {
         // The wanted type is known only for a name that is the whole expression.
         let alone = matches!(&self.program.nodes[..], [node] if matches!(node.operation, Operation::Name(_)));
         let wanted = alone.then_some(wanted);
         for (name, range) in &self.program.names {
             let format = || Format::ALL.iter().find(|format| format.name() == &**name).copied();
             let bound = match self.declarations.find(name) {
-                Found::Symbol(symbol) => Name::Bound(Bound::Symbol(symbol)),
-                Found::Reported => Name::Reported,
-                Found::Unknown => match format() {
+                NameMeaning::Symbol(symbol) => Name::Bound(Bound::Symbol(symbol)),
+                NameMeaning::Reported => Name::Reported,
+                NameMeaning::Unknown => match format() {
                     Some(format) => Name::Bound(Bound::Format(format)),
                     None => {
                         let message = format!("there is nothing named {}", shown(name));
                         let help = unknown(name, self.declarations, wanted, alone);
                         let unknown = self.program.text.mistake(range.clone(), message);
-                        let kind = MistakeKind::UnknownName(Sought::Value);
+                        let kind = MistakeKind::UnknownName(NameKind::Value);
                         self.errors.push(Diagnostic { kind, help, ..unknown });
                         Name::Unknown(self.errors.len() - 1)
                     }
@@ -105,19 +105,19 @@ impl Check<'_> {
     }
 
     /// The type that a node leaves, if it leaves a value. Takes its operands off the stack.
-    fn node(&mut self, node: u32) -> Option<Leaves> {
+    fn node(&mut self, node: u32) -> Option<NodeType> {
         Some(match self.program.node(node).operation {
-            Operation::Literal(literal) => Leaves::Known(self.program.literals[literal as usize].ty()),
+            Operation::Literal(literal) => NodeType::Known(self.program.literals[literal as usize].ty()),
             Operation::Name(name) => self.name(node, name),
             Operation::Element(name) => self.element(node, name),
             Operation::Not => {
                 let operand = self.stack.pop()?;
-                self.needs("`!`", operand, Wanted::BOOL);
-                Leaves::Known(Type::Bool)
+                self.needs("`!`", operand, WantedTypes::BOOL);
+                NodeType::Known(Type::Bool)
             }
             Operation::Negate => {
                 let operand = self.stack.pop()?;
-                Leaves::of(self.number("`-`", operand))
+                NodeType::of(self.number("`-`", operand))
             }
             Operation::Binary(binary) => {
                 let (right, left) = (self.stack.pop()?, self.stack.pop()?);
@@ -129,17 +129,17 @@ impl Check<'_> {
             }
             Operation::IfHolds(_) | Operation::IfFails(_) => {
                 let left = *self.stack.last()?;
-                self.needs(self.sign(node), left, Wanted::BOOL);
+                self.needs(self.sign(node), left, WantedTypes::BOOL);
                 return None;
             }
             Operation::And | Operation::Or => {
                 let (right, _) = (self.stack.pop()?, self.stack.pop()?);
-                self.needs(self.sign(node), right, Wanted::BOOL);
-                Leaves::Known(Type::Bool)
+                self.needs(self.sign(node), right, WantedTypes::BOOL);
+                NodeType::Known(Type::Bool)
             }
             Operation::Branch(_) => {
                 let condition = self.stack.pop()?;
-                self.needs("the condition of `if`", condition, Wanted::BOOL);
+                self.needs("the condition of `if`", condition, WantedTypes::BOOL);
                 return None;
             }
             Operation::Jump(_) => return None,
@@ -157,53 +157,53 @@ impl Check<'_> {
         }
     }
 
-    fn name(&mut self, node: u32, name: u32) -> Leaves {
+    fn name(&mut self, node: u32, name: u32) -> NodeType {
         match self.names[name as usize] {
-            Name::Bound(Bound::Format(_)) => Leaves::Known(Type::Format),
-            Name::Bound(Bound::Symbol(Symbol { ty, list: false, .. })) => Leaves::Known(ty),
+            Name::Bound(Bound::Format(_)) => NodeType::Known(Type::Format),
+            Name::Bound(Bound::Symbol(Symbol { ty, list: false, .. })) => NodeType::Known(ty),
             Name::Bound(Bound::Symbol(symbol)) => {
                 let quoted = self.program.quoted(node);
                 let message = format!("{quoted} is a list of {}: it takes an index", symbol.ty.several());
                 let help = format!("write `{}[…]`, counted from 0", quoted.trim_matches('`'));
                 self.report(node, message, symbol.declared, Some(help));
-                Leaves::Unknown
+                NodeType::Unknown
             }
-            Name::Reported | Name::Unknown(_) => Leaves::Unknown,
+            Name::Reported | Name::Unknown(_) => NodeType::Unknown,
         }
     }
 
-    fn element(&mut self, node: u32, name: u32) -> Leaves {
+    fn element(&mut self, node: u32, name: u32) -> NodeType {
         let index = self.stack.pop();
         if let Some(index) = index {
-            self.needs("an index", index, Wanted::INTEGER);
+            self.needs("an index", index, WantedTypes::INTEGER);
         }
         let declared = match self.names[name as usize] {
-            Name::Bound(Bound::Symbol(Symbol { ty, list: true, .. })) => return Leaves::Known(ty),
+            Name::Bound(Bound::Symbol(Symbol { ty, list: true, .. })) => return NodeType::Known(ty),
             Name::Bound(Bound::Symbol(symbol)) => symbol.declared,
             Name::Bound(Bound::Format(_)) => Span::NONE,
-            Name::Reported | Name::Unknown(_) => return Leaves::Unknown,
+            Name::Reported | Name::Unknown(_) => return NodeType::Unknown,
         };
         let message = format!("{} is no list: it takes no index", shown(&self.program.names[name as usize].0));
         self.report(node, message, declared, None);
-        Leaves::Unknown
+        NodeType::Unknown
     }
 
-    fn binary(&mut self, node: u32, binary: Binary, left: Operand, right: Operand) -> Leaves {
+    fn binary(&mut self, node: u32, binary: Binary, left: Operand, right: Operand) -> NodeType {
         match binary {
             Binary::Equal | Binary::NotEqual => {
                 self.equal(node, left, right);
-                Leaves::Known(Type::Bool)
+                NodeType::Known(Type::Bool)
             }
             Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual => {
                 for operand in [left, right] {
                     self.number(&format!("`{}`", binary.sign()), operand);
                 }
-                Leaves::Known(Type::Bool)
+                NodeType::Known(Type::Bool)
             }
             Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Remainder => {
                 let by = format!("`{}`", binary.sign());
                 let (left, right) = (self.number(&by, left), self.number(&by, right));
-                Leaves::of(left.zip(right).and_then(|(left, right)| match binary {
+                NodeType::of(left.zip(right).and_then(|(left, right)| match binary {
                     Binary::Divide => Some(Type::Number),
                     _ => left.meet(right),
                 }))
@@ -257,7 +257,7 @@ impl Check<'_> {
         };
         let near = choices.as_ref().and_then(|choices| nearest(written, choices.iter().copied()));
         let is_text = |name: &&str| {
-            matches!(self.declarations.find(name), Found::Symbol(Symbol { ty: Type::Text, list: false, .. }))
+            matches!(self.declarations.find(name), NameMeaning::Symbol(Symbol { ty: Type::Text, list: false, .. }))
         };
         let texts: Vec<&str> = self.declarations.names().into_iter().filter(is_text).collect();
         let help = match (near, choices) {
@@ -271,40 +271,40 @@ impl Check<'_> {
         self.errors[mistake].help = help;
     }
 
-    fn call(&mut self, function: Function, arguments: &[Operand]) -> Leaves {
+    fn call(&mut self, function: Function, arguments: &[Operand]) -> NodeType {
         let by = format!("`{}`", function.name());
         if let Function::Of(_) = function {
             for argument in arguments {
-                self.needs(&by, *argument, Wanted::IMAGE);
+                self.needs(&by, *argument, WantedTypes::IMAGE);
             }
-            return Leaves::Known(Type::Integer);
+            return NodeType::Known(Type::Integer);
         }
         let types: Vec<Option<Type>> = arguments.iter().map(|argument| self.number(&by, *argument)).collect();
         match function {
             Function::Min | Function::Max | Function::Clamp | Function::Abs => {
                 let met = types.into_iter().reduce(|met, ty| met.zip(ty).and_then(|(met, ty)| met.meet(ty)));
-                Leaves::of(met.flatten())
+                NodeType::of(met.flatten())
             }
-            Function::Floor | Function::Ceil | Function::Round | Function::Of(_) => Leaves::Known(Type::Integer),
-            Function::Sqrt | Function::Exp2 | Function::Log2 | Function::Pow => Leaves::Known(Type::Number),
+            Function::Floor | Function::Ceil | Function::Round | Function::Of(_) => NodeType::Known(Type::Integer),
+            Function::Sqrt | Function::Exp2 | Function::Log2 | Function::Pow => NodeType::Known(Type::Number),
         }
     }
 
     /// The type that both values of an `if` have; a whole number beside a number becomes a number.
-    fn choice(&mut self, node: u32, first: Operand, second: Operand) -> Leaves {
-        let (Some(first_type), Some(second_type)) = (first.ty, second.ty) else { return Leaves::Unknown };
+    fn choice(&mut self, node: u32, first: Operand, second: Operand) -> NodeType {
+        let (Some(first_type), Some(second_type)) = (first.ty, second.ty) else { return NodeType::Unknown };
         let Some(met) = first_type.meet(second_type) else {
             let (first, second) = (self.is(first.node, first_type), self.is(second.node, second_type));
             let message = format!("the values of `if` have different types: {first}, and {second}");
             self.report(node, message, Span::NONE, None);
-            return Leaves::Unknown;
+            return NodeType::Unknown;
         };
         self.program.nodes[node as usize].operation = Operation::If { widen: met == Type::Number };
-        Leaves::Known(met)
+        NodeType::Known(met)
     }
 
     /// The type of the whole expression. Reports a type that is not wanted.
-    fn result(&mut self, value: Operand, wanted: Wanted<'_>) -> Option<Type> {
+    fn result(&mut self, value: Operand, wanted: WantedTypes<'_>) -> Option<Type> {
         let ty = value.ty?;
         let widened = ty == Type::Integer && wanted.types.contains(&Type::Number);
         if wanted.types.contains(&ty) {
@@ -319,11 +319,11 @@ impl Check<'_> {
 
     /// Reports an operand that isn't a number.
     fn number(&mut self, by: &str, operand: Operand) -> Option<Type> {
-        self.needs(by, operand, Wanted::NUMBER)
+        self.needs(by, operand, WantedTypes::NUMBER)
     }
 
     /// The type of an operand. Reports a type that is not wanted.
-    fn needs(&mut self, by: &str, operand: Operand, wanted: Wanted<'_>) -> Option<Type> {
+    fn needs(&mut self, by: &str, operand: Operand, wanted: WantedTypes<'_>) -> Option<Type> {
         let Some(ty) = operand.ty else {
             self.suggest_fitting(operand, wanted);
             return None;
@@ -336,7 +336,7 @@ impl Check<'_> {
     }
 
     /// Suggests only names of a wanted type, if the operand is a name that nothing has.
-    fn suggest_fitting(&mut self, operand: Operand, wanted: Wanted<'_>) {
+    fn suggest_fitting(&mut self, operand: Operand, wanted: WantedTypes<'_>) {
         let Operation::Name(name) = self.program.node(operand.node).operation else { return };
         if let Name::Unknown(mistake) = self.names[name as usize] {
             self.errors[mistake].help =
@@ -393,7 +393,12 @@ impl Check<'_> {
 
 /// The help for a name that nothing has. `wanted` is the type that is wanted there, if that is known; `alone`: the name is
 /// the whole expression.
-fn unknown(name: &str, declarations: &dyn Declarations, wanted: Option<Wanted<'_>>, alone: bool) -> Option<String> {
+fn unknown(
+    name: &str,
+    declarations: &dyn Declarations,
+    wanted: Option<WantedTypes<'_>>,
+    alone: bool,
+) -> Option<String> {
     if let Some(callee) = Callee::find(name) {
         return Some(format!("the function is written `{}`", callee.form));
     }
@@ -401,7 +406,7 @@ fn unknown(name: &str, declarations: &dyn Declarations, wanted: Option<Wanted<'_
         let widened = ty == Type::Integer && wanted.is_some_and(|wanted| wanted.types.contains(&Type::Number));
         wanted.is_none_or(|wanted| wanted.types.contains(&ty)) || widened
     };
-    let fitting = |name: &&str| matches!(declarations.find(name), Found::Symbol(symbol) if fits(symbol.ty));
+    let fitting = |name: &&str| matches!(declarations.find(name), NameMeaning::Symbol(symbol) if fits(symbol.ty));
     let known: Vec<&str> = declarations.names().into_iter().filter(fitting).collect();
     let formats = Format::ALL.iter().map(|format| format.name()).filter(|_| fits(Type::Format));
     let near = vulkans_name(name).filter(|_| fits(Type::Format));

@@ -76,7 +76,7 @@ pub(super) enum Bound {
 
 /// The result of a search for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Found {
+pub enum NameMeaning {
     /// The declaration of the name.
     Symbol(Symbol),
     /// It is declared, but a mistake in its declaration was reported already.
@@ -88,7 +88,7 @@ pub enum Found {
 /// The names that an expression may use, without values.
 pub trait Declarations {
     /// The declaration of `name`: `levels`, `scene.has_opaque`.
-    fn find(&self, name: &str) -> Found;
+    fn find(&self, name: &str) -> NameMeaning;
 
     /// Every name, those first that should be suggested first.
     fn names(&self) -> Vec<&str>;
@@ -117,7 +117,7 @@ pub enum Property {
 
 /// Why there is no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Missing {
+pub enum MissingValue {
     /// It is only known further below, where this was declared.
     Below(Span),
     /// A mistake that was reported already is in the way.
@@ -130,25 +130,25 @@ pub trait Values {
     ///
     /// # Errors
     /// If there is none, or not yet.
-    fn value(&self, id: u32) -> Result<Value, Missing>;
+    fn value(&self, id: u32) -> Result<Value, MissingValue>;
 
     /// How many elements a list has.
     ///
     /// # Errors
     /// If that is not known, or not yet.
-    fn length(&self, id: u32) -> Result<u64, Missing>;
+    fn length(&self, id: u32) -> Result<u64, MissingValue>;
 
     /// An element of a list, counted from 0; `at` is less than [`Values::length`].
     ///
     /// # Errors
     /// If there is none, or not yet.
-    fn element(&self, id: u32, at: u64) -> Result<Value, Missing>;
+    fn element(&self, id: u32, at: u64) -> Result<Value, MissingValue>;
 
     /// A property of an image that [`Values::value`] or [`Values::element`] gave.
     ///
     /// # Errors
     /// If it is not known, or not yet.
-    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing>;
+    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, MissingValue>;
 
     /// The decisions behind the value of a parameter, which another expression gave.
     fn decided_by(&self, id: u32) -> &[Decision] {

@@ -1,9 +1,9 @@
 //! The value of an expression, the decisions behind it, or why there is none: a loop over the program with a stack.
 
 use super::arithmetic::{self, Trouble};
-use super::bound::Expression;
-use super::environment::{Bound, Decision, Missing, Property, Symbol, Values};
+use super::environment::{Bound, Decision, MissingValue, Property, Symbol, Values};
 use super::functions::Function;
+use super::program::Expression;
 use super::program::{Binary, Operation, shown};
 use super::types::{Type, Value};
 use crate::base::{Diagnostic, Span, shown_number};
@@ -18,12 +18,12 @@ pub struct Outcome {
     /// that was not evaluated decides nothing. Where one operand alone made `&&` false or `||` true, the other decides nothing.
     pub decided: Vec<Decision>,
     /// The part that made the value `false`, if it is.
-    pub failed: Option<Failed>,
+    pub failed: Option<FailedCondition>,
 }
 
 /// The smallest part of a condition that made it `false`: of `a && b` the operand that doesn't hold, else the whole.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Failed {
+pub struct FailedCondition {
     /// Where it stands.
     pub span: Span,
     /// As it was written.
@@ -94,7 +94,7 @@ enum Fault {
     /// A list of `length` elements has none at `at`, which the part `index` left.
     NoElement { at: i64, index: u32, length: u64, declared: Span },
     /// A value isn't known.
-    Missing(Missing),
+    Missing(MissingValue),
 }
 
 impl Fault {
@@ -102,8 +102,8 @@ impl Fault {
     const UNDECLARED: Fault = Fault::Trouble { trouble: Trouble::Undeclared, operands: [0; 2] };
 }
 
-impl From<Missing> for Fault {
-    fn from(missing: Missing) -> Fault {
+impl From<MissingValue> for Fault {
+    fn from(missing: MissingValue) -> Fault {
         Fault::Missing(missing)
     }
 }
@@ -273,10 +273,14 @@ impl Run<'_> {
         Decision { name, origin: symbol.origin, value: value.clone() }
     }
 
-    fn failed(&self, part: u32) -> Failed {
+    fn failed(&self, part: u32) -> FailedCondition {
         let text = &self.expression.program.text;
         let range = self.expression.program.range(part);
-        Failed { span: text.span(range.clone()), text: text.part(range).to_owned(), decided: self.decided(part) }
+        FailedCondition {
+            span: text.span(range.clone()),
+            text: text.part(range).to_owned(),
+            decided: self.decided(part),
+        }
     }
 
     /// The values that were read within a part: "`levels` = 0, `i` = 1". Images and buffers are not shown.
@@ -334,11 +338,11 @@ impl Run<'_> {
                 };
                 declared(at(part, message), place, "declared here")
             }
-            Fault::Missing(Missing::Below(place)) => {
+            Fault::Missing(MissingValue::Below(place)) => {
                 let message = format!("{} is not known yet", program.quoted(node));
                 declared(at(node, message), place, "declared here, further below")
             }
-            Fault::Missing(Missing::Reported) => return None,
+            Fault::Missing(MissingValue::Reported) => return None,
         })
     }
 }

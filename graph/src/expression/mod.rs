@@ -36,7 +36,6 @@
 //! find types only as they go, and tell no places.
 
 mod arithmetic;
-mod bound;
 mod check;
 mod environment;
 mod evaluate;
@@ -46,12 +45,12 @@ mod program;
 mod tokens;
 mod types;
 
-pub use bound::Expression;
-pub use environment::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Values};
-pub use evaluate::{Failed, Outcome};
+pub use environment::{Decision, Declarations, MissingValue, NameMeaning, Origin, Property, Symbol, Values};
+pub use evaluate::{FailedCondition, Outcome};
 pub use functions::functions;
 pub use parse::{LONGEST_TEXT, MOST_NESTED};
-pub use types::{Type, Value, Wanted};
+pub use program::Expression;
+pub use types::{Type, Value, WantedTypes};
 
 use crate::base::{Diagnostic, Span};
 use environment::Bound;
@@ -59,18 +58,18 @@ use program::Program;
 
 /// An expression that was parsed; its names are not bound yet.
 #[derive(Debug, Clone)]
-pub struct Parsed {
+pub struct ParsedExpression {
     program: Program,
 }
 
-impl Parsed {
+impl ParsedExpression {
     /// Parses `text`. `span` is where it stands: all between the quotes. If that has another length than `text`, the
     /// file wrote it with escapes, and every mistake is placed at the whole span.
     ///
     /// # Errors
     /// The first mistake in the text.
-    pub fn new(text: &str, span: Span) -> Result<Parsed, Diagnostic> {
-        parse::parse(text, span).map(|program| Parsed { program })
+    pub fn new(text: &str, span: Span) -> Result<ParsedExpression, Diagnostic> {
+        parse::parse(text, span).map(|program| ParsedExpression { program })
     }
 
     /// Every name that it refers to, once, in the order of the text, with its first place. Formats are among them.
@@ -81,14 +80,18 @@ impl Parsed {
     /// Binds its names, and checks that types fit together and that the whole has a wanted type.
     ///
     /// # Errors
-    /// Every mistake; none if all that is wrong was reported already ([`Found::Reported`]).
-    pub fn check(self, declarations: &dyn Declarations, wanted: Wanted<'_>) -> Result<Expression, Vec<Diagnostic>> {
+    /// Every mistake; none if all that is wrong was reported already ([`NameMeaning::Reported`]).
+    pub fn check(
+        self,
+        declarations: &dyn Declarations,
+        wanted: WantedTypes<'_>,
+    ) -> Result<Expression, Vec<Diagnostic>> {
         check::check(self.program, declarations, wanted)
     }
 }
 
 impl Expression {
-    /// Parses and checks: see [`Parsed::new`] and [`Parsed::check`].
+    /// Parses and checks: see [`ParsedExpression::new`] and [`ParsedExpression::check`].
     ///
     /// # Errors
     /// The mistakes of both.
@@ -96,9 +99,9 @@ impl Expression {
         text: &str,
         span: Span,
         declarations: &dyn Declarations,
-        wanted: Wanted<'_>,
+        wanted: WantedTypes<'_>,
     ) -> Result<Expression, Vec<Diagnostic>> {
-        Parsed::new(text, span).map_err(|mistake| vec![mistake])?.check(declarations, wanted)
+        ParsedExpression::new(text, span).map_err(|mistake| vec![mistake])?.check(declarations, wanted)
     }
 
     /// As it was written.
@@ -135,7 +138,7 @@ impl Expression {
     /// Its value.
     ///
     /// # Errors
-    /// Why it has none; nothing if that was reported already ([`Missing::Reported`]).
+    /// Why it has none; nothing if that was reported already ([`MissingValue::Reported`]).
     pub fn evaluate(&self, values: &dyn Values) -> Result<Outcome, Vec<Diagnostic>> {
         evaluate::evaluate(self, values)
     }

@@ -2,7 +2,7 @@
 
 use super::functions::{CALLEES, Callee};
 use super::program::{Binary, Node, Operation, Program, Text, shown};
-use super::tokens::{self, Mistake, Placed, Token};
+use super::tokens::{self, Mistake, PlacedToken, Token};
 use super::types::Value;
 use crate::base::{Diagnostic, Span, nearest, suggestion};
 use std::ops::Range;
@@ -105,7 +105,7 @@ struct Jump {
 
 struct Parser<'a> {
     text: &'a str,
-    next: Placed<'a>,
+    next: PlacedToken<'a>,
     /// Parentheses, brackets and prefix operators that are open.
     depth: usize,
     nodes: Vec<Node>,
@@ -120,7 +120,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Takes the next token.
-    fn take(&mut self) -> Result<Placed<'a>, Mistake> {
+    fn take(&mut self) -> Result<PlacedToken<'a>, Mistake> {
         let after = tokens::next(self.text, self.next.range.end)?;
         Ok(std::mem::replace(&mut self.next, after))
     }
@@ -200,7 +200,7 @@ impl<'a> Parser<'a> {
     /// A value with the operators before it.
     fn operand(&mut self) -> Result<Range<usize>, Mistake> {
         let first = self.nodes.len();
-        let Placed { token, range } = self.next.clone();
+        let PlacedToken { token, range } = self.next.clone();
         match token {
             Token::Integer(digits) => self.integer(digits, &range),
             Token::Number(digits) => {
@@ -352,7 +352,7 @@ impl<'a> Parser<'a> {
 
     /// The mistake that the next token is not `what`, which was expected.
     fn expected(&self, what: &str) -> Mistake {
-        let Placed { token, range } = self.next.clone();
+        let PlacedToken { token, range } = self.next.clone();
         let found = match token {
             Token::End => "the end".to_owned(),
             _ => shown(&self.text[range.clone()]),

@@ -1,10 +1,20 @@
 //! The compact form of an expression: its parts in the order in which they are evaluated, operands before operators.
 
+use super::environment::Bound;
 use super::functions::Function;
-use super::types::Value;
+use super::types::{Type, Value};
 use crate::base::{Diagnostic, Span};
 use std::ops::Range;
 use std::sync::Arc;
+
+/// An expression with the meaning of its names: evaluated as often as there are values.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    pub(super) program: Program,
+    /// The bindings of the program's names.
+    pub(super) bound: Vec<Bound>,
+    pub(super) ty: Type,
+}
 
 /// An operator between two values; `&&` and `||` are jumps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -44,17 +44,17 @@ const SIGNS: [&str; 19] =
 
 /// A token and its bytes.
 #[derive(Debug, Clone)]
-pub(super) struct Placed<'a> {
+pub(super) struct PlacedToken<'a> {
     pub(super) token: Token<'a>,
     pub(super) range: Range<usize>,
 }
 
 /// The token at or after byte `at`, blanks left out.
-pub(super) fn next(text: &str, at: usize) -> Result<Placed<'_>, Mistake> {
+pub(super) fn next(text: &str, at: usize) -> Result<PlacedToken<'_>, Mistake> {
     let rest = &text[at..];
     let start = at + (rest.len() - rest.trim_start().len());
     let rest = &text[start..];
-    let placed = |token, length| Ok(Placed { token, range: start..start + length });
+    let placed = |token, length| Ok(PlacedToken { token, range: start..start + length });
     let Some(first) = rest.chars().next() else { return placed(Token::End, 0) };
     if first.is_ascii_digit() {
         let (length, whole) = number(rest);

@@ -133,31 +133,31 @@ impl fmt::Display for Value {
 
 /// The types that a place in a file wants of its expression.
 #[derive(Debug, Clone, Copy)]
-pub struct Wanted<'a> {
+pub struct WantedTypes<'a> {
     /// The types that fit. Where [`Type::Number`] fits and [`Type::Integer`] doesn't, a whole number becomes a number.
     pub types: &'a [Type],
     /// The name in messages: "a whole number".
     pub words: &'a str,
 }
 
-impl Wanted<'static> {
+impl WantedTypes<'static> {
     /// `true` or `false`.
-    pub const BOOL: Self = Wanted { types: &[Type::Bool], words: Type::Bool.words() };
+    pub const BOOL: Self = WantedTypes { types: &[Type::Bool], words: Type::Bool.words() };
     /// A whole number.
-    pub const INTEGER: Self = Wanted { types: &[Type::Integer], words: Type::Integer.words() };
+    pub const INTEGER: Self = WantedTypes { types: &[Type::Integer], words: Type::Integer.words() };
     /// A number; whole ones become numbers.
-    pub const NUMBER: Self = Wanted { types: &[Type::Number], words: Type::Number.words() };
+    pub const NUMBER: Self = WantedTypes { types: &[Type::Number], words: Type::Number.words() };
     /// A text.
-    pub const TEXT: Self = Wanted { types: &[Type::Text], words: "a text in single quotes" };
+    pub const TEXT: Self = WantedTypes { types: &[Type::Text], words: "a text in single quotes" };
     /// A format.
-    pub const FORMAT: Self = Wanted { types: &[Type::Format], words: Type::Format.words() };
+    pub const FORMAT: Self = WantedTypes { types: &[Type::Format], words: Type::Format.words() };
     /// An image.
-    pub const IMAGE: Self = Wanted { types: &[Type::Image], words: Type::Image.words() };
+    pub const IMAGE: Self = WantedTypes { types: &[Type::Image], words: Type::Image.words() };
     /// A buffer.
-    pub const BUFFER: Self = Wanted { types: &[Type::Buffer], words: Type::Buffer.words() };
+    pub const BUFFER: Self = WantedTypes { types: &[Type::Buffer], words: Type::Buffer.words() };
     /// An image or a buffer.
-    pub const RESOURCE: Self = Wanted { types: &[Type::Image, Type::Buffer], words: "an image or buffer" };
+    pub const RESOURCE: Self = WantedTypes { types: &[Type::Image, Type::Buffer], words: "an image or buffer" };
     /// A value for a parameter of a shader.
     pub const PARAMETER: Self =
-        Wanted { types: &[Type::Bool, Type::Integer, Type::Number], words: "a number, `true` or `false`" };
+        WantedTypes { types: &[Type::Bool, Type::Integer, Type::Number], words: "a number, `true` or `false`" };
 }

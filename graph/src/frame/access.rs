@@ -1,7 +1,7 @@
 //! Accesses of a pass: its images and buffers, which part of each, and whether that part is read and written.
 
 use super::{
-    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, Sampled, Storage,
+    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, SampledImage, Storage,
     TransferUse, Work,
 };
 use crate::base::Span;
@@ -10,7 +10,7 @@ use crate::vulkan::{AccessKind, Format, Subresources};
 /// An image or a buffer that a pass names, by the role in which it does.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Access<'p> {
-    Sampled(&'p Sampled),
+    Sampled(&'p SampledImage),
     Storage(&'p Storage),
     Color(&'p ColorTarget),
     Depth(&'p DepthTarget),
@@ -132,7 +132,7 @@ impl Access<'_> {
         }
     }
 
-    /// Of which frame: 0 is this one, 1 the one before.
+    /// How many frames ago: 0 is this frame.
     #[inline]
     pub(crate) fn frames_ago(&self) -> u32 {
         match *self {
@@ -271,7 +271,7 @@ mod tests {
         let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::FRAGMENT_SHADER);
         let work = Work::Forward { from: image(6), to: image(7), because: String::new() };
         let mut pass = Pass::new("all", work);
-        pass.sampled = vec![Sampled::new("s", image(0), stages)];
+        pass.sampled = vec![SampledImage::new("s", image(0), stages)];
         pass.storage =
             vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
         pass.color = vec![ColorTarget { image: image(2), range, span, clear: None, blend: Blend::Replace }];

@@ -35,8 +35,8 @@ pub struct Captures {
 impl Frame {
     /// What can be captured: the images that each pass of `runs` writes, in the order of the passes.
     ///
-    /// Left out are images of which less than a whole picture is in use, since those may change from frame to frame, and what can't be
-    /// resolved of multisampled images: parts of them, several layers of depth or integers, and stencil.
+    /// Two kinds of images are left out. If less than a whole picture of an image is in use, that part may change from frame to frame.
+    /// And some of multisampled images can't be resolved: parts, several layers of depth or integers, and stencil.
     #[must_use]
     pub fn captures(&self, runs: impl Fn(&str) -> bool) -> Captures {
         let mut all = Captures::default();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub enum Action {
     /// The file extends another pipeline.
     Extends {
-        /// The path of that one's file, from the folder of the pipeline on.
+        /// The path of the other pipeline's file, from the folder of the pipeline on.
         file: Arc<str>,
     },
     /// The file applies an extension.
@@ -46,7 +46,7 @@ pub enum Action {
     /// It puts passes, uses of fragments and anchors between those that are there.
     Insert {
         /// Where.
-        place: Where,
+        place: InsertPlace,
         /// Their names.
         names: Vec<Arc<str>>,
     },
@@ -118,7 +118,7 @@ impl Kind {
 /// Where passes are inserted.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Where {
+pub enum InsertPlace {
     /// Before all others.
     Start,
     /// Before the pass of that name.

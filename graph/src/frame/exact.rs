@@ -6,8 +6,8 @@ use crate::vulkan::Format;
 
 impl Frame {
     /// Gives images the most exact formats of their kind that the device has: colour 32 bits of floating point a channel, depth too.
-    /// Integers keep theirs, and so do images that come from outside, that shaders write as storage images, whose bytes are
-    /// moved, or that leave the frame in an encoding that they must be able to hold.
+    /// These images keep their format: integers, images from outside, storage images that shaders write, and images whose bytes are
+    /// moved. So do images that leave the frame in an encoding, which their format must hold.
     pub fn make_exact(&mut self, device: &Profile) {
         let fixed = self.images_with_fixed_formats();
         let wanted: Vec<Option<Format>> =

@@ -27,7 +27,7 @@ impl Jitter {
         let axis = |base| {
             let points = (1..=length).map(move |number| radical_inverse(number.into(), base));
             let mean = points.clone().sum::<f64>() / f64::from(length);
-            // Of some lengths a point lies a little beyond half a texel then: all move closer to the middle.
+            // At some lengths a point then lies a little beyond half a texel: all points move closer to the middle.
             let farthest = points.clone().map(|point| (point - mean).abs()).fold(0.5, f64::max);
             points.map(move |point| (point - mean) * (0.5 / farthest))
         };

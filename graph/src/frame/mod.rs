@@ -7,8 +7,8 @@ mod access;
 mod capture;
 pub mod change;
 pub(crate) mod check;
-mod covers;
-mod decided;
+mod coverage;
+mod decided_property;
 mod draw;
 mod exact;
 mod index;
@@ -20,14 +20,14 @@ mod part;
 mod pass;
 mod resource;
 mod texture;
-pub(crate) mod tracked;
+pub(crate) mod tracked_parts;
 mod uses;
 mod view;
 mod work;
 
 pub(crate) use access::{Access, Effect, VisitAccess};
 pub use capture::{Capture, Captures, capture_name};
-pub use decided::{Decided, DecidedBy, NamedValue, Property, Subject};
+pub use decided_property::{DecidedBy, DecidedProperty, NamedValue, Property, Subject};
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
@@ -42,7 +42,7 @@ pub use texture::{
     ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
 };
 pub use uses::{
-    Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
+    Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, SampledImage, StencilState, Storage, TransferUse,
 };
 pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
 pub use work::{Groups, Work};
@@ -75,7 +75,7 @@ pub struct Frame {
     /// Images and buffers whose last version the frame is made for.
     pub outputs: Vec<Output>,
     /// The properties of images and passes that settings and facts decided.
-    pub decided: Arc<[Decided]>,
+    pub decided: Arc<[DecidedProperty]>,
     /// Passes, and images that passes sample, that conditions switched off, and why.
     pub switched_off: Vec<SwitchedOff>,
     /// Warnings: allowed, but probably a mistake.

@@ -1,6 +1,6 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, Sampled, Storage, TransferUse, ViewIndex, Work};
+use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub struct Pass {
     /// The work of the pass.
     pub work: Work,
     /// Images that its shaders sample.
-    pub sampled: Vec<Sampled>,
+    pub sampled: Vec<SampledImage>,
     /// Images that its shaders write (and perhaps read) without attachments.
     pub storage: Vec<Storage>,
     /// Colour attachments by location.

@@ -109,12 +109,12 @@ pub struct Resolve {
 /// A way in which several samples become one value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResolveWay {
-    /// Of depth: its draws are repeated with one sample.
+    /// Depth alone: its draws are repeated with one sample.
     DepthOnly,
-    /// In one of Vulkan's modes: of colour the average, of integers sample zero, of depth any.
+    /// By one of Vulkan's modes: the average for colour, sample zero for integers, any mode for depth.
     By(ResolveMode),
-    /// Of floating-point and normalised colour: the mean of tone-mapped samples, taken back to light, so that one bright
-    /// sample doesn't drown the others. By a draw.
+    /// Floating-point and normalised colour alone: a draw takes the mean of tone-mapped samples back to light. So one bright
+    /// sample doesn't drown the others.
     Weighted,
 }
 

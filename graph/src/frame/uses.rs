@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// An image that a pass samples.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sampled {
+pub struct SampledImage {
     /// The name by which the shader knows it; of an element of an array its name and number, `taps[0]`.
     pub binding: Arc<str>,
     /// Which image.
@@ -16,7 +16,7 @@ pub struct Sampled {
     /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; shaders see one plane: no planes,
     /// or all, mean depth where there is stencil beside it.
     pub range: Subresources,
-    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for images with history.
+    /// How many frames ago: 0 is this frame. More than 0 only for images with history.
     pub frames_ago: u32,
     /// Where the image was named.
     pub span: Span,
@@ -37,11 +37,11 @@ pub struct Sampled {
     pub stages: Stages,
 }
 
-impl Sampled {
+impl SampledImage {
     /// All of an image of this frame, sampled by its nearest texels, one value each; no file names it.
     #[must_use]
-    pub fn new(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> Sampled {
-        Sampled {
+    pub fn new(binding: impl Into<Arc<str>>, image: ImageIndex, stages: Stages) -> SampledImage {
+        SampledImage {
             binding: binding.into(),
             image,
             range: Subresources::WHOLE,
@@ -65,8 +65,8 @@ pub enum Face {
     Resolved,
     /// Each sample by itself.
     Samples,
-    /// One value of depth. Of an image with several samples it is the value that drawing it again with one sample leaves,
-    /// independent of the image's `resolve`.
+    /// One value of depth. If the image has several samples, it is drawn again with one sample, whatever the image's
+    /// `resolve` is.
     DepthOnly,
 }
 
@@ -175,7 +175,7 @@ pub struct BufferUse {
     pub binding: Option<Arc<str>>,
     /// Which buffer.
     pub buffer: BufferIndex,
-    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for buffers with history.
+    /// How many frames ago: 0 is this frame. More than 0 only for buffers with history.
     pub frames_ago: u32,
     /// Where the buffer was named.
     pub span: Span,
@@ -213,7 +213,7 @@ pub struct TransferUse {
     pub resource: Resource,
     /// Which part of an image. Copies and blits take one mip level.
     pub range: Subresources,
-    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for reads of images and buffers with history.
+    /// How many frames ago: 0 is this frame. More than 0 only for reads of images and buffers with history.
     pub frames_ago: u32,
     /// Where it was named.
     pub span: Span,

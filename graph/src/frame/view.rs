@@ -167,7 +167,7 @@ impl EyeForm {
         }
     }
 
-    /// Width, height and depth that an image is made with, of which one eye's part, turned by `rotation`, has these.
+    /// Width, height and depth that an image is made with. One eye's part of it, turned by `rotation`, has the given ones.
     #[must_use]
     pub const fn extent(form: Option<EyeForm>, [width, height, depth]: [u32; 3], rotation: Rotation) -> [u32; 3] {
         match (form, rotation) {

@@ -7,8 +7,8 @@ use crate::expression::Value;
 use crate::frame::Allowances;
 use crate::frame::change::{Change, Kind};
 use crate::language::compose::change_log::ChangeLog;
-use crate::language::compose::extend::Composed;
-use crate::language::compose::includes::{self, Wanted};
+use crate::language::compose::extend::ComposedPipeline;
+use crate::language::compose::includes::{self, WantedFiles};
 use crate::language::compose::loader::{self, Loader};
 use crate::language::compose::origins::Origins;
 use crate::language::compose::tables::{self, PIPELINE, Sections};
@@ -21,7 +21,7 @@ use crate::language::entries::views::ViewEntries;
 use crate::language::entries::{presets, settings};
 use crate::language::evaluate::{Memory, Purpose, evaluate};
 use crate::language::inputs::{Facts, Surroundings};
-use crate::language::model::{InForce, Pipeline, Preset, Setting, SettingsFile, in_force, unknown_preset};
+use crate::language::model::{ChosenValue, Pipeline, Preset, Setting, SettingsFile, in_force, unknown_preset};
 use crate::language::scope::{Context, Parameter, Scope};
 use crate::ron::{Names, Reader, Tree};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub struct Document {
     pub settings: Vec<Setting>,
     /// Presets that a user may choose, in file order.
     pub presets: Vec<Preset>,
-    in_force: Vec<InForce>,
+    in_force: Vec<ChosenValue>,
     entries: Arc<Entries>,
     /// Whether an expression may ask for a property of the device.
     asks_device: bool,
@@ -52,14 +52,14 @@ impl Document {
         mut reader: Reader,
         loader: &mut Loader<'_>,
         relative: &FilePath,
-        Composed { tree, mut wanted, change_log }: Composed,
+        ComposedPipeline { tree, mut wanted, change_log }: ComposedPipeline,
     ) -> Result<Document, Vec<Diagnostic>> {
         let mut entries = None;
         if let Some(sections) = Sections::read(&mut reader, tree.root(), "the pipeline", &PIPELINE) {
             let (names, settings) = settings::list(&mut reader, sections.get(&tables::SETTINGS));
             let presets = presets::presets(&mut reader, sections.get(&tables::PRESETS), &settings);
             let paths = loader::paths(&mut reader, sections.get(&tables::INCLUDE), "`include`");
-            wanted.push(Wanted { from: relative.clone(), paths });
+            wanted.push(WantedFiles { from: relative.clone(), paths });
             let included = includes::read(&mut reader, loader, wanted);
             loader.look(&mut reader, sections.get(&tables::TEXTURES));
             loader.look_in_fragments(&mut reader, tree.root());
@@ -130,7 +130,7 @@ impl Document {
 
     /// The value of every setting, in their order, as [`Document::choose`] left it; at first defaults.
     #[must_use]
-    pub fn in_force(&self) -> &[InForce] {
+    pub fn in_force(&self) -> &[ChosenValue] {
         &self.in_force
     }
 

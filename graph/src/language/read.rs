@@ -4,7 +4,7 @@ use super::document::Document;
 use super::mistakes::{in_order, never_none};
 use crate::base::{Diagnostic, FilePath, NoText, Sources, Span, text_of, without_mark};
 use crate::language::compose::extend;
-use crate::language::compose::files::{Files, Found, LARGEST_FILE, NoFiles, no_pipeline};
+use crate::language::compose::files::{Files, FoundFile, LARGEST_FILE, NoFiles, no_pipeline};
 use crate::language::compose::layers::Layer;
 use crate::language::compose::loader::{self, Loader};
 use crate::ron::{Reader, Tree};
@@ -34,7 +34,7 @@ pub fn read_bytes_with(
     relative: &str,
     bytes: Vec<u8>,
 ) -> Result<Document, Vec<Diagnostic>> {
-    let pipeline = Found { shown: shown.to_owned(), relative: relative.into(), bytes };
+    let pipeline = FoundFile { shown: shown.to_owned(), relative: relative.into(), bytes };
     read_extended(sources, files, pipeline, Vec::new())
 }
 
@@ -46,10 +46,10 @@ pub fn read_bytes_with(
 pub fn read_extended(
     sources: &mut Sources,
     files: &mut dyn Files,
-    pipeline: Found,
-    extensions: Vec<Found>,
+    pipeline: FoundFile,
+    extensions: Vec<FoundFile>,
 ) -> Result<Document, Vec<Diagnostic>> {
-    let Found { shown, relative, bytes } = pipeline;
+    let FoundFile { shown, relative, bytes } = pipeline;
     if bytes.len() > LARGEST_FILE {
         return Err(vec![too_large(&shown, bytes.len())]);
     }
@@ -99,7 +99,7 @@ fn read_all(
     sources: &mut Sources,
     files: &mut dyn Files,
     (shown, relative, text): (&str, &FilePath, &str),
-    extensions: Vec<Found>,
+    extensions: Vec<FoundFile>,
 ) -> Result<Document, Vec<Diagnostic>> {
     let text: Arc<str> = text.into();
     let file = sources.add(shown, relative, text.clone());

@@ -3,7 +3,7 @@
 use super::settings_file::SettingsFields;
 use crate::language::compose::tables::{EXTENDING, EXTENSION, LibraryFields, PIPELINE};
 use crate::language::entries::work::GOES_WITH;
-use crate::ron::{Described, Form, Plain, Row, Table, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, PlainForm, Row, Table, Word, WordContents, Words};
 use serde_json::{Map, Value, json};
 
 /// The schema of pipelines, files of fragments and settings files.
@@ -87,9 +87,9 @@ impl Schema {
             .takes
             .iter()
             .map(|takes| match takes {
-                Takes::Nothing => nothing(),
-                Takes::Values(values) => self.tuple(values),
-                Takes::Fields(table) => self.fields(table()),
+                WordContents::Nothing => nothing(),
+                WordContents::Values(values) => self.tuple(values),
+                WordContents::Fields(table) => self.fields(table()),
             })
             .collect();
         let mut value = only(word.word, &either(takes));
@@ -131,18 +131,18 @@ impl Schema {
         }
     }
 
-    fn plain(&mut self, plain: Plain) -> Value {
+    fn plain(&mut self, plain: PlainForm) -> Value {
         let name = |letters: &str| {
             let pattern = format!("^[\\p{{Alphabetic}}_][\\p{{Alphabetic}}\\p{{N}}{letters}]*$");
             json!({ "type": "string", "pattern": pattern, "maxLength": 64 })
         };
         match plain {
-            Plain::Truth => json!({ "type": "boolean" }),
-            Plain::Whole => json!({ "type": "integer" }),
-            Plain::Number => json!({ "type": "number" }),
-            Plain::Text => json!({ "type": "string" }),
-            Plain::Name => self.named("name", |_| name("_")),
-            Plain::Outside => self.named("outside_name", |_| name("_\\-")),
+            PlainForm::Truth => json!({ "type": "boolean" }),
+            PlainForm::Whole => json!({ "type": "integer" }),
+            PlainForm::Number => json!({ "type": "number" }),
+            PlainForm::Text => json!({ "type": "string" }),
+            PlainForm::Name => self.named("name", |_| name("_")),
+            PlainForm::Outside => self.named("outside_name", |_| name("_\\-")),
         }
     }
 

@@ -7,7 +7,7 @@ use crate::language::compose::files::LARGEST_FILE;
 use crate::language::compose::tables::VERSION;
 use crate::language::entries::presets::{SET, set};
 use crate::language::model::{Preset, Setting, SettingsFile, unknown_preset};
-use crate::ron::{Leaf, Plain, Reader, Tree};
+use crate::ron::{Leaf, PlainForm, Reader, Tree};
 use std::sync::Arc;
 
 /// The version of settings files that this library reads.
@@ -23,7 +23,7 @@ fields! {
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
         version: Leaf<'src> => VERSION,
         /// The preset that it begins with.
-        preset: Option<Leaf<'src>> => Form::Plain(Plain::Name),
+        preset: Option<Leaf<'src>> => Form::Plain(PlainForm::Name),
         /// Values of settings, which are stronger than those of the preset.
         set: Option<Leaf<'src>> => SET,
     }

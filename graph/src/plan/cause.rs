@@ -10,12 +10,12 @@ pub enum Cause {
     /// The pipeline says so, there (`None`: the frame was built in memory).
     Written(Option<Place>),
     /// The compiler inserted it. Inserted things are few, so their reason is boxed to keep all other causes small.
-    Inserted(Box<Inserted>),
+    Inserted(Box<InsertionCause>),
 }
 
 /// Why the compiler inserted something.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Inserted {
+pub struct InsertionCause {
     /// In the reader's words: "pass `tonemap` samples `color` and it has 4 samples".
     pub because: String,
     /// The place that made it necessary.

@@ -1,7 +1,7 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
-use super::{BufferId, FORMAT_VERSION, ImageId, Initial, Plan, Resource, Role, Step, StepId, ViewId, Work};
-use crate::plan::names::Shown;
+use super::{BufferId, FORMAT_VERSION, FirstContents, ImageId, Plan, Resource, Role, Step, StepId, ViewId, Work};
+use crate::plan::names::ShownText;
 use crate::vulkan::FillValue;
 use serde::Deserialize;
 
@@ -50,7 +50,7 @@ pub enum PlanError {
 /// The one field that every version has.
 #[derive(Deserialize)]
 #[serde(expecting = "a Plan")]
-struct Versioned {
+struct VersionField {
     format_version: u64,
 }
 
@@ -69,7 +69,7 @@ impl Plan {
     /// # Errors
     /// Not JSON, another version, unknown or missing fields, or an index that points nowhere.
     pub fn from_json(text: &str) -> Result<Plan, PlanError> {
-        let version: Versioned = serde_json::from_str(text)?;
+        let version: VersionField = serde_json::from_str(text)?;
         if version.format_version != u64::from(FORMAT_VERSION) {
             return Err(PlanError::Version { found: version.format_version });
         }
@@ -106,7 +106,7 @@ impl Plan {
         if id as usize != index {
             return Err(PlanError::WrongId { list, index, id });
         }
-        let place = || format!("{list}[{index}] `{}`", Shown(name));
+        let place = || format!("{list}[{index}] `{}`", ShownText(name));
         match role {
             Role::Transient(placement) => {
                 in_range("heaps", placement.heap, self.heaps.len(), place)?;
@@ -174,7 +174,7 @@ impl Plan {
     fn check_numbers(&self) -> Result<(), PlanError> {
         let initial = self.images.iter().map(|image| &image.role).chain(self.buffers.iter().map(|buffer| &buffer.role));
         for role in initial {
-            if let Role::Persistent { initial: Initial::Value(initial), .. } = role
+            if let Role::Persistent { initial: FirstContents::Value(initial), .. } = role
                 && !is_finite_fill(initial)
             {
                 return Err(PlanError::NotFinite { place: "an initial value".to_owned() });
@@ -196,7 +196,8 @@ impl Plan {
             }
             for (pass, param) in passes.flat_map(|pass| pass.params.iter().map(move |param| (pass, param))) {
                 if !param.value.is_finite() {
-                    let place = format!("`{}` of pass `{}` in steps[{index}]", Shown(&param.name), Shown(&pass.name));
+                    let place =
+                        format!("`{}` of pass `{}` in steps[{index}]", ShownText(&param.name), ShownText(&pass.name));
                     return Err(PlanError::NotFinite { place });
                 }
             }

@@ -28,7 +28,7 @@
 
 use crate::base::Place;
 use crate::frame::change::Action;
-use crate::frame::{Decided, EyeForm, Stereo};
+use crate::frame::{DecidedProperty, EyeForm, Stereo};
 use crate::vulkan::{ResolveMode, Rotation};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -37,7 +37,7 @@ mod cause;
 mod entries;
 mod ids;
 mod json;
-mod moved;
+mod moved_bytes;
 pub(crate) mod names;
 mod note;
 mod on_chip;
@@ -55,15 +55,15 @@ mod walk;
 mod work;
 
 pub use crate::frame::NoteKind;
-pub use cause::{Cause, Inserted};
+pub use cause::{Cause, InsertionCause};
 pub use entries::{About, Entry, EntryKind, Item};
 pub use ids::{BufferId, ImageId, Resource, StepId, ViewId};
 pub use json::PlanError;
-pub use moved::Moved;
+pub use moved_bytes::MovedBytes;
 pub use note::{Note, Stage};
 pub use output::Output;
 pub use reason::{NextUse, Reason};
-pub use resources::{Buffer, ChosenFormat, Heap, Image, Initial, Placement, Role};
+pub use resources::{Buffer, ChosenFormat, FirstContents, Heap, Image, Placement, Role};
 pub use step::{BufferHazard, Hazard, ImageBarrier, MemoryBarrier, Queue, Step, Wait};
 pub use text::{Detail, Outline, Text};
 pub use totals::Totals;
@@ -90,7 +90,7 @@ pub struct Plan {
     pub changes: Vec<Change>,
     /// The properties of images and passes that settings and facts decided, with their values. A subject may be one that the
     /// frame names and the Plan doesn't have: an image that became part of another one, or a pass that was culled.
-    pub decided: Arc<[Decided]>,
+    pub decided: Arc<[DecidedProperty]>,
     /// Width and height of the output that was asked for. A Plan without views shows the scene with this ratio.
     pub extent: [u32; 2],
     /// How the frame is drawn for two eyes, by scopes whose attachments hold both eyes' parts ([`Image::eyes`]).

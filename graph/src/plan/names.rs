@@ -6,9 +6,9 @@ use std::fmt;
 use std::fmt::{Display, Formatter, Write};
 
 /// Text from a file, without raw control characters.
-pub(crate) struct Shown<'t>(pub(crate) &'t str);
+pub(crate) struct ShownText<'t>(pub(crate) &'t str);
 
-impl Display for Shown<'_> {
+impl Display for ShownText<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for letter in self.0.chars() {
             match letter {
@@ -36,7 +36,7 @@ impl Plan {
     /// The name of a step for people: its passes' names, or its source and target. Escaped; empty if there is no such step.
     pub(crate) fn step_name(&self, step: StepId) -> String {
         const MOST: usize = 3;
-        let quoted = |name: &str| format!("`{}`", Shown(name));
+        let quoted = |name: &str| format!("`{}`", ShownText(name));
         let Some(work) = self.steps.get(step.0 as usize).map(|step| &step.work) else { return String::new() };
         if let Some(scope) = work.scope() {
             let names: Vec<_> = scope.passes.iter().take(MOST).map(|pass| quoted(&pass.name)).collect();

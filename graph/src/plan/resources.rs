@@ -94,7 +94,7 @@ pub enum Role {
         /// for one frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
         becomes: u32,
         /// Contents before the first frame, in the state `before`. The first frame waits until they are there.
-        initial: Initial,
+        initial: FirstContents,
         /// State in which a frame finds it: the `after` of the one that becomes it.
         before: State,
         /// State in which a frame leaves it.
@@ -134,7 +134,7 @@ impl Role {
 /// Contents of a persistent image or buffer before the first frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Initial {
+pub enum FirstContents {
     /// This value, in every texel or word.
     Value(FillValue),
     /// An image: the picture of a file in its first mip level, and in each smaller one the mean of the level before. No step

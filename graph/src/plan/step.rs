@@ -41,7 +41,7 @@ pub enum Queue {
 pub struct Wait {
     /// The step that must have finished; it runs on another queue, and if in the same frame stands further up.
     pub step: StepId,
-    /// Of which frame: 0 is this one, 1 the one before.
+    /// How many frames ago: 0 is this frame.
     pub frames_ago: u32,
     /// Stages that wait, and in which the other queue's writes are visible.
     pub stages: Stages,

@@ -5,11 +5,11 @@ use crate::frame::{Groups, ParamValue};
 use crate::vulkan::FillValue;
 
 impl Plan {
-    /// The Plan without values, and without what explains: equal for Plans of which one can be executed with the memory, images,
+    /// The Plan without values and without explanations. If it is equal for two Plans, each can be executed with the memory, images,
     /// buffers and shaders of the other. This is the one rule of what a mere value is.
     ///
-    /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, and which part of an
-    /// image is in use where that may change.
+    /// Values are settings, parameters, clear and fill values, counts of workgroups, shifts of views, and the parts of images that
+    /// are in use.
     #[must_use]
     pub fn without_values(&self) -> Plan {
         let mut plan = self.clone();

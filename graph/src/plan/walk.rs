@@ -126,7 +126,7 @@ impl Work {
         }
     }
 
-    /// The sides of a transfer: the one that is read, then the one that is written; a fill has but the latter.
+    /// The sides of a transfer: first the source, then the target. A fill has only a target.
     pub fn sides(&self) -> impl Iterator<Item = &Side> {
         let (source, target) = match self {
             Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {

@@ -138,8 +138,8 @@ pub struct Pass {
     pub groups: Option<Groups>,
     /// The shader's name.
     pub shader: Arc<str>,
-    /// The pass of which it draws the depth again and nothing else: its shader is compiled for that (the macro
-    /// `DEPTH_ONLY`), or left out where it would change nothing.
+    /// The pass whose depth it draws again, and nothing else. Its shader is compiled for that (the macro `DEPTH_ONLY`), or left
+    /// out where it would change nothing.
     pub redraws: Option<Arc<str>>,
     /// Whether its fragment shader leaves samples out, as it does where it discards fragments: then a full-screen draw doesn't
     /// cover.

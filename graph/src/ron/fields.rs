@@ -62,7 +62,7 @@ macro_rules! fields {
             $($(#[doc = $note])* $(#[expect($($expect)*)])? $field_visible $field: $type,)*
         }
 
-        impl<$t> $crate::ron::Described for $struct<$t> {
+        impl<$t> $crate::ron::FieldTable for $struct<$t> {
             const TABLE: $crate::ron::Table = {
                 use $crate::ron::{Field, Form, Leaf, Row, Table};
                 let word: &[&'static str] = &[$($word)?];
@@ -86,9 +86,9 @@ macro_rules! fields {
                 what: &dyn ::std::fmt::Display,
                 errors: &mut ::std::vec::Vec<$crate::base::Diagnostic>,
             ) -> ::std::option::Option<Self> {
-                use $crate::ron::{Described, Field, Leaf, slots};
+                use $crate::ron::{FieldTable, Field, Leaf, slots};
                 let mut found: [Option<Leaf<$t>>; [$(stringify!($field)),*].len()] = [None; [$(stringify!($field)),*].len()];
-                slots(leaf, what, &<Self as Described>::TABLE, &mut found, errors)?;
+                slots(leaf, what, &<Self as FieldTable>::TABLE, &mut found, errors)?;
                 let mut found = found.into_iter();
                 Some($struct { $($field: Field::of(found.next().flatten())?),* })
             }

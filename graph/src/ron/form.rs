@@ -13,7 +13,7 @@ pub enum Form {
     /// Any value: the table doesn't say its form.
     Anything,
     /// A value by itself, never an expression.
-    Plain(Plain),
+    Plain(PlainForm),
     /// `true` or `false`, or an expression.
     Truth,
     /// A whole number from the one to the other, or an expression.
@@ -48,7 +48,7 @@ pub enum Form {
 
 /// A value by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plain {
+pub enum PlainForm {
     /// `true` or `false`.
     Truth,
     /// A whole number.
@@ -108,7 +108,7 @@ pub struct Word {
     /// The word.
     pub word: &'static str,
     /// The contents that its parentheses may have.
-    pub takes: &'static [Takes],
+    pub takes: &'static [WordContents],
     /// Examples of every way to write it; empty if it stands alone.
     pub examples: &'static [&'static str],
     /// The meaning.
@@ -119,7 +119,7 @@ impl Word {
     /// A word with something in parentheses.
     pub(crate) const fn new(
         word: &'static str,
-        takes: &'static [Takes],
+        takes: &'static [WordContents],
         examples: &'static [&'static str],
         about: &'static str,
     ) -> Word {
@@ -128,7 +128,7 @@ impl Word {
 
     /// A word that stands alone.
     pub(crate) const fn alone(word: &'static str, about: &'static str) -> Word {
-        Word { word, takes: &[Takes::Nothing], examples: &[], about }
+        Word { word, takes: &[WordContents::Nothing], examples: &[], about }
     }
 
     /// Every way to write it.
@@ -140,7 +140,7 @@ impl Word {
 
 /// The contents of the parentheses behind a word.
 #[derive(Debug, Clone, Copy)]
-pub enum Takes {
+pub enum WordContents {
     /// No parentheses, or empty ones.
     Nothing,
     /// Values.
@@ -150,7 +150,7 @@ pub enum Takes {
 }
 
 /// A type that has a table of its fields.
-pub trait Described {
+pub trait FieldTable {
     /// The table.
     const TABLE: Table;
 

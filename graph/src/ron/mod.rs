@@ -17,7 +17,7 @@ mod tree;
 pub use convert::convert;
 pub use fields::{Field, FromLeaf, plain_name, slots};
 pub(crate) use form::names;
-pub use form::{Described, Form, Plain, Row, Table, Takes, Word, Words};
+pub use form::{FieldTable, Form, PlainForm, Row, Table, Word, WordContents, Words};
 pub use leaf::{Leaf, Shape};
 pub use names::Names;
 pub use numbers::Number;

@@ -1,7 +1,7 @@
 //! The names that a file gives, each once, and the search for those that it refers to.
 
 use super::{Leaf, Name, Reader};
-use crate::base::{Diagnostic, MistakeKind, Sought, Span, nearest, without_quotes};
+use crate::base::{Diagnostic, MistakeKind, NameKind, Span, nearest, without_quotes};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ impl Name {
 
 /// Names of one kind of thing, in file order.
 pub struct Names {
-    sought: Sought,
+    sought: NameKind,
     /// The word for one.
     what: &'static str,
     given: Vec<Option<Name>>,
@@ -27,14 +27,14 @@ pub struct Names {
 impl Names {
     /// No names yet, of such things.
     #[must_use]
-    pub fn new(sought: Sought) -> Names {
+    pub fn new(sought: NameKind) -> Names {
         Names { sought, what: sought.word(), given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
     /// No names yet, of other things called `what`.
     #[must_use]
     pub fn of(what: &'static str) -> Names {
-        Names { what, ..Names::new(Sought::Other) }
+        Names { what, ..Names::new(NameKind::Other) }
     }
 
     /// Makes room for `more` things.

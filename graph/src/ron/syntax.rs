@@ -39,12 +39,12 @@ struct Parser<'t, 'e> {
     /// Brackets that are open.
     depth: usize,
     /// Items in brackets where they can't stand. If brackets turn out to be left open, they should have ended there.
-    misplaced: Vec<Misplaced>,
+    misplaced: Vec<MisplacedItem>,
     errors: &'e mut Vec<Diagnostic>,
 }
 
 /// Something that stands in brackets where it can't.
-struct Misplaced {
+struct MisplacedItem {
     /// The number of its mistake.
     error: usize,
     /// Where it stands.
@@ -252,7 +252,7 @@ impl Parser<'_, '_> {
         self.depth += 1;
         let node = self.open(kind, open);
         self.lexer.at += 1;
-        // Of several items without commas between them, one mistake is said.
+        // Several items without commas between them are one mistake.
         let mut comma_missed = false;
         loop {
             self.lexer.blanks()?;
@@ -318,7 +318,7 @@ impl Parser<'_, '_> {
     fn report_misplaced(&mut self, error: Diagnostic, open: usize, closing: u8) -> Result<(), Stop> {
         let at = error.labels.first().map_or(0, |label| label.span.start as usize);
         self.report(error)?;
-        self.misplaced.push(Misplaced { error: self.errors.len() - 1, at, open, closing });
+        self.misplaced.push(MisplacedItem { error: self.errors.len() - 1, at, open, closing });
         Ok(())
     }
 

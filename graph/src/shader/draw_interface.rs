@@ -18,7 +18,7 @@ pub struct DrawInterface {
     /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
     pub attributes: Vec<Attribute>,
     /// Resources that are bound.
-    pub supplied: Vec<Supplied>,
+    pub supplied: Vec<SuppliedResource>,
 }
 
 /// A vertex attribute that is brought along.
@@ -34,7 +34,7 @@ pub struct Attribute {
 
 /// A resource that is brought along.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Supplied {
+pub struct SuppliedResource {
     /// Descriptor set, 1 to 3.
     pub set: u32,
     /// Binding number.
@@ -88,21 +88,21 @@ impl Attribute {
     }
 }
 
-impl Supplied {
+impl SuppliedResource {
     /// A resource at a set and a binding.
     #[must_use]
-    pub const fn new(set: u32, binding: u32, name: &'static str, kind: SuppliedKind) -> Supplied {
-        Supplied { set, binding, name: Cow::Borrowed(name), kind, count: 1 }
+    pub const fn new(set: u32, binding: u32, name: &'static str, kind: SuppliedKind) -> SuppliedResource {
+        SuppliedResource { set, binding, name: Cow::Borrowed(name), kind, count: 1 }
     }
 
     /// An array of this many.
     #[must_use]
-    pub const fn with_count(mut self, count: u32) -> Supplied {
+    pub const fn with_count(mut self, count: u32) -> SuppliedResource {
         self.count = count;
         self
     }
 
-    /// Whether a shader that declares `binding` reads this. Of an array it may declare the first elements alone.
+    /// Whether a shader that declares `binding` reads this. It may declare only the first elements of an array.
     #[must_use]
     pub fn is(&self, binding: &Binding) -> bool {
         (self.set, self.binding, &*self.name) == (binding.set, binding.binding, &*binding.name)
@@ -198,9 +198,9 @@ impl Attribute {
     }
 }
 
-impl Supplied {
+impl SuppliedResource {
     fn fault(&self) -> Option<String> {
-        let Supplied { set, binding, name, kind, count } = self;
+        let SuppliedResource { set, binding, name, kind, count } = self;
         if !is_identifier(name) {
             return Some(no_identifier(name));
         }

@@ -33,7 +33,7 @@ impl DrawInterfaces {
     }
 
     /// With the names of all custom passes that the program records: others are mistakes of a pipeline then. Names are those that a
-    /// pipeline can ask for: letters, digits, `_` and `-`, which begin with a letter or `_`. Of equal ones the first counts.
+    /// pipeline can ask for: letters, digits, `_` and `-`, which begin with a letter or `_`. If two are equal, the first counts.
     #[must_use]
     pub fn with_custom_passes(mut self, names: impl IntoIterator<Item = impl Into<Arc<str>>>) -> DrawInterfaces {
         let mut custom: Vec<Arc<str>> = Vec::new();

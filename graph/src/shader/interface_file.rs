@@ -1,6 +1,6 @@
 //! The file of a draw source's interfaces.
 
-use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, Supplied, SuppliedKind};
+use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, SuppliedKind, SuppliedResource};
 use crate::base::{Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
@@ -72,7 +72,7 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
             let _ = writeln!(text, "                {one},");
         }
         text += "            ],\n            supplied: [\n";
-        for Supplied { set, binding, name, kind, count } in supplied {
+        for SuppliedResource { set, binding, name, kind, count } in supplied {
             let count = if *count == 1 { String::new() } else { format!(", count: {count}") };
             let one = format!("(name: {name:?}, set: {set}, binding: {binding}, kind: {kind:?}{count})");
             let _ = writeln!(text, "                {one},");
@@ -254,14 +254,20 @@ fn attribute(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Attribute> {
     Some(Attribute { name: name?.text.to_string().into(), components: components?, offset: offset? })
 }
 
-fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Supplied> {
+fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<SuppliedResource> {
     let fields: SuppliedFields<'_> = reader.read(leaf, "a resource")?;
     let name = reader.reference(fields.name, "a resource");
     let set = number(reader, fields.set, "the set");
     let binding = number(reader, fields.binding, "the binding");
     let kind = reader.choice(fields.kind, "a kind of resource", &SuppliedKind::NAMED);
     let count = fields.count.map_or(Some(1), |leaf| number(reader, leaf, "the count"));
-    Some(Supplied { set: set?, binding: binding?, name: name?.text.to_string().into(), kind: kind?, count: count? })
+    Some(SuppliedResource {
+        set: set?,
+        binding: binding?,
+        name: name?.text.to_string().into(),
+        kind: kind?,
+        count: count?,
+    })
 }
 
 /// A whole number that isn't negative.

@@ -18,7 +18,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
-pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, Supplied, SuppliedKind};
+pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
 pub use element::{declared_name, element_name, element_of};
@@ -46,7 +46,7 @@ pub struct ShaderInterface {
     /// far as they are known.
     pub only_written_at: Vec<(String, String)>,
     /// Outputs of the fragment stage that it doesn't set on every path, its depth included.
-    pub unset: Vec<Unset>,
+    pub unset: Vec<UnsetOutput>,
     /// The file of the vertex stage, of a full-screen draw whose vertex stage isn't the usual one: nothing is known of where its
     /// triangle lies.
     pub own_vertices: Option<String>,
@@ -62,7 +62,7 @@ pub struct ShaderInterface {
     /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
     pub workgroup_size: Option<[u32; 3]>,
     /// The parts of it that go wrong where the picture that it draws is turned, as far as that can be told.
-    pub unturned: Vec<Unturned>,
+    pub unturned: Vec<UnturnedPart>,
     /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
     /// The pass's blocks with matrices by which the vertex stage may place vertices, if no stage asks which eye it draws for: both
@@ -78,7 +78,7 @@ pub const MOST_PARTS: usize = 8;
 
 /// A part of a shader that doesn't follow a turned picture; functions in shaders/include/rotation.glsl follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Unturned {
+pub enum UnturnedPart {
     /// It places vertices in its vertex stage.
     Vertices,
     /// It reads the positions of its fragments.
@@ -154,7 +154,7 @@ pub enum BindingKind {
     },
     /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
     /// supported.
-    Other(Unbindable),
+    Other(UnbindableResource),
 }
 
 impl BindingKind {
@@ -239,7 +239,7 @@ impl BindingKind {
 
     /// The resource that no pass can give, if it is one.
     #[must_use]
-    pub fn unbindable(&self) -> Option<&Unbindable> {
+    pub fn unbindable(&self) -> Option<&UnbindableResource> {
         match self {
             BindingKind::Other(unbindable) => Some(unbindable),
             _ => None,
@@ -248,7 +248,7 @@ impl BindingKind {
 
     /// The same, to be changed.
     #[must_use]
-    pub fn unbindable_mut(&mut self) -> Option<&mut Unbindable> {
+    pub fn unbindable_mut(&mut self) -> Option<&mut UnbindableResource> {
         match self {
             BindingKind::Other(unbindable) => Some(unbindable),
             _ => None,
@@ -278,7 +278,7 @@ impl BindingKind {
 
 /// A resource that no pass can give.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Unbindable {
+pub struct UnbindableResource {
     /// The name in messages: `a texel buffer`.
     pub what: String,
     /// The declaration to use instead.
@@ -333,7 +333,7 @@ pub struct FragmentOutput {
 
 /// An output of a fragment stage that isn't set on every path. Vulkan leaves its value undefined there.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Unset {
+pub struct UnsetOutput {
     /// Its location; `None`: it is the depth.
     pub location: Option<u32>,
     /// Its name in the shader.

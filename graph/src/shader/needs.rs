@@ -1,14 +1,14 @@
 //! How many resources a shader's pass binds, where not every device allows as many.
 
-use super::{BindingKind, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
+use super::{BindingKind, PASS_SET, ShaderInterface, SuppliedKind, SuppliedResource};
 use crate::device::{Limit, Need, NeedKind};
 use crate::vulkan::Stages;
 
 /// A kind of resources that devices limit: what it is called, whether a binding is one, what a draw source brings along of it, and its
 /// limits.
-type Counted = (&'static str, fn(&BindingKind) -> bool, Option<SuppliedKind>, &'static [Limit]);
+type CountedKind = (&'static str, fn(&BindingKind) -> bool, Option<SuppliedKind>, &'static [Limit]);
 
-const COUNTED: [Counted; 5] = [
+const COUNTED: [CountedKind; 5] = [
     (
         "sampled images",
         |it| matches!(it, BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_)),
@@ -46,7 +46,7 @@ const COUNTED: [Counted; 5] = [
 /// whether the shader reads them or not.
 pub fn resource_needs<'s>(
     shader: &ShaderInterface,
-    brought: impl Iterator<Item = &'s Supplied> + Clone,
+    brought: impl Iterator<Item = &'s SuppliedResource> + Clone,
     targets: usize,
 ) -> Vec<Need> {
     let mut needs = Vec::new();
@@ -100,8 +100,8 @@ mod tests {
     /// Why a device of these limits doesn't bind a sky and an array of textures.
     fn refused_with(limits: &Limits, textures: u32, targets: usize) -> String {
         let brought = [
-            Supplied::new(1, 0, "sky", SuppliedKind::SampledImage),
-            Supplied::new(2, 0, "textures", SuppliedKind::SampledImage).with_count(textures),
+            SuppliedResource::new(1, 0, "sky", SuppliedKind::SampledImage),
+            SuppliedResource::new(2, 0, "textures", SuppliedKind::SampledImage).with_count(textures),
         ];
         let abilities = Abilities { device: "this device", limits: Some(limits), has: &|_| false };
         let needs = resource_needs(&ShaderInterface::default(), brought.iter(), targets);

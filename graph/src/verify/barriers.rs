@@ -111,8 +111,8 @@ impl Check<'_, '_> {
             }
             clashes
         };
-        // Few barriers are compared in pairs, which is quicker than sorting them. Of pairs one mistake is reported, of sorted ones
-        // one of each image.
+        // Few barriers are compared in pairs, which is quicker than sorting them. Pairs give one mistake, sorted barriers one for
+        // each image.
         const FEW: usize = 8;
         if barriers.len() <= FEW {
             for (at, one) in barriers.iter().enumerate() {

@@ -4,7 +4,7 @@
 //! found in its stated state by the first frame. Later frames find it in the state in which the frame before really left it,
 //! which must be the stated one too. After the last step of a frame, a user that relies on the stated state puts a barrier
 //! behind it that names this state as its source. If the state names no stages, the user takes a semaphore, which waits for
-//! everything. Of the reads that the state names, at least one can be made at once.
+//! everything. At least one of the reads that the state names can be made at once.
 
 use super::dependencies::{before_access, before_layout_change};
 use super::findings::role;

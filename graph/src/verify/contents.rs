@@ -4,7 +4,7 @@ use super::accesses::does;
 use super::clocks::Time;
 use super::findings::{Finding, name};
 use super::program::Access;
-use super::subresources::{Contents, Lost, SubresourceState};
+use super::subresources::{Contents, LostContents, SubresourceState};
 use super::violation::{Loss, Rule, StepName};
 use super::walk::Walk;
 use crate::plan::StepId;
@@ -26,10 +26,10 @@ impl<const Q: usize> SubresourceState<Q> {
             return;
         }
         let lost = match self.contents {
-            Contents::Defined if effects & does::NOT_LOAD != 0 => Lost::NotLoaded,
-            Contents::Defined if effects & does::NOT_STORE != 0 => Lost::NotStored,
+            Contents::Defined if effects & does::NOT_LOAD != 0 => LostContents::NotLoaded,
+            Contents::Defined if effects & does::NOT_STORE != 0 => LostContents::NotStored,
             // A store operation `NONE` keeps the contents before the scope, but not the scope's writes.
-            Contents::Defined if effects & does::STORE_NONE != 0 && self.filled == now => Lost::NotStored,
+            Contents::Defined if effects & does::STORE_NONE != 0 && self.filled == now => LostContents::NotStored,
             _ => return,
         };
         self.contents = Contents::Lost(lost, now);
@@ -72,12 +72,12 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         Finding { rule, step, other, resource, range, bytes }
     }
 
-    fn loss(&self, lost: Lost) -> Loss {
+    fn loss(&self, lost: LostContents) -> Loss {
         match lost {
-            Lost::Forgotten => Loss::Forgotten,
-            Lost::NotLoaded => Loss::NotLoaded,
-            Lost::NotStored => Loss::NotStored,
-            Lost::Taken(by) => Loss::Taken { by: name(self.plan, by).clone() },
+            LostContents::Forgotten => Loss::Forgotten,
+            LostContents::NotLoaded => Loss::NotLoaded,
+            LostContents::NotStored => Loss::NotStored,
+            LostContents::Taken(by) => Loss::Taken { by: name(self.plan, by).clone() },
         }
     }
 }

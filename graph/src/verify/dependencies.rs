@@ -21,12 +21,12 @@ pub(super) struct Gap {
     pub(super) time: Time,
     pub(super) earlier: Accessed,
     pub(super) later: Accessed,
-    pub(super) missing: Missing,
+    pub(super) missing: MissingPart,
 }
 
 /// The part of a dependency that is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Missing {
+pub(super) enum MissingPart {
     Execution,
     Availability,
     Visibility,
@@ -36,9 +36,9 @@ impl Gap {
     pub(super) fn rule(self) -> Rule {
         let Gap { earlier, later, .. } = self;
         match self.missing {
-            Missing::Execution => Rule::Execution { earlier, later },
-            Missing::Availability => Rule::Availability { earlier, later },
-            Missing::Visibility => Rule::Visibility { earlier, later },
+            MissingPart::Execution => Rule::Execution { earlier, later },
+            MissingPart::Availability => Rule::Availability { earlier, later },
+            MissingPart::Visibility => Rule::Visibility { earlier, later },
         }
     }
 }
@@ -75,7 +75,7 @@ fn after_reads<const Q: usize>(
             time: read.time,
             earlier: Accessed::Read(stage_word(read.stage)),
             later,
-            missing: Missing::Execution,
+            missing: MissingPart::Execution,
         })
     })
 }
@@ -94,14 +94,14 @@ fn after_write<const Q: usize>(
             write.pairs.iter().find(|pair| !clocks.of(queue, stage).is_after(write.queue, stage_of(*pair), write.time));
         let later = pair.map_or(Accessed::Wait(stage_word(stage)), by);
         let earlier = missed.map_or(Accessed::LayoutChange, by);
-        return Some(Gap { time: write.time, earlier, later, missing: Missing::Execution });
+        return Some(Gap { time: write.time, earlier, later, missing: MissingPart::Execution });
     }
     if write.is_shown(queue, pairs) {
         return None;
     }
     let hidden = pairs.iter().find(|pair| !is_visible(clocks, queue, *pair, write))?;
     let available = stages.iter().all(|stage| is_available(clocks, queue, stage, write));
-    let missing = if available { Missing::Visibility } else { Missing::Availability };
+    let missing = if available { MissingPart::Visibility } else { MissingPart::Availability };
     let dark = write.pairs.iter().find(|pair| !clocks.is_visible(queue, hidden, write.queue, *pair, write.time));
     Some(Gap { time: write.time, earlier: dark.map_or(Accessed::LayoutChange, by), later: by(hidden), missing })
 }
@@ -115,7 +115,7 @@ pub(super) fn before_layout_change<const Q: usize>(
 ) -> Option<Gap> {
     let gap = |time, earlier, missing| Gap { time, earlier, later: Accessed::LayoutChange, missing };
     if let Some(read) = state.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
-        return Some(gap(read.time, Accessed::Read(stage_word(read.stage)), Missing::Execution));
+        return Some(gap(read.time, Accessed::Read(stage_word(read.stage)), MissingPart::Execution));
     }
     let write = &state.write;
     if !write.exists() || makes_available(write, before, source) {
@@ -123,12 +123,12 @@ pub(super) fn before_layout_change<const Q: usize>(
     }
     let late = |pair: &usize| !before.is_after(write.queue, stage_of(*pair), write.time);
     if let Some(pair) = write.pairs.iter().find(late) {
-        return Some(gap(write.time, by(pair), Missing::Execution));
+        return Some(gap(write.time, by(pair), MissingPart::Execution));
     }
     let left = |pair: &usize| !source.contains(*pair) && !before.has_available(write.queue, *pair, write.time);
     let (earlier, missing) = match write.pairs.iter().find(left) {
-        Some(pair) => (by(pair), Missing::Availability),
-        None => (Accessed::LayoutChange, Missing::Execution),
+        Some(pair) => (by(pair), MissingPart::Availability),
+        None => (Accessed::LayoutChange, MissingPart::Execution),
     };
     Some(gap(write.time, earlier, missing))
 }

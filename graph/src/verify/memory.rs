@@ -12,12 +12,12 @@
 //!    protects, it must be visible as well.
 
 use super::clocks::Clock;
-use super::dependencies::{Missing, before_access, before_layout_change};
+use super::dependencies::{MissingPart, before_access, before_layout_change};
 use super::findings::{Finding, name, role};
 use super::owners::Owners;
 use super::program::Access;
 use super::scopes::PairSet;
-use super::subresources::{Contents, Lost, SubresourceState};
+use super::subresources::{Contents, LostContents, SubresourceState};
 use super::violation::{Rule, StepName};
 use super::walk::Walk;
 use crate::plan::{Plan, Role, StepId};
@@ -47,7 +47,7 @@ struct Holder {
 
 /// An event that takes memory.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Taking<'t, const Q: usize> {
+pub(super) enum MemoryEvent<'t, const Q: usize> {
     /// An image barrier, with the clock of all that comes before it. It makes available only the writes of its own image.
     Barrier(&'t Clock<Q>),
     /// An access to a buffer, on the queue of this number.
@@ -119,7 +119,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let state = &mut self.subresources[index];
             state.layout = crate::vulkan::Layout::Undefined;
             state.contents = match state.contents {
-                Contents::Defined if state.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
+                Contents::Defined if state.filled > frame_start => Contents::Lost(LostContents::Taken(to), now),
                 Contents::Defined => Contents::Unwritten,
                 lost => lost,
             };
@@ -142,7 +142,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             }
         }
         if holder.taken == self.now(step) {
-            self.check_hand_over(step, resource, None, Taking::Access(queue, access));
+            self.check_hand_over(step, resource, None, MemoryEvent::Access(queue, access));
         }
     }
 
@@ -153,7 +153,13 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     }
 
     /// Rules 2 and 3 for one part of an image or for a buffer.
-    pub(super) fn check_hand_over(&mut self, step: StepId, resource: u32, index: Option<usize>, taking: Taking<'_, Q>) {
+    pub(super) fn check_hand_over(
+        &mut self,
+        step: StepId,
+        resource: u32,
+        index: Option<usize>,
+        taking: MemoryEvent<'_, Q>,
+    ) {
         let [first, end] = self.memory.holders[resource as usize].predecessors;
         for at in first..end {
             let from = self.memory.predecessors[at as usize];
@@ -162,15 +168,15 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             while let (None, Some(index)) = (missing, self.parts.next(&mut part)) {
                 let state = &self.subresources[index];
                 missing = match taking {
-                    Taking::Barrier(before) => before_layout_change(state, before, PairSet::default()),
-                    Taking::Access(queue, access) => {
+                    MemoryEvent::Barrier(before) => before_layout_change(state, before, PairSet::default()),
+                    MemoryEvent::Access(queue, access) => {
                         before_access(state, &self.clocks, queue, access.stages, access.pairs)
                     }
                 };
             }
             if let Some(gap) = missing {
                 let name = name(self.plan, from).clone();
-                let waited = gap.missing != Missing::Execution;
+                let waited = gap.missing != MissingPart::Execution;
                 self.found.push(Finding {
                     rule: Rule::HandOver { from: name, earlier: gap.earlier, waited },
                     step,

@@ -6,7 +6,7 @@ use super::layouts::planes;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Cascade, Draw, Groups};
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
@@ -26,20 +26,20 @@ const NOT_WAITED: &str =
 
 /// Who records the commands of a pass.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum By {
+enum CommandSource {
     /// The backend, as the Plan says.
     Plan,
     /// The program: it may use any command for what the pass reads and writes.
     Program,
 }
 
-impl By {
+impl CommandSource {
     /// The stages that an access may name, if `stages` are those of the Plan's own commands; and the access without what stands for
     /// any command.
     fn known(self, stages: Stages, accesses: Accesses) -> (Stages, Accesses) {
         match self {
-            By::Plan => (stages, accesses),
-            By::Program => (Stages::ALL_COMMANDS, accesses - MEMORY),
+            CommandSource::Plan => (stages, accesses),
+            CommandSource::Program => (Stages::ALL_COMMANDS, accesses - MEMORY),
         }
     }
 
@@ -47,7 +47,7 @@ impl By {
     fn waits(self, stages: Stages, accesses: Accesses) -> bool {
         let made = accesses - MEMORY;
         let holds = |any: Accesses, some: bool| accesses.contains(any) == some;
-        self == By::Plan
+        self == CommandSource::Plan
             || stages == Stages::ALL_COMMANDS
                 && holds(Accesses::MEMORY_READ, made != made.writes())
                 && holds(Accesses::MEMORY_WRITE, !made.writes().is_empty())
@@ -92,7 +92,7 @@ impl<'p> Check<'_, 'p> {
         self.stencil(scope, pass);
         let tests = if scope.depth().is_some() || scope.stencil().is_some() { TESTS } else { Stages::empty() };
         let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
-        let by = if pass.draw.is_some_and(Draw::is_custom) { By::Program } else { By::Plan };
+        let by = if pass.draw.is_some_and(Draw::is_custom) { CommandSource::Program } else { CommandSource::Plan };
         for access in &pass.accesses {
             self.access(access, by, graphics, ATTACHMENT | SHADER);
             let attached = attachments(scope).any(|(attachment, _)| {
@@ -150,7 +150,7 @@ impl<'p> Check<'_, 'p> {
     fn attached(&mut self, pass: &Pass, attachment: &Attachment, wanted: Accesses) {
         let listed = listed(pass, attachment);
         if !listed.contains(wanted) {
-            let what = format!("pass `{}` doesn't list its {}", Shown(&pass.name), name_of(&(wanted - listed)));
+            let what = format!("pass `{}` doesn't list its {}", ShownText(&pass.name), name_of(&(wanted - listed)));
             self.wrong(attachment.image, what);
         }
     }
@@ -169,9 +169,9 @@ impl<'p> Check<'_, 'p> {
             Some(Groups::Count(_) | Groups::Invocations(_)) => {}
         }
         for access in &pass.accesses {
-            self.access(access, By::Plan, Stages::COMPUTE_SHADER, STORAGE | Accesses::SHADER_SAMPLED_READ);
+            self.access(access, CommandSource::Plan, Stages::COMPUTE_SHADER, STORAGE | Accesses::SHADER_SAMPLED_READ);
         }
-        self.buffers(pass, By::Plan, Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT);
+        self.buffers(pass, CommandSource::Plan, Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT);
     }
 
     pub(super) fn custom(&mut self, pass: &'p Pass) {
@@ -181,9 +181,9 @@ impl<'p> Check<'_, 'p> {
         }
         let possible = possible(self.queue) & Stages::ALL_COMMANDS;
         for access in &pass.accesses {
-            self.access(access, By::Program, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
+            self.access(access, CommandSource::Program, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
         }
-        self.buffers(pass, By::Program, possible);
+        self.buffers(pass, CommandSource::Program, possible);
     }
 
     /// A pass outside of rendering scopes.
@@ -197,11 +197,11 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
-    fn access(&mut self, access: &Access, by: By, stages: Stages, accesses: Accesses) {
+    fn access(&mut self, access: &Access, by: CommandSource, stages: Stages, accesses: Accesses) {
         self.stages_and_accesses(Some(access.image.0), access.stages, access.accesses);
         let attached = access.accesses.intersects(ATTACHMENT);
         let local = access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ);
-        let by = if attached || local { By::Plan } else { by };
+        let by = if attached || local { CommandSource::Plan } else { by };
         let (stages, made) = by.known(stages, access.accesses);
         if access.stages.is_empty() || made.is_empty() || !stages.contains(access.stages) {
             self.wrong(access.image, format!("is accessed in {}", name_of(&access.stages)));
@@ -281,13 +281,13 @@ impl<'p> Check<'_, 'p> {
         sampled && shape && texture.multisampled == (image.samples > 1) && texture.component == component
     }
 
-    fn buffers(&mut self, pass: &Pass, by: By, stages: Stages) {
+    fn buffers(&mut self, pass: &Pass, by: CommandSource, stages: Stages) {
         for access in &pass.buffers {
             self.buffer(access, by, stages);
         }
     }
 
-    fn buffer(&mut self, access: &BufferAccess, by: By, possible: Stages) {
+    fn buffer(&mut self, access: &BufferAccess, by: CommandSource, possible: Stages) {
         let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
         self.stages_and_accesses(resource, access.stages, access.accesses);
         let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
@@ -328,7 +328,7 @@ impl<'p> Check<'_, 'p> {
                 let has = self.plan.buffers[access.buffer.0 as usize].bytes;
                 if has < bytes {
                     let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
-                    let what = format!("has {has} bytes, and pass `{}` reads {bytes}", Shown(&pass.name));
+                    let what = format!("has {has} bytes, and pass `{}` reads {bytes}", ShownText(&pass.name));
                     self.found.structure(Some(self.id), resource, what);
                 }
             }

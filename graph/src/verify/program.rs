@@ -17,14 +17,14 @@ use serde::Serialize;
 /// The steps of a Plan.
 #[derive(Debug, Default)]
 pub(super) struct Program {
-    steps: Vec<Ends>,
+    steps: Vec<StepEnds>,
     pub(super) waits: Vec<Wait>,
     pub(super) memory_barriers: Vec<MemoryScopes>,
     /// Those before the work of a step, then its releases.
     pub(super) barriers: Vec<Barrier>,
     pub(super) accesses: Vec<Access>,
     /// For each image and buffer: its users.
-    pub(super) used: Vec<Used>,
+    pub(super) used: Vec<UseSpan>,
     pub(super) ranges: Ranges,
     /// Steps that others wait for, rising.
     pub(super) signals: Vec<u32>,
@@ -34,7 +34,7 @@ pub(super) struct Program {
 
 /// Where the entries of a step end in each list.
 #[derive(Debug, Clone, Copy, Default)]
-struct Ends {
+struct StepEnds {
     queue: u8,
     has_attachments: bool,
     waits: u32,
@@ -101,7 +101,7 @@ pub(super) struct Access {
 
 /// The steps and queues that use an image or buffer, by barriers too.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Used {
+pub(super) struct UseSpan {
     /// The first step that uses it; after `last` if there is none.
     pub(super) first: u32,
     /// The last step that uses it.
@@ -120,7 +120,7 @@ pub(super) struct Used {
     stated: [StepId; 2],
 }
 
-impl Used {
+impl UseSpan {
     /// The first and last step.
     pub(super) fn steps(&self) -> Option<[StepId; 2]> {
         (self.first <= self.last).then_some([StepId(self.first), StepId(self.last)])
@@ -135,7 +135,7 @@ impl Program {
 
     /// Where the entries of a step stand.
     pub(super) fn span(&self, step: u32) -> Span {
-        let start = step.checked_sub(1).map_or(Ends::default(), |before| self.steps[before as usize]);
+        let start = step.checked_sub(1).map_or(StepEnds::default(), |before| self.steps[before as usize]);
         let end = self.steps[step as usize];
         let range = |start: u32, end: u32| start as usize..end as usize;
         Span {
@@ -182,7 +182,7 @@ impl<'b, 'p> Builder<'b, 'p> {
                 Role::Transient(placement) => Some(placement.lifetime),
                 Role::Persistent { .. } | Role::External { .. } => None,
             };
-            Used {
+            UseSpan {
                 first: u32::MAX,
                 last: 0,
                 queue: 0,
@@ -235,7 +235,7 @@ impl<'b, 'p> Builder<'b, 'p> {
         let barriers = self.program.barriers.len() as u32;
         accesses::list(&step.work, self);
         step.releases.iter().for_each(|barrier| self.barrier(barrier));
-        self.program.steps.push(Ends {
+        self.program.steps.push(StepEnds {
             queue: self.queue,
             has_attachments: self.has_attachments,
             waits: self.program.waits.len() as u32,

@@ -1,7 +1,7 @@
 //! Whether depth-only passes draw again what they say: the same geometry, tested in the same way, with fewer samples.
 
 use super::findings::Findings;
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{Image, Pass, Plan, RenderScope, StepId};
 use std::collections::HashMap;
 
@@ -24,7 +24,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
             Some((of, original)) => wrong(plan, (scope, pass), (of, original)),
         };
         if let Some(wrong) = wrong {
-            found.structure(Some(id), None, format!("pass `{}` {wrong}", Shown(&pass.name)));
+            found.structure(Some(id), None, format!("pass `{}` {wrong}", ShownText(&pass.name)));
         }
     }
 }

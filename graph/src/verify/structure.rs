@@ -6,8 +6,8 @@ use super::layouts;
 use super::names::Names;
 use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
-use crate::plan::names::Shown;
-use crate::plan::{Buffer, ChosenFormat, Image, Initial, Placement, Plan, Resource, Role};
+use crate::plan::names::ShownText;
+use crate::plan::{Buffer, ChosenFormat, FirstContents, Image, Placement, Plan, Resource, Role};
 use crate::vulkan::{Accesses, Aspects, BufferUsage, FillValue, Format, Layout, Numeric, Shape, Stages, State, Usage};
 use std::collections::HashSet;
 
@@ -27,7 +27,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
         found.structure(None, None, format!("{} steps are too many to number", plan.steps.len()));
     }
     for view in plan.views.iter().filter(|view| view.jitter.as_ref().is_some_and(|jitter| !jitter.is_sound())) {
-        let name = Shown(&view.name);
+        let name = ShownText(&view.name);
         found.structure(
             None,
             None,
@@ -37,7 +37,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     for (view, eye) in plan.views.iter().filter_map(|view| Some((view, view.eye?))) {
         let of = plan.views.get(eye.of.0 as usize);
         if of.is_none_or(|of| of.eye.is_some()) {
-            let name = Shown(&view.name);
+            let name = ShownText(&view.name);
             found.structure(None, None, format!("view `{name}` is an eye of no view, or of another eye's"));
         }
     }
@@ -123,8 +123,8 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         Role::External { before, after } => check_image_states(image, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
             let fits = match initial {
-                Initial::Value(value) => fill_fits(image, value),
-                Initial::File(file) => format_problem(file, image.format).is_none(),
+                FirstContents::Value(value) => fill_fits(image, value),
+                FirstContents::File(file) => format_problem(file, image.format).is_none(),
             };
             if !fits {
                 wrong("has initial contents of another kind than its format");
@@ -139,7 +139,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
 
 /// Whether an image's contents are a file's.
 pub(super) fn is_of_file(image: &Image) -> bool {
-    matches!(image.role, Role::Persistent { initial: Initial::File(_), .. })
+    matches!(image.role, Role::Persistent { initial: FirstContents::File(_), .. })
 }
 
 /// Whether an image has the form of one that a file fills, and is only read.
@@ -210,7 +210,7 @@ fn check_buffer(plan: &Plan, buffer: &Buffer, index: u32, found: &mut Findings) 
         }
         Role::External { before, after } => check_buffer_states(index, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
-            if !matches!(initial, Initial::Value(FillValue::Bits(_))) {
+            if !matches!(initial, FirstContents::Value(FillValue::Bits(_))) {
                 wrong("has initial contents that are no bits");
             }
             check_buffer_states(index, [before, after], found);

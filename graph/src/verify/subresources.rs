@@ -215,12 +215,12 @@ pub(super) enum Contents {
     /// Then the frame has written it, but nothing that is sure to have written all of it.
     InPart(Time),
     /// It was written, then lost.
-    Lost(Lost, Time),
+    Lost(LostContents, Time),
 }
 
 /// How contents were lost, see [`super::Loss`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Lost {
+pub(super) enum LostContents {
     Forgotten,
     NotLoaded,
     NotStored,

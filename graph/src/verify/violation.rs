@@ -1,6 +1,6 @@
 //! Reports of the checker: data first, a sentence where it is shown.
 
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{Plan, Queue, StepId};
 use crate::vulkan::{Accesses, Layout, Stages, Subresources, name_of};
 use std::fmt;
@@ -217,7 +217,7 @@ impl Display for Violation {
             None => f.write_str("the Plan")?,
         }
         if let Some(resource) = &self.resource {
-            write!(f, ": `{}`", Shown(resource))?;
+            write!(f, ": `{}`", ShownText(resource))?;
         }
         match (&self.range, &self.bytes) {
             (Some(range), None) => write!(f, " ({range})")?,
@@ -226,7 +226,7 @@ impl Display for Violation {
             (None, None) => {}
         }
         f.write_str(": ")?;
-        let other = Other(self.other.as_ref());
+        let other = OtherStep(self.other.as_ref());
         match &self.rule {
             Rule::Structure { what } => match &self.other {
                 Some(other) => write!(f, "{what} ({other})"),
@@ -256,16 +256,20 @@ impl Display for Violation {
                 Loss::Forgotten => write!(f, "read, but a barrier from UNDEFINED before {other} lost its contents"),
                 Loss::NotLoaded => write!(f, "needed, but the DONT_CARE load of {other} lost its contents"),
                 Loss::NotStored => write!(f, "read, but {other} doesn't store its contents"),
-                Loss::Taken { by } => write!(f, "read, but `{}` took its memory before {other}", Shown(by)),
+                Loss::Taken { by } => write!(f, "read, but `{}` took its memory before {other}", ShownText(by)),
             },
             Rule::Overlap { with } => {
-                write!(f, "takes memory that `{}` still needs in {other}", Shown(with))
+                write!(f, "takes memory that `{}` still needs in {other}", ShownText(with))
             }
             Rule::HandOver { from, earlier, waited: false } => {
-                write!(f, "takes the memory of `{}`, but doesn't wait for {earlier} by {other}", Shown(from))
+                write!(f, "takes the memory of `{}`, but doesn't wait for {earlier} by {other}", ShownText(from))
             }
             Rule::HandOver { from, earlier, waited: true } => {
-                write!(f, "takes the memory of `{}`, but {earlier} by {other} isn't made available first", Shown(from))
+                write!(
+                    f,
+                    "takes the memory of `{}`, but {earlier} by {other} isn't made available first",
+                    ShownText(from)
+                )
             }
             Rule::Lifetime { stated: [first, last] } => {
                 write!(f, "used outside its stated lifetime, steps {} to {} (nearest: {other})", first.0, last.0)
@@ -304,9 +308,9 @@ impl Display for Violation {
 }
 
 /// The other step, or the words that stand for it.
-struct Other<'v>(Option<&'v StepName>);
+struct OtherStep<'v>(Option<&'v StepName>);
 
-impl Display for Other<'_> {
+impl Display for OtherStep<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(step) => step.fmt(f),

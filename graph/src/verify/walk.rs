@@ -5,11 +5,11 @@ use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
 use super::findings::{Finding, Findings};
 use super::frames::Frames;
-use super::memory::{Memory, Taking};
+use super::memory::{Memory, MemoryEvent};
 use super::parts::{Part, SubresourceMap};
 use super::program::{Access, Barrier, Program, Span};
 use super::scopes::{PairSet, StageSet};
-use super::subresources::{Contents, Lost, Owner, SubresourceState, Write};
+use super::subresources::{Contents, LostContents, Owner, SubresourceState, Write};
 use super::violation::{Rule, StepName};
 use crate::plan::{Plan, StepId};
 use crate::vulkan::{Layout, Subresources};
@@ -200,7 +200,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             let state = &self.subresources[index];
             if state.generation != generation {
                 // The accesses before the image lost its bytes don't count here: the next owner had to wait for them.
-                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before));
+                self.check_hand_over(id, barrier.image, Some(index), MemoryEvent::Barrier(before));
             } else if !state.excused
                 && let Some(gap) = before_layout_change(state, before, scopes.source)
             {
@@ -215,7 +215,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             if forgets {
                 state.contents = match state.contents {
                     Contents::Defined if outlives || state.filled > frame_start => {
-                        Contents::Lost(Lost::Forgotten, available.time)
+                        Contents::Lost(LostContents::Forgotten, available.time)
                     }
                     Contents::Lost(_, time) if time > frame_start => state.contents,
                     _ => Contents::Unwritten,

@@ -13,7 +13,7 @@ use super::program::{Builder, Program};
 use super::structure::clear_fits;
 use super::violation::{Accessed, Rule, StepName};
 use crate::frame::Draw;
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{
     Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
 };
@@ -64,7 +64,7 @@ impl<'p> Check<'_, 'p> {
 
     #[cold]
     pub(super) fn wrong_pass(&mut self, pass: &Pass, what: &str) {
-        self.found.structure(Some(self.id), None, format!("pass `{}` {what}", Shown(&pass.name)));
+        self.found.structure(Some(self.id), None, format!("pass `{}` {what}", ShownText(&pass.name)));
     }
 
     #[cold]

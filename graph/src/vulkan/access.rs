@@ -59,9 +59,9 @@ pub(crate) struct AccessRow {
     pub(crate) reads: Accesses,
     /// Its writes.
     pub(crate) writes: Accesses,
-    /// Of an image: the usage that it needs, and its layout. `None`: no image is used so.
+    /// The usage that an image needs, and its layout. `None`: no image is used so.
     pub(crate) image: Option<(Usage, Layout)>,
-    /// Of a buffer: the usage that it needs. `None`: no buffer is used so.
+    /// The usage that a buffer needs. `None`: no buffer is used so.
     pub(crate) buffer: Option<BufferUsage>,
     /// The device feature that it needs beyond those of its stages, by Vulkan's name, if it needs one.
     pub(crate) feature: Option<&'static str>,
@@ -74,12 +74,12 @@ pub(crate) struct StateWord {
     /// The meaning.
     pub(crate) about: &'static str,
     /// What can be in the state.
-    pub(crate) of: &'static [Of],
+    pub(crate) of: &'static [StateSubject],
 }
 
 /// The kind of thing that a state belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Of {
+pub(crate) enum StateSubject {
     /// An image.
     Image,
     /// A buffer.
@@ -104,20 +104,20 @@ const NONE: AccessRow = AccessRow {
     feature: None,
 };
 
-const fn word(word: &'static str, about: &'static str, of: &'static [Of]) -> Option<StateWord> {
+const fn word(word: &'static str, about: &'static str, of: &'static [StateSubject]) -> Option<StateWord> {
     Some(StateWord { word, about, of })
 }
 
 /// The rows, by [`AccessKind`].
 const ROWS: &[AccessRow] = &[
     AccessRow {
-        word: word("Undefined", "An image without contents.", &[Of::Image]),
+        word: word("Undefined", "An image without contents.", &[StateSubject::Image]),
         image: Some((Usage::empty(), Layout::Undefined)),
         ..NONE
     },
     AccessRow {
         kind: AccessKind::ColorAttachment,
-        word: word("ColorAttachment", "An image that is drawn into as colour.", &[Of::Image]),
+        word: word("ColorAttachment", "An image that is drawn into as colour.", &[StateSubject::Image]),
         stages: Stages::COLOR_ATTACHMENT_OUTPUT,
         reads: Accesses::COLOR_ATTACHMENT_READ,
         writes: Accesses::COLOR_ATTACHMENT_WRITE,
@@ -126,7 +126,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::DepthAttachment,
-        word: word("DepthAttachment", "An image that is drawn into as depth or stencil.", &[Of::Image]),
+        word: word("DepthAttachment", "An image that is drawn into as depth or stencil.", &[StateSubject::Image]),
         stages: TESTS,
         reads: Accesses::DEPTH_STENCIL_ATTACHMENT_READ,
         writes: Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE,
@@ -150,7 +150,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Sampled,
-        word: word("Sampled", "An image that shaders sample.", &[Of::Image]),
+        word: word("Sampled", "An image that shaders sample.", &[StateSubject::Image]),
         stages: SHADERS,
         reads: Accesses::SHADER_SAMPLED_READ,
         image: Some((Usage::SAMPLED, Layout::ShaderReadOnlyOptimal)),
@@ -158,7 +158,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Storage,
-        word: word("Storage", "Read and written by shaders.", &[Of::Image, Of::Buffer]),
+        word: word("Storage", "Read and written by shaders.", &[StateSubject::Image, StateSubject::Buffer]),
         stages: SHADERS,
         reads: Accesses::SHADER_STORAGE_READ,
         writes: Accesses::SHADER_STORAGE_WRITE,
@@ -168,7 +168,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Uniform,
-        word: word("Uniform", "A buffer that is read as a uniform block.", &[Of::Buffer]),
+        word: word("Uniform", "A buffer that is read as a uniform block.", &[StateSubject::Buffer]),
         stages: SHADERS,
         reads: Accesses::UNIFORM_READ,
         buffer: Some(BufferUsage::UNIFORM_BUFFER),
@@ -176,7 +176,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Vertex,
-        word: word("Vertex", "A buffer of vertices.", &[Of::Buffer]),
+        word: word("Vertex", "A buffer of vertices.", &[StateSubject::Buffer]),
         stages: Stages::VERTEX_INPUT,
         reads: Accesses::VERTEX_ATTRIBUTE_READ,
         buffer: Some(BufferUsage::VERTEX_BUFFER),
@@ -184,7 +184,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Index,
-        word: word("Index", "A buffer of indices.", &[Of::Buffer]),
+        word: word("Index", "A buffer of indices.", &[StateSubject::Buffer]),
         stages: Stages::VERTEX_INPUT,
         reads: Accesses::INDEX_READ,
         buffer: Some(BufferUsage::INDEX_BUFFER),
@@ -192,7 +192,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Indirect,
-        word: word("Indirect", "A buffer that holds counts of draws or dispatches.", &[Of::Buffer]),
+        word: word("Indirect", "A buffer that holds counts of draws or dispatches.", &[StateSubject::Buffer]),
         stages: Stages::DRAW_INDIRECT.union(Stages::ACCELERATION_STRUCTURE_BUILD_KHR),
         reads: Accesses::INDIRECT_COMMAND_READ,
         buffer: Some(BufferUsage::INDIRECT_BUFFER),
@@ -200,7 +200,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::TransferSource,
-        word: word("TransferSource", "Copied or scaled from.", &[Of::Image, Of::Buffer]),
+        word: word("TransferSource", "Copied or scaled from.", &[StateSubject::Image, StateSubject::Buffer]),
         stages: SOURCES.union(STRUCTURES),
         reads: Accesses::TRANSFER_READ,
         image: Some((Usage::TRANSFER_SRC, Layout::TransferSrcOptimal)),
@@ -209,7 +209,7 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::TransferTarget,
-        word: word("TransferTarget", "Copied, scaled or filled into.", &[Of::Image, Of::Buffer]),
+        word: word("TransferTarget", "Copied, scaled or filled into.", &[StateSubject::Image, StateSubject::Buffer]),
         stages: SOURCES.union(Stages::CLEAR).union(STRUCTURES),
         writes: Accesses::TRANSFER_WRITE,
         image: Some((Usage::TRANSFER_DST, Layout::TransferDstOptimal)),
@@ -236,13 +236,17 @@ const ROWS: &[AccessRow] = &[
     },
     AccessRow {
         kind: AccessKind::Present,
-        word: word("Present", "An image that is shown in a window.", &[Of::Image]),
+        word: word("Present", "An image that is shown in a window.", &[StateSubject::Image]),
         image: Some((Usage::empty(), Layout::PresentSrcKhr)),
         ..NONE
     },
     AccessRow {
         kind: AccessKind::Host,
-        word: word("Host", "A buffer that the program writes before the frame, or reads afterwards.", &[Of::Buffer]),
+        word: word(
+            "Host",
+            "A buffer that the program writes before the frame, or reads afterwards.",
+            &[StateSubject::Buffer],
+        ),
         stages: Stages::HOST,
         reads: Accesses::HOST_READ,
         writes: Accesses::HOST_WRITE,
@@ -321,10 +325,10 @@ impl Accesses {
     }
 
     /// Those that only images, or only buffers, can have seen.
-    pub(crate) fn only_of(self, of: Of) -> Accesses {
+    pub(crate) fn only_of(self, of: StateSubject) -> Accesses {
         let other = |row: &&AccessRow| match of {
-            Of::Image => row.buffer.is_none(),
-            Of::Buffer => row.image.is_none(),
+            StateSubject::Image => row.buffer.is_none(),
+            StateSubject::Buffer => row.image.is_none(),
         };
         rows_of(self).filter(other).fold(Accesses::empty(), |all, row| all | (self & (row.reads | row.writes)))
     }

@@ -10,7 +10,7 @@ pub(crate) struct LayoutRow {
     /// Vulkan's name.
     pub(crate) name: &'static str,
     /// Images that can be left in it.
-    pub(crate) holds: Holds,
+    pub(crate) holds: LayoutImages,
     /// What happens in it; the usage for the first is what the layout needs. Everything can happen in `GENERAL`.
     pub(crate) kinds: &'static [AccessKind],
     /// Whether the writes of these kinds happen too, and not only their reads.
@@ -19,7 +19,7 @@ pub(crate) struct LayoutRow {
 
 /// The images that a frame can take over or leave in a layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Holds {
+pub(crate) enum LayoutImages {
     /// All.
     Any,
     /// Colour.
@@ -43,7 +43,7 @@ pub(crate) const LAYOUTS: &[LayoutRow] = {
     const fn row(
         layout: Layout,
         name: &'static str,
-        holds: Holds,
+        holds: LayoutImages,
         kinds: &'static [AccessKind],
         written: bool,
     ) -> LayoutRow {
@@ -51,36 +51,54 @@ pub(crate) const LAYOUTS: &[LayoutRow] = {
     }
     const READ_ONLY_DEPTH: &[AccessKind] = &[DepthAttachment, Sampled, InputAttachment];
     &[
-        row(Layout::Undefined, "UNDEFINED", Holds::Any, &[], false),
-        row(Layout::General, "GENERAL", Holds::Any, &[], true),
-        row(Layout::ColorAttachmentOptimal, "COLOR_ATTACHMENT_OPTIMAL", Holds::Color, &[ColorAttachment], true),
+        row(Layout::Undefined, "UNDEFINED", LayoutImages::Any, &[], false),
+        row(Layout::General, "GENERAL", LayoutImages::Any, &[], true),
+        row(Layout::ColorAttachmentOptimal, "COLOR_ATTACHMENT_OPTIMAL", LayoutImages::Color, &[ColorAttachment], true),
         row(
             Layout::DepthStencilAttachmentOptimal,
             "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
-            Holds::Depth,
+            LayoutImages::Depth,
             &[DepthAttachment],
             true,
         ),
         row(
             Layout::DepthStencilReadOnlyOptimal,
             "DEPTH_STENCIL_READ_ONLY_OPTIMAL",
-            Holds::Depth,
+            LayoutImages::Depth,
             READ_ONLY_DEPTH,
             false,
         ),
-        row(Layout::DepthAttachmentOptimal, "DEPTH_ATTACHMENT_OPTIMAL", Holds::DepthAlone, &[DepthAttachment], true),
-        row(Layout::DepthReadOnlyOptimal, "DEPTH_READ_ONLY_OPTIMAL", Holds::DepthAlone, READ_ONLY_DEPTH, false),
-        row(Layout::StencilAttachmentOptimal, "STENCIL_ATTACHMENT_OPTIMAL", Holds::None, &[DepthAttachment], true),
-        row(Layout::StencilReadOnlyOptimal, "STENCIL_READ_ONLY_OPTIMAL", Holds::None, READ_ONLY_DEPTH, false),
-        row(Layout::ShaderReadOnlyOptimal, "SHADER_READ_ONLY_OPTIMAL", Holds::Any, &[Sampled, InputAttachment], false),
-        row(Layout::TransferSrcOptimal, "TRANSFER_SRC_OPTIMAL", Holds::Any, &[TransferSource], false),
-        row(Layout::TransferDstOptimal, "TRANSFER_DST_OPTIMAL", Holds::Any, &[TransferTarget], true),
-        row(Layout::PresentSrcKhr, "PRESENT_SRC_KHR", Holds::ColorOfOneSample, &[Present], false),
-        row(Layout::RenderingLocalReadKhr, "RENDERING_LOCAL_READ_KHR", Holds::None, &[InputAttachment], false),
+        row(
+            Layout::DepthAttachmentOptimal,
+            "DEPTH_ATTACHMENT_OPTIMAL",
+            LayoutImages::DepthAlone,
+            &[DepthAttachment],
+            true,
+        ),
+        row(Layout::DepthReadOnlyOptimal, "DEPTH_READ_ONLY_OPTIMAL", LayoutImages::DepthAlone, READ_ONLY_DEPTH, false),
+        row(
+            Layout::StencilAttachmentOptimal,
+            "STENCIL_ATTACHMENT_OPTIMAL",
+            LayoutImages::None,
+            &[DepthAttachment],
+            true,
+        ),
+        row(Layout::StencilReadOnlyOptimal, "STENCIL_READ_ONLY_OPTIMAL", LayoutImages::None, READ_ONLY_DEPTH, false),
+        row(
+            Layout::ShaderReadOnlyOptimal,
+            "SHADER_READ_ONLY_OPTIMAL",
+            LayoutImages::Any,
+            &[Sampled, InputAttachment],
+            false,
+        ),
+        row(Layout::TransferSrcOptimal, "TRANSFER_SRC_OPTIMAL", LayoutImages::Any, &[TransferSource], false),
+        row(Layout::TransferDstOptimal, "TRANSFER_DST_OPTIMAL", LayoutImages::Any, &[TransferTarget], true),
+        row(Layout::PresentSrcKhr, "PRESENT_SRC_KHR", LayoutImages::ColorOfOneSample, &[Present], false),
+        row(Layout::RenderingLocalReadKhr, "RENDERING_LOCAL_READ_KHR", LayoutImages::None, &[InputAttachment], false),
         row(
             Layout::FragmentShadingRateAttachmentOptimalKhr,
             "FRAGMENT_SHADING_RATE_ATTACHMENT_OPTIMAL_KHR",
-            Holds::ColorOfOneSample,
+            LayoutImages::ColorOfOneSample,
             &[ShadingRate],
             false,
         ),

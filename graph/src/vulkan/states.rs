@@ -1,12 +1,12 @@
 //! Contradictions in the state in which an image or buffer comes in or goes out.
 
-use super::access::Of;
-use super::layout::Holds;
+use super::access::StateSubject;
+use super::layout::LayoutImages;
 use super::{Accesses, Aspects, Format, Layout, Stages, State};
 
 /// The time at which an image or buffer is in a state.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum When {
+pub(crate) enum StateTime {
     /// When it is handed in.
     Before,
     /// When it is left.
@@ -17,13 +17,13 @@ pub(crate) enum When {
 #[derive(Clone, Copy)]
 pub(crate) struct Subject<'a> {
     pub(crate) name: &'a str,
-    /// Of an image; `None`: a buffer.
+    /// The format of an image; `None`: a buffer.
     pub(crate) format: Option<Format>,
     pub(crate) samples: u32,
 }
 
 /// Why no image or buffer of this kind can be in this state, and the help.
-pub(crate) fn contradiction(state: &State, of: Subject<'_>, when: When) -> Option<(String, String)> {
+pub(crate) fn contradiction(state: &State, of: Subject<'_>, when: StateTime) -> Option<(String, String)> {
     let name = of.name;
     for access in state.accesses.iter() {
         let stages = access.stages();
@@ -36,11 +36,11 @@ pub(crate) fn contradiction(state: &State, of: Subject<'_>, when: When) -> Optio
         }
     }
     let Some(format) = of.format else {
-        let foreign = state.accesses.only_of(Of::Image);
+        let foreign = state.accesses.only_of(StateSubject::Image);
         let message = format!("`{name}` is a buffer and can't have seen {}", words(foreign));
         return (!foreign.is_empty()).then(|| (message, "name accesses of buffers".to_owned()));
     };
-    let foreign = state.accesses.only_of(Of::Buffer);
+    let foreign = state.accesses.only_of(StateSubject::Buffer);
     if !foreign.is_empty() {
         let message = format!("`{name}` is an image and can't have seen {}", words(foreign));
         return Some((message, "name accesses of images".to_owned()));
@@ -53,25 +53,25 @@ fn layout_contradiction(
     name: &str,
     format: Format,
     samples: u32,
-    when: When,
+    when: StateTime,
 ) -> Option<(String, String)> {
     let shown = super::name_of(&state.layout);
     let (depth, stencil) = (format.is_depth(), format.aspects().contains(Aspects::STENCIL));
     if state.layout == Layout::Undefined {
         let message = format!("`{name}` can't be left in the layout UNDEFINED: its contents would be lost");
-        return (when == When::After)
+        return (when == StateTime::After)
             .then(|| (message, "leave `after` out to keep it as its last use leaves it".to_owned()));
     }
     if state.layout == Layout::General {
         return None;
     }
     let fits = match state.layout.row().holds {
-        Holds::Any => true,
-        Holds::Color => !depth,
-        Holds::ColorOfOneSample => !depth && samples == 1,
-        Holds::Depth => depth,
-        Holds::DepthAlone => depth && !stencil,
-        Holds::None => false,
+        LayoutImages::Any => true,
+        LayoutImages::Color => !depth,
+        LayoutImages::ColorOfOneSample => !depth && samples == 1,
+        LayoutImages::Depth => depth,
+        LayoutImages::DepthAlone => depth && !stencil,
+        LayoutImages::None => false,
     };
     let allowed = state.layout.accesses();
     if !fits {

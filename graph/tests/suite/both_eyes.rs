@@ -5,9 +5,10 @@ use crate::testing::plans::{self, compiled, image, on, scopes};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{
-    Blend, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Stereo, Storage, TransferUse, Work,
+    Blend, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage, Stereo, Storage, TransferUse,
+    Work,
 };
 use framewright_graph::plan::{ImageId, Plan, Role};
 use framewright_graph::verify::verify;
@@ -159,16 +160,16 @@ fn a_compiler_that_remembers_the_last_frame_compiles_another_mode_anew() {
     let options = Options::default();
     for (at, (stereo, form)) in MODES.into_iter().chain(MODES).enumerate() {
         let frame = Arc::new(frame(stereo, form));
-        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("valid").clone();
+        let plan = compiler.compile(&frame, &device, &mut MemoryEstimate(&device), &options).expect("valid").clone();
         assert_eq!(compiler.reuse(), Reuse::Nothing, "{at}: {stereo:?} {form:?}");
         assert_eq!(plan, compiled(&frame), "{stereo:?} {form:?}");
         // Another size is another placement, of both eyes' parts.
         let mut larger = Frame::clone(&frame);
         larger.images.iter_mut().for_each(|image| image.extent = [128, 128, 1]);
-        let plan = compiler.compile(&Arc::new(larger.clone()), &device, &mut Estimated(&device), &options);
+        let plan = compiler.compile(&Arc::new(larger.clone()), &device, &mut MemoryEstimate(&device), &options);
         assert_eq!(*plan.expect("valid"), compiled(&larger), "{stereo:?} {form:?}");
         assert_eq!(compiler.reuse(), Reuse::Nothing, "{stereo:?} {form:?}");
-        compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("valid");
+        compiler.compile(&frame, &device, &mut MemoryEstimate(&device), &options).expect("valid");
     }
 }
 
@@ -177,9 +178,9 @@ fn a_size_that_only_both_eyes_do_not_fit_in_is_refused_by_a_compiler_that_rememb
     let device = Arc::new(Profile { max_attachment_extent: 4096, ..raster::device() });
     let (mut compiler, options) = (Compiler::new(), Options::default());
     let mut frame = frame(Stereo::DoubleWide, EyeForm::Halves);
-    assert!(compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &options).is_ok());
+    assert!(compiler.compile(&Arc::new(frame.clone()), &device, &mut MemoryEstimate(&device), &options).is_ok());
     frame.images.iter_mut().for_each(|image| image.extent[0] = 2049);
-    assert!(compiler.compile(&Arc::new(frame), &device, &mut Estimated(&device), &options).is_err());
+    assert!(compiler.compile(&Arc::new(frame), &device, &mut MemoryEstimate(&device), &options).is_err());
 }
 
 /// `first` draws into `mine`; `second` reads it at its own position and draws into `other`.
@@ -251,7 +252,7 @@ fn transfers(name: &str, work: Work, of: &[(ImageIndex, bool)]) -> Pass {
     Pass { transfers: of.iter().map(used).collect(), side_effect: true, ..Pass::new(name, work) }
 }
 
-fn sampled(frame: &mut Frame, pass: usize, at: usize) -> &mut Sampled {
+fn sampled(frame: &mut Frame, pass: usize, at: usize) -> &mut SampledImage {
     &mut frame.passes[pass].sampled[at]
 }
 

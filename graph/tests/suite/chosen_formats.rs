@@ -3,7 +3,7 @@
 use crate::testing::pipelines::{INPUTS, right};
 use crate::testing::plans::{image, on, shipped};
 use framewright_graph::compile::{Compiler, Options};
-use framewright_graph::device::{Estimated, FormatSupport, Profile};
+use framewright_graph::device::{FormatSupport, MemoryEstimate, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{ChosenFormat, Plan, Stage};
 use framewright_graph::vulkan::Format::{self, *};
@@ -136,8 +136,8 @@ fn another_size_brings_the_bytes_of_choices_up_to_date() {
         .map(|output_extent| Arc::new(right(&text("color: Exact,"), &Inputs { output_extent, ..INPUTS })));
     let mut compiler = Compiler::new();
     let options = Options::default();
-    let first = compiler.compile(&small, &device, &mut Estimated(&device), &options).expect("it compiles").clone();
-    let second = compiler.compile(&large, &device, &mut Estimated(&device), &options).expect("it compiles");
+    let first = compiler.compile(&small, &device, &mut MemoryEstimate(&device), &options).expect("it compiles").clone();
+    let second = compiler.compile(&large, &device, &mut MemoryEstimate(&device), &options).expect("it compiles");
     assert_eq!(*second, plan_at("color: Exact,", &device, [1280, 720]));
     assert_eq!(chosen_bytes(second), 4 * chosen_bytes(&first));
 }

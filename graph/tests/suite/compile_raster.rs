@@ -3,7 +3,7 @@
 use crate::testing::plans::{compiled, scopes};
 use crate::testing::raster::{self, Raster, forward};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Blend;
 use framewright_graph::plan::{Plan, Resource, Role, Stage};
 use framewright_graph::verify::verify;
@@ -190,7 +190,7 @@ fn an_unsupported_sample_count_is_lowered_and_said() {
     for support in &mut device.formats {
         support.samples = if support.format == D32_SFLOAT { vec![1, 2] } else { vec![1, 2, 4] };
     }
-    let plan = compile(&forward(8, true, true), &device, &mut Estimated(&device), &Options::default())
+    let plan = compile(&forward(8, true, true), &device, &mut MemoryEstimate(&device), &Options::default())
         .expect("the frame is valid");
     let color = plan.images.iter().find(|image| &*image.name == "color").expect("there is a color");
     assert_eq!(color.samples, 2);
@@ -264,7 +264,7 @@ fn what_a_device_can_neither_filter_nor_blend_is_refused_by_name() {
     raster.objects("opaque").clear(color).clear_depth(depth);
     raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
     raster.full_screen("fog").sample_by(color, Filter::Linear).sample_by(depth, Filter::Linear).clear(screen);
-    let refused = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default());
+    let refused = compile(&raster.output(screen), &device, &mut MemoryEstimate(&device), &Options::default());
     let said: Vec<String> = refused.expect_err("it can't be drawn").into_iter().map(|error| error.message).collect();
     assert_eq!(
         said,
@@ -299,7 +299,7 @@ fn the_live_peak_is_that_of_all_heaps_together() {
     raster.full_screen("first").sample(color).color(near, Blend::Replace);
     raster.full_screen("second").sample(near).color(far, Blend::Replace);
     raster.full_screen("last").sample(near).sample(far).color(screen, Blend::Replace);
-    let plan = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default())
+    let plan = compile(&raster.output(screen), &device, &mut MemoryEstimate(&device), &Options::default())
         .expect("the frame is valid");
     assert_eq!(plan.heaps.len(), 2);
     assert_eq!(verify(&plan), [], "{}", plan.tree());

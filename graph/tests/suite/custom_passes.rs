@@ -3,10 +3,10 @@
 use crate::testing::parts::device;
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{
     Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass,
-    Resource, Sampled, TransferUse, Work,
+    Resource, SampledImage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::verify::verify;
@@ -53,7 +53,7 @@ fn frame() -> Frame {
         Pass {
             color: vec![target(0)],
             buffers: vec![block("counts", 0, true, Stages::FRAGMENT_SHADER)],
-            sampled: vec![Sampled::new("seen", ImageIndex(1), Stages::FRAGMENT_SHADER)],
+            sampled: vec![SampledImage::new("seen", ImageIndex(1), Stages::FRAGMENT_SHADER)],
             ..Pass::new("meshes", draw(Draw::Custom))
         },
         Pass {
@@ -74,7 +74,7 @@ fn frame() -> Frame {
 
 fn planned() -> Plan {
     let device = device();
-    let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&frame(), &device, &mut MemoryEstimate(&device), &Options::default());
     plan.unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 

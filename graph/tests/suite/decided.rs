@@ -3,7 +3,7 @@
 use crate::testing::pipelines::{INPUTS, right, set, shipped};
 use crate::testing::plans::{compiled, image};
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{DecidedBy, Draw, NamedValue, Property, Subject};
 use framewright_graph::language::{Fact, Facts};
@@ -285,7 +285,7 @@ fn a_plan_that_is_brought_up_to_date_names_the_new_values() {
     for objects in [2, 3, 4, 40] {
         let facts = Facts { objects, ..FACTS };
         let frame = Arc::new(right(TEXT, &Inputs { facts, facts_known: true, ..INPUTS }));
-        let memory = &mut Estimated(&device);
+        let memory = &mut MemoryEstimate(&device);
         let plan = compiler.compile(&frame, &device, memory, &Options::default()).expect("it compiles").clone();
         assert_eq!(compiler.reuse() != Reuse::Nothing, objects == 40, "{objects}");
         assert_eq!(verify(&plan), []);

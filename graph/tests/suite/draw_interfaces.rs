@@ -2,7 +2,7 @@
 
 use framewright_graph::base::{self, Sources};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -13,12 +13,12 @@ fn read(text: &str) -> Result<DrawInterfaces, String> {
 }
 
 fn engine(draw: Draw) -> DrawInterface {
-    let camera = Supplied::new(1, 0, "camera", SuppliedKind::UniformBlock);
+    let camera = SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock);
     match draw {
         Draw::Objects(_) => DrawInterface {
             vertex_stride: 20,
             attributes: vec![Attribute::new("place", 3, 0), Attribute::new("tangent", 2, 12)],
-            supplied: vec![camera, Supplied::new(3, 7, "detail", SuppliedKind::SampledImage).with_count(64)],
+            supplied: vec![camera, SuppliedResource::new(3, 7, "detail", SuppliedKind::SampledImage).with_count(64)],
         },
         Draw::Sky | Draw::Custom => DrawInterface { supplied: vec![camera], ..DrawInterface::default() },
         _ => DrawInterface::default(),
@@ -28,7 +28,7 @@ fn engine(draw: Draw) -> DrawInterface {
 /// All that the engine tells.
 fn interfaces() -> DrawInterfaces {
     let compute = DrawInterface {
-        supplied: vec![Supplied::new(2, 1, "counters", SuppliedKind::StorageBlock)],
+        supplied: vec![SuppliedResource::new(2, 1, "counters", SuppliedKind::StorageBlock)],
         ..DrawInterface::default()
     };
     DrawInterfaces::from(engine).with(DrawKind::Compute, compute).with_custom_passes(["grass", "hair-2"])
@@ -195,11 +195,11 @@ fn interface() -> impl Strategy<Value = DrawInterface> {
             interface.attributes.push(Attribute { name: name.into(), components, offset });
         }
         interface.vertex_stride += 4 * more;
-        let by_name: BTreeMap<String, Supplied> = supplied
+        let by_name: BTreeMap<String, SuppliedResource> = supplied
             .into_iter()
             .map(|((set, binding), (name, kind, count))| {
                 let count = if kind == SuppliedKind::SampledImage { count } else { 1 };
-                (name.clone(), Supplied { set, binding, name: name.into(), kind, count })
+                (name.clone(), SuppliedResource { set, binding, name: name.into(), kind, count })
             })
             .collect();
         interface.supplied.extend(by_name.into_values());

@@ -5,7 +5,7 @@ use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Storage, TransferUse, Work};
 use framewright_graph::plan::{Plan, Stage};
 use framewright_graph::vulkan::Format::{self, *};
@@ -150,7 +150,8 @@ fn a_frame_that_fell_back_is_compiled_anew_when_it_changes() {
     let mut frame = frame(B10G11R11_UFLOAT_PACK32, D32_SFLOAT);
     for side in [64, 32] {
         frame.images.iter_mut().for_each(|image| image.extent = [side, side, 1]);
-        let again = compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &Options::default());
+        let again =
+            compiler.compile(&Arc::new(frame.clone()), &device, &mut MemoryEstimate(&device), &Options::default());
         assert_eq!(again.ok(), on(&frame, &device).ok().as_ref());
     }
 }

@@ -7,7 +7,7 @@ use crate::testing::plans::shipped as shipped_device;
 use crate::testing::table::Table;
 use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::Frame;
 use framewright_graph::language::{self, Document, Facts, PipelineFiles, SettingKind};
@@ -95,7 +95,7 @@ fn every_shipped_pipeline_makes_the_plans_that_were_reviewed() {
     for (file, (name, set, facts)) in all() {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let frame = expanded(&file, &inputs);
-        let plan = compile(&frame, &profile, &mut Estimated(&profile), &Options::default())
+        let plan = compile(&frame, &profile, &mut MemoryEstimate(&profile), &Options::default())
             .unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
         assert_eq!(verify(&plan), [], "{name}");
         insta::with_settings!({
@@ -140,7 +140,7 @@ fn no_barrier_of_a_reviewed_plan_can_be_left_out() {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let frame = expanded(&file, &inputs);
         for device in &devices {
-            let plan = compile(&frame, device, &mut Estimated(device), &Options::default());
+            let plan = compile(&frame, device, &mut MemoryEstimate(device), &Options::default());
             found.extend(needless(&name, &plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"))));
         }
     }
@@ -176,7 +176,7 @@ fn on_lavapipe() -> Vec<(String, Plan)> {
     let device = shipped_device("lavapipe");
     let compiled = all().into_iter().map(|(file, (name, set, facts))| {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
-        let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());
+        let plan = compile(&expanded(&file, &inputs), &device, &mut MemoryEstimate(&device), &Options::default());
         let plan = plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
         (name, plan)
     });

@@ -4,7 +4,7 @@
 use crate::testing::plans::{planned, scopes};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Resource, Work};
 use framewright_graph::plan::{self, BindingKind, Plan, RenderScope, Stage};
 use framewright_graph::verify::verify;
@@ -150,7 +150,8 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
     frame.passes.insert(2, marks);
     frame.outputs.push(Resource::Image(ImageIndex(0)).into());
     let options = Options { demote: false, order: Order::File, ..Options::default() };
-    let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is valid");
+    let plan =
+        compile(&frame, &device(true), &mut MemoryEstimate(&device(true)), &options).expect("the frame is valid");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
     assert_eq!(barriers, [false, true, true], "{}", plan.tree());
@@ -176,8 +177,12 @@ fn sizes_that_come_apart_or_together_part_or_join_scopes_where_a_local_read_depe
     let mut compiler = Compiler::new();
     for (light, count) in [(64, 2), (32, 3), (16, 3), (64, 2)] {
         let frame = of(light);
-        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is valid");
-        assert_eq!(*plan, compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is valid"));
+        let plan =
+            compiler.compile(&frame, &device, &mut MemoryEstimate(&device), &options).expect("the frame is valid");
+        assert_eq!(
+            *plan,
+            compile(&frame, &device, &mut MemoryEstimate(&device), &options).expect("the frame is valid")
+        );
         assert_eq!((scopes(plan).len(), compiler.reuse()), (count, Reuse::Nothing), "{light} texels");
     }
 }

@@ -1,7 +1,7 @@
 //! The estimates of memory needs: models say what devices said, and nothing overflows.
 
 use framewright_graph::device::{
-    BufferDescriptor, Estimated, ImageDescriptor, KnownNeeds, MemoryModel, MemoryNeeds, MemoryProvider, Profile,
+    BufferDescriptor, ImageDescriptor, KnownNeeds, MemoryEstimate, MemoryModel, MemoryNeeds, MemoryProvider, Profile,
     SHIPPED_PROFILES,
 };
 use framewright_graph::vulkan::{BufferUsage, Format, Shape, Sharing, Usage};
@@ -119,7 +119,7 @@ fn what_was_read_from_a_device_goes_before_the_model() {
         sizes: vec![([1280, 720], read), ([1920, 1080], read)],
     }];
     let modelled = profile.memory.image(&odd);
-    let mut estimated = Estimated(&profile);
+    let mut estimated = MemoryEstimate(&profile);
     assert_eq!(estimated.image(&odd), read);
     for other in [
         ImageDescriptor { samples: 4, ..odd },

@@ -4,7 +4,7 @@ use crate::testing::parts::stored;
 use crate::testing::plans::refused_on;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
@@ -44,7 +44,7 @@ fn the_largest_images_with_the_most_samples_are_added_up_without_overflow() {
         image.extent = [16384, 16384, 1];
     }
     frame.images[0].samples = 16;
-    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("it is only large");
+    let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect("it is only large");
     assert_eq!(verify(&plan), []);
     // 4 bytes × 16 samples, and once resolved; 8 bytes of noise.
     assert_eq!(plan.totals.transient_bytes, (16384 * 16384) * (4 * 16 + 4 + 8));
@@ -149,7 +149,7 @@ fn attachments_of_one_pass_have_as_many_layers_and_are_no_more_than_the_device_h
 #[test]
 fn an_empty_frame_is_an_empty_plan() {
     let device = raster::device();
-    let plan = compile(&Frame::default(), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&Frame::default(), &device, &mut MemoryEstimate(&device), &Options::default());
     let plan = plan.expect("there is nothing to refuse");
     assert_eq!((plan.images.len(), plan.steps.len()), (0, 1));
     assert_eq!(verify(&plan), []);
@@ -158,7 +158,7 @@ fn an_empty_frame_is_an_empty_plan() {
 #[test]
 fn the_unchanged_frame_is_compiled() {
     let device = raster::device();
-    let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&frame(), &device, &mut MemoryEstimate(&device), &Options::default());
     assert_eq!(verify(&plan.expect("it is valid")), []);
 }
 
@@ -174,7 +174,7 @@ fn forwarded_images_are_lowered_together() {
     let normal = raster.image("normal", R16G16B16A16_SFLOAT, 4);
     raster.objects("opaque").clear(color).clear(normal);
     raster.forward("glow", color, other);
-    let plan = compile(&raster.output(other), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&raster.output(other), &device, &mut MemoryEstimate(&device), &Options::default());
     let plan = plan.expect("the frame is valid");
     assert_eq!(plan.totals.inserted_passes, 0, "{}", plan.tree());
 }
@@ -188,7 +188,7 @@ fn a_device_without_the_feature_that_brings_a_state_is_told_of() {
     let on = |features: Option<&[&str]>| {
         let features = features.map(|all| all.iter().map(|name| (*name).to_owned()).collect());
         let device = Profile { features, ..raster::device() };
-        let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default());
         plan.map(|plan| assert_eq!(verify(&plan), [])).map_err(|wrong| wrong[0].message.clone())
     };
     let said = on(Some(&[])).expect_err("it lacks the feature");

@@ -3,7 +3,7 @@
 use crate::queues::{Builder, device, note, shown, transferred};
 use crate::testing::plans::planned;
 use framewright_graph::compile::{Compiler, Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
 use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Sharing, Stages, State};
@@ -176,8 +176,8 @@ fn other_sizes_are_weighed_again() {
     let device = Arc::new(with_wait(2 * MIB));
     let mut compiler = Compiler::new();
     let mut follow = |frame: Frame| {
-        let anew = compile(&frame, &device, &mut Estimated(&device), &OPTIONS).expect("the frame is valid");
-        let plan = compiler.compile(&Arc::new(frame), &device, &mut Estimated(&device), &OPTIONS);
+        let anew = compile(&frame, &device, &mut MemoryEstimate(&device), &OPTIONS).expect("the frame is valid");
+        let plan = compiler.compile(&Arc::new(frame), &device, &mut MemoryEstimate(&device), &OPTIONS);
         assert_eq!(plan.expect("the frame is valid"), &anew);
         queue_of_first(&anew)
     };

@@ -5,10 +5,10 @@ use crate::testing::parts::{self, stored};
 use crate::testing::plans::planned;
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime,
-    Pass, Resource, Sampled, TransferUse, Work,
+    Pass, Resource, SampledImage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role};
 use framewright_graph::vulkan::{
@@ -34,7 +34,8 @@ impl Builder {
     }
 
     fn pass(&mut self, mut pass: Pass, stages: Stages, reads: &[ImageIndex], buffers: &[(BufferIndex, bool)]) {
-        pass.sampled = reads.iter().map(|image| Sampled::new(format!("source{}", image.0), *image, stages)).collect();
+        pass.sampled =
+            reads.iter().map(|image| SampledImage::new(format!("source{}", image.0), *image, stages)).collect();
         pass.buffers = buffers.iter().map(|(buffer, write)| used(*buffer, *write, stages)).collect();
         self.0.passes.push(pass);
     }
@@ -180,7 +181,7 @@ fn a_device_with_one_queue_and_a_compiler_told_to_use_one_make_the_same_plan() {
         let plan = |queues, used| {
             let device = device(queues);
             let options = Options { order, queues: used, ..Options::default() };
-            compile(&simulated(), &device, &mut Estimated(&device), &options).expect("the frame is valid")
+            compile(&simulated(), &device, &mut MemoryEstimate(&device), &options).expect("the frame is valid")
         };
         let one = plan(Queues::default(), true);
         assert_eq!(plan(EXCLUSIVE, false), one);

@@ -3,10 +3,10 @@
 use crate::testing::{raster, symbolic};
 use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resolve,
-    ResolveWay, Resource, Sampled, Storage, Work,
+    ResolveWay, Resource, SampledImage, Storage, Work,
 };
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::verify::verify;
@@ -133,8 +133,10 @@ impl Maker {
                 true => Face::Samples,
                 false => Face::Resolved,
             };
-            pass.sampled
-                .push(Sampled { face, ..Sampled::new(format!("source{number}"), ImageIndex(image as u32), stages) });
+            pass.sampled.push(SampledImage {
+                face,
+                ..SampledImage::new(format!("source{number}"), ImageIndex(image as u32), stages)
+            });
         }
     }
 
@@ -196,7 +198,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
 }
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(device), options)
+    compile(frame, device, &mut MemoryEstimate(device), options)
         .unwrap_or_else(|errors| panic!("the frame is valid: {errors:?}"))
 }
 
@@ -253,7 +255,7 @@ fn outputs_that_leave_rotated_hold_the_same_or_are_refused_beside_other_targets(
         };
         outputs.iter_mut().filter(color).for_each(|output| output.rotation = Rotation::Rotate90);
         let options = Options { demote: false, ..Options::default() };
-        let plan = match compile(&frame, device, &mut Estimated(device), &options) {
+        let plan = match compile(&frame, device, &mut MemoryEstimate(device), &options) {
             Ok(plan) => plan,
             Err(errors) => {
                 let beside =

@@ -4,7 +4,7 @@ use crate::testing::plans::{compiled, on};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{Blend, Frame, Image, ImageIndex, Lifetime};
 use framewright_graph::plan::{Cause, Plan, Work};
 use framewright_graph::verify::verify;
@@ -314,11 +314,15 @@ fn a_frame_of_another_size_is_rotated_again_and_gives_what_compiling_anew_gives(
     let mut compiler = Compiler::new();
     let mut compile_next = |frame: Frame| {
         let frame = Arc::new(frame);
-        let plan =
-            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("valid").clone();
+        let plan = compiler
+            .compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default())
+            .expect("valid")
+            .clone();
         assert_eq!(plan, compiled(&frame));
-        let same =
-            compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("valid").clone();
+        let same = compiler
+            .compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default())
+            .expect("valid")
+            .clone();
         assert_eq!((plan.images.len(), compiler.reuse()), (same.images.len(), Reuse::Everything));
         plan
     };

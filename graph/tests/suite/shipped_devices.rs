@@ -3,7 +3,7 @@
 use crate::testing::graphs;
 use crate::testing::raster::forward;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, KnownNeeds, MemoryNeeds, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{KnownNeeds, MemoryEstimate, MemoryNeeds, Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Queue;
 use framewright_graph::verify::verify;
@@ -30,7 +30,7 @@ fn every_frame_has_a_right_plan_on_every_shipped_device_in_every_order() {
             for order in [Order::Default, Order::File, Order::LowMemory, Order::Random(1), Order::Random(2)] {
                 for queues in [true, false] {
                     let options = Options { order, queues, ..Options::default() };
-                    let plan = compile(&frame, &profile, &mut Estimated(&profile), &options);
+                    let plan = compile(&frame, &profile, &mut MemoryEstimate(&profile), &options);
                     let plan = plan.unwrap_or_else(|wrong| panic!("{name} on {device}: {wrong:?}"));
                     assert_eq!(verify(&plan), [], "{name} on {device}, {options:?}\n{}", plan.tree());
                     let one = plan.steps.iter().all(|step| step.queue == Queue::Graphics);
@@ -55,7 +55,7 @@ fn samples_are_those_that_the_shipped_device_has() {
         ("meta-quest-3", 4),
     ] {
         let (_, profile) = shipped().find(|(name, _)| *name == device).expect("it is shipped");
-        let plan = compile(&forward(8, true, true), &profile, &mut Estimated(&profile), &Options::default());
+        let plan = compile(&forward(8, true, true), &profile, &mut MemoryEstimate(&profile), &Options::default());
         let plan = plan.expect("valid");
         assert_eq!(plan.images.iter().map(|image| image.samples).max(), Some(most), "{device}");
         assert_eq!(plan.notes.iter().any(|note| note.text.contains("samples instead of 8: ")), most < 8, "{device}");
@@ -65,7 +65,7 @@ fn samples_are_those_that_the_shipped_device_has() {
 #[test]
 fn images_that_stay_in_their_scope_take_lazily_allocated_memory_where_there_is_such() {
     for (device, profile) in shipped() {
-        let plan = compile(&forward(4, true, true), &profile, &mut Estimated(&profile), &Options::default());
+        let plan = compile(&forward(4, true, true), &profile, &mut MemoryEstimate(&profile), &Options::default());
         let lazily = plan.expect("valid").heaps.iter().any(|heap| heap.lazily_allocated);
         assert_eq!(lazily, profile.lazily_allocated_memory, "{device}");
     }
@@ -130,7 +130,7 @@ fn no_figure_of_a_device_makes_the_compiler_panic_or_its_plans_wrong() {
         for frame in frames().into_iter().map(|(_, frame)| frame).chain([large.clone()]) {
             for order in [Order::Default, Order::LowMemory] {
                 let options = Options { order, ..Options::default() };
-                match compile(&frame, &profile, &mut Estimated(&profile), &options) {
+                match compile(&frame, &profile, &mut MemoryEstimate(&profile), &options) {
                     Ok(plan) => drop(verify(&plan)),
                     Err(wrong) => {
                         assert!(wrong.iter().all(|it| !it.message.is_empty()) && !wrong.is_empty(), "{wrong:?}");

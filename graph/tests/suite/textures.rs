@@ -6,9 +6,9 @@ use framewright_graph::base::Span;
 use framewright_graph::device::{Profile, Queues};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorSpace, Frame, Groups, ImageIndex, Lifetime, Pass, Resource,
-    Sampled, Storage, TextureFile, TextureInfo, TextureProblem, Work,
+    SampledImage, Storage, TextureFile, TextureInfo, TextureProblem, Work,
 };
-use framewright_graph::plan::{Initial, Plan, Resource as Planned, Role};
+use framewright_graph::plan::{FirstContents, Plan, Resource as Planned, Role};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{
     AddressMode, FillValue, Filter, Format, Layout, Sampler, Shape, Sharing, Stages, Subresources, Usage,
@@ -41,7 +41,7 @@ fn a_texture_from_a_file_has_memory_of_its_own_one_layout_and_no_barrier() {
     let plan = compiled(&frame());
     let grain = plan.images.iter().find(|image| &*image.name == "grain").expect("it is planned");
     assert_eq!(grain.usage, Usage::SAMPLED | Usage::TRANSFER_DST);
-    let Role::Persistent { becomes, initial: Initial::File(file), before, after } = &grain.role else {
+    let Role::Persistent { becomes, initial: FirstContents::File(file), before, after } = &grain.role else {
         panic!("{:?}", grain.role)
     };
     assert_eq!((*becomes, &*file.path), (grain.id.0, "textures/grain.png"));
@@ -77,7 +77,7 @@ fn several_queues_sample_a_texture_at_once_without_handing_it_over() {
     let mut raster = Pass::new("count", Work::Dispatch { shader: "count".into(), groups: Groups::Count([8, 8, 1]) });
     let lifetime = Lifetime::Persistent { initial: FillValue::Bits([0; 4]) };
     frame.buffers.push(Buffer { name: "sums".into(), span: Span::NONE, bytes: 1024, lifetime });
-    raster.sampled = vec![Sampled { stages: Stages::COMPUTE_SHADER, ..frame.passes[0].sampled[0].clone() }];
+    raster.sampled = vec![SampledImage { stages: Stages::COMPUTE_SHADER, ..frame.passes[0].sampled[0].clone() }];
     raster.buffers = vec![BufferUse {
         binding: Some("sums".into()),
         buffer: BufferIndex(0),

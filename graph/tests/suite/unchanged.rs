@@ -2,7 +2,7 @@
 
 use crate::testing::graphs;
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use std::sync::Arc;
 
 #[test]
@@ -13,7 +13,7 @@ fn the_same_frame_again_and_an_equal_one_allocate_nothing() {
         let mut compiler = Compiler::new();
         let mut allocations = |frame| {
             let counted = allocation_counter::measure(|| {
-                let plan = compiler.compile(frame, &device, &mut Estimated(&device), &options);
+                let plan = compiler.compile(frame, &device, &mut MemoryEstimate(&device), &options);
                 assert!(plan.is_ok());
             });
             (counted.count_total, compiler.reuse())

@@ -4,7 +4,7 @@ use crate::testing::plans::compiled;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{Allowances, Blend, Frame, View, ViewIndex};
 use framewright_graph::plan::{Plan, ViewId, Work};
 use framewright_graph::vulkan::Format;
@@ -63,7 +63,8 @@ fn views_have_names_of_their_own_and_sizes_and_exist() {
     let refused = |change: fn(&mut Frame)| {
         let (mut frame, device) = (frame(), raster::device());
         change(&mut frame);
-        let errors = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect_err("it is wrong");
+        let errors =
+            compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect_err("it is wrong");
         errors.into_iter().map(|error| error.message).collect::<Vec<_>>()
     };
     assert_eq!(refused(|frame| frame.views[1].name = "main".into()), ["two views are named `main`"]);
@@ -78,7 +79,7 @@ fn another_size_and_another_camera_of_a_view_are_compiled_anew() {
     let (device, options) = (Arc::new(raster::device()), Options::default());
     let mut compiler = Compiler::new();
     let mut reuse = |frame: &Frame| {
-        let plan = compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &options);
+        let plan = compiler.compile(&Arc::new(frame.clone()), &device, &mut MemoryEstimate(&device), &options);
         assert_eq!(*plan.expect("a Plan"), compiled(frame));
         compiler.reuse()
     };
@@ -95,7 +96,7 @@ fn a_compiler_that_remembers_the_last_frame_refuses_a_view_without_texels_too() 
     let (device, options) = (Arc::new(raster::device()), Options::default());
     let mut compiler = Compiler::new();
     let mut compile = |frame: Frame| {
-        let plan = compiler.compile(&Arc::new(frame), &device, &mut Estimated(&device), &options);
+        let plan = compiler.compile(&Arc::new(frame), &device, &mut MemoryEstimate(&device), &options);
         plan.map(|_| ()).map_err(|errors| errors.into_iter().map(|error| error.message).collect::<Vec<_>>())
     };
     let (whole, mut empty) = (frame(), frame());

@@ -2,7 +2,7 @@
 //! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
 
 /// The set with the resources of a frame.
 pub const FRAME_SET: u32 = 1;
@@ -41,7 +41,12 @@ pub fn interface(draw: Draw) -> DrawInterface {
     match draw {
         Draw::Objects(_) | Draw::Casters(_) => {
             let texture = SuppliedKind::SampledImage;
-            supplied.push(Supplied::new(MATERIAL_SET, BASE_COLOR_TEXTURE_BINDING, "base_color_texture", texture));
+            supplied.push(SuppliedResource::new(
+                MATERIAL_SET,
+                BASE_COLOR_TEXTURE_BINDING,
+                "base_color_texture",
+                texture,
+            ));
             DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
@@ -58,8 +63,8 @@ pub fn interface(draw: Draw) -> DrawInterface {
 }
 
 /// The resources of [`FRAME_SET`].
-fn of_frame() -> Vec<Supplied> {
-    let frame = |binding, name, kind| Supplied::new(FRAME_SET, binding, name, kind);
+fn of_frame() -> Vec<SuppliedResource> {
+    let frame = |binding, name, kind| SuppliedResource::new(FRAME_SET, binding, name, kind);
     vec![
         frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
         frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),

@@ -69,7 +69,7 @@ pub(super) fn colors(sky: &Sky) -> [[f32; 3]; 3] {
 
 /// What of a scene's light was invented, since its file says nothing of it: it is right for any exposure.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Invented {
+pub(super) struct InventedLight {
     pub(super) sun: bool,
     pub(super) ambient: bool,
     pub(super) sky: bool,
@@ -77,7 +77,7 @@ pub(super) struct Invented {
 
 impl Scene {
     /// The scene with all light of its file multiplied by `exposure`.
-    pub(super) fn exposed(mut self, exposure: f64, invented: Invented) -> Scene {
+    pub(super) fn exposed(mut self, exposure: f64, invented: InventedLight) -> Scene {
         self.exposure = exposure;
         if exposure == 1.0 {
             return self;

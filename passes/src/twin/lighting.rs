@@ -24,7 +24,7 @@ pub fn highlight(normal: DVec3, to_camera: DVec3, to_light: DVec3) -> f64 {
 
 /// Light that a surface reflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reflected {
+pub struct ReflectedLight {
     /// Scattered by a white surface.
     pub diffuse: DVec3,
     /// Mirrored by any surface.
@@ -34,7 +34,7 @@ pub struct Reflected {
 /// The light that a surface reflects to the camera. Its `position` and unit `normal` are in the scene's own coordinates.
 /// `sunlit` is the share of the sun's light that arrives there, 0 to 1.
 #[must_use]
-pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64) -> Reflected {
+pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64) -> ReflectedLight {
     let vector = |components: [f32; 3]| DVec3::from_array(components.map(f64::from));
     let to_sun = -vector(scene.sun.direction);
     let from_sun = vector(scene.sun.color) * (sunlit * normal.dot(to_sun).max(0.0));
@@ -45,7 +45,7 @@ pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64)
         vector(light.color) * (f64::from(light.intensity) * facing * light.falloff(towards.length(), nearest))
     });
     let to_camera = (scene.camera.position() - position).normalize_or_zero();
-    Reflected {
+    ReflectedLight {
         diffuse: vector(scene.ambient) + from_sun + from_points.sum::<DVec3>(),
         specular: from_sun * highlight(normal, to_camera, to_sun),
     }
@@ -53,7 +53,7 @@ pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64)
 
 /// The colour of a lit surface, multiplied by its alpha, and that alpha.
 #[must_use]
-pub fn lit_surface(material: &Material, base_color: [f64; 4], reflected: &Reflected) -> [f64; 4] {
+pub fn lit_surface(material: &Material, base_color: [f64; 4], reflected: &ReflectedLight) -> [f64; 4] {
     let [red, green, blue, alpha] = base_color;
     let alpha = if material.alpha == AlphaMode::Blend { alpha.clamp(0.0, 1.0) } else { 1.0 };
     let scattered = DVec3::new(red, green, blue) * reflected.diffuse * alpha;

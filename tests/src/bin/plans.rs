@@ -9,7 +9,7 @@
 
 use framewright_graph::base::{Diagnostic, Root, Sources, render};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::{Document, Facts, PipelineFiles, read_with};
@@ -148,7 +148,7 @@ fn of_random(into: &Path) -> Result<usize> {
 }
 
 fn plan(into: &Path, frame: &Frame, device: &Profile, options: &Options) -> Result<usize> {
-    let text = match compile(frame, device, &mut Estimated(device), options) {
+    let text = match compile(frame, device, &mut MemoryEstimate(device), options) {
         Ok(plan) => without_sentences(&plan),
         Err(wrong) => messages(&wrong),
     };

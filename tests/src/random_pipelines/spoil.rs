@@ -1,7 +1,7 @@
 //! Plans that do something else than their pipelines say, in ways that the checker can't see: the judge must.
 
 use framewright_graph::frame::Blend;
-use framewright_graph::plan::{Initial, Pass, Plan, RenderScope, Role, Work};
+use framewright_graph::plan::{FirstContents, Pass, Plan, RenderScope, Role, Work};
 use framewright_graph::vulkan::{CompareOp, FillValue, LoadOp, StencilOp};
 
 /// The part of a Plan that is spoiled, in the first place where it can be.
@@ -31,7 +31,7 @@ impl Spoil {
         if self == Spoil::Initial {
             // All of them: those that become each other start alike.
             for image in &mut plan.images {
-                if let Role::Persistent { initial: Initial::Value(initial), .. } = &mut image.role {
+                if let Role::Persistent { initial: FirstContents::Value(initial), .. } = &mut image.role {
                     *initial = another(*initial);
                 }
             }

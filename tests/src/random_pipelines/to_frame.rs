@@ -204,17 +204,17 @@ fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Re
         Read::Sampled { part, frames_ago, per_sample } => {
             let sampled = sampled(pipeline, binding, part, stages);
             let face = if per_sample { Face::Samples } else { Face::Resolved };
-            made.sampled.push(frame::Sampled { frames_ago, face, ..sampled });
+            made.sampled.push(frame::SampledImage { frames_ago, face, ..sampled });
         }
         Read::Own(part) => {
-            made.sampled.push(frame::Sampled { own_pixel: true, ..sampled(pipeline, binding, part, stages) });
+            made.sampled.push(frame::SampledImage { own_pixel: true, ..sampled(pipeline, binding, part, stages) });
         }
     }
 }
 
-fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> frame::Sampled {
+fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> frame::SampledImage {
     let range = range(pipeline.images[part.image].format, part);
-    frame::Sampled { range, ..frame::Sampled::new(binding, ImageIndex(part.image as u32), stages) }
+    frame::SampledImage { range, ..frame::SampledImage::new(binding, ImageIndex(part.image as u32), stages) }
 }
 
 fn add_store(

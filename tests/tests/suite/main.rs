@@ -10,6 +10,7 @@ mod hostile_plans;
 mod kinds;
 mod kinds_asked;
 mod mutation;
+mod names;
 mod partial_passes;
 mod platforms;
 mod programs;

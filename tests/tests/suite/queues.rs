@@ -2,7 +2,7 @@
 //! Plans, and what leaves them is made as on one queue.
 
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::verify::verify;
@@ -21,7 +21,7 @@ fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
 }
 
 fn plan(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(device), options).expect("random frames are valid")
+    compile(frame, device, &mut MemoryEstimate(device), options).expect("random frames are valid")
 }
 
 /// Steps beside graphics, waits, images that change hands.

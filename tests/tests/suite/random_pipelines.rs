@@ -2,7 +2,7 @@
 
 use framewright_graph::compile::{Order, compile};
 use framewright_graph::dataflow::Dataflow;
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Aspects, Format, ResolveMode, Shape};
 use framewright_graph::{frame, plan};
@@ -91,7 +91,7 @@ fn what_every_pass_leaves_can_be_captured() {
     for (seed, pipeline) in (0..).zip(many().take(120)) {
         let frame = to_frame(&pipeline);
         let planned =
-            |frame: &frame::Frame| compile(frame, &device, &mut Estimated(&device), &options(Order::Default, 1));
+            |frame: &frame::Frame| compile(frame, &device, &mut MemoryEstimate(&device), &options(Order::Default, 1));
         let plan = planned(&frame).expect("it is valid");
         let flow = Dataflow::of(&plan);
         let runs: BTreeSet<&str> = flow.nodes.iter().map(|node| node.name.as_str()).collect();
@@ -172,7 +172,7 @@ fn what_the_compiler_does_turns_up() {
     let mut all = [0; 5];
     for pipeline in many() {
         let options = options(Order::Default, 0);
-        let plan = compile(&to_frame(&pipeline), &device, &mut Estimated(&device), &options).expect("it is valid");
+        let plan = compile(&to_frame(&pipeline), &device, &mut MemoryEstimate(&device), &options).expect("it is valid");
         let totals = &plan.totals;
         let merged =
             plan.steps.iter().any(|step| matches!(&step.work, plan::Work::Render(scope) if scope.passes.len() > 1));

@@ -2,7 +2,7 @@
 //! the brute-force judge, which shares no code with either.
 
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::{Frame, ImageIndex, Lifetime, Output, Pass, Resource, StencilState, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Accesses, CompareOp, Format, Layout, Sharing, Stages, State, StencilOp};
@@ -35,7 +35,7 @@ fn fault(frame: &Frame, options: &Options, seed: u64) -> Option<String> {
     let wait_bytes = [0, 4 << 10, 64 << 10][(seed / 5 % 3) as usize];
     let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing, wait_bytes };
     let device = Profile { local_read: seed.is_multiple_of(2), queues, ..device() };
-    let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut Estimated(&device), options)));
+    let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut MemoryEstimate(&device), options)));
     let plan = match compiled {
         Err(_) => return Some("panics".to_owned()),
         Ok(Err(errors)) => return Some(format!("is refused: {}", errors[0].message)),

@@ -1,7 +1,7 @@
 //! A compiler that remembers the last frame gives the same Plan, byte for byte, as compiling anew.
 
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
-use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::frame::{Frame, Groups, ParamValue, Work};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::FillValue;
@@ -27,8 +27,8 @@ impl Held {
     /// Compiles one frame both ways, and says how much of the last one served; `None`: it can't be compiled.
     fn hold(&mut self, frame: &Arc<Frame>, what: &str) -> Option<Reuse> {
         let bytes = |plan: &Plan| plan.to_json().expect("a Plan has a JSON form");
-        let anew = compile(frame, &self.device, &mut Estimated(&self.device), &self.options);
-        let followed = self.compiler.compile(frame, &self.device, &mut Estimated(&self.device), &self.options);
+        let anew = compile(frame, &self.device, &mut MemoryEstimate(&self.device), &self.options);
+        let followed = self.compiler.compile(frame, &self.device, &mut MemoryEstimate(&self.device), &self.options);
         match (anew, followed) {
             (Ok(anew), Ok(followed)) => {
                 assert_eq!(&anew, followed, "{what}");

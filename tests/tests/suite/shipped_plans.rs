@@ -3,7 +3,7 @@
 use crate::hand_written_plans::names_all;
 use framewright_graph::base;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::verify;
 use framewright_tests::shipped::{self, ShippedFrame};
@@ -18,7 +18,7 @@ struct Shipped {
 fn shipped_for(name: &str, text: &str, frames: Vec<&ShippedFrame>) -> Vec<Shipped> {
     let profile = Profile::from_ron(text).expect("shipped profiles are read");
     let plan = |shipped: &ShippedFrame| {
-        let plan = compile(&shipped.frame, &profile, &mut Estimated(&profile), &Options::default())
+        let plan = compile(&shipped.frame, &profile, &mut MemoryEstimate(&profile), &Options::default())
             .unwrap_or_else(|wrong| panic!("{}", base::render(&shipped.frame.sources, &wrong)));
         Shipped { how: format!("{} on {name}", shipped.how), plan }
     };

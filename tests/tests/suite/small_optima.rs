@@ -6,7 +6,7 @@
 //! printed beside the best over all orders.
 
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Totals;
 use framewright_tests::frames::device;
@@ -21,7 +21,7 @@ const MOST_ORDERS: usize = 400;
 fn compiled(frame: &Frame, order: Order) -> Totals {
     let device = device();
     let options = Options { order, ..Options::default() };
-    compile(frame, &device, &mut Estimated(&device), &options).expect("the frame is valid").totals
+    compile(frame, &device, &mut MemoryEstimate(&device), &options).expect("the frame is valid").totals
 }
 
 fn reached(totals: &Totals) -> Cost {

@@ -5,7 +5,7 @@
 //! depends on all passes between two frames, and the calls that they stand in are there anyway.
 
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::plan::{Hazard, ImageBarrier, MemoryBarrier, Plan, Role, Totals};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Layout, Sharing};
@@ -18,7 +18,7 @@ fn plans(device: &Profile, seeds: Range<u64>) -> impl Iterator<Item = (u64, Plan
         let frame = random_pipelines::frame(seed, random_pipelines::passes(seed, 24));
         let order = [Order::Default, Order::LowMemory, Order::Random(seed)][seed as usize % 3];
         let options = Options { order, ..Options::default() };
-        (seed, compile(&frame, device, &mut Estimated(device), &options).expect("it is valid"))
+        (seed, compile(&frame, device, &mut MemoryEstimate(device), &options).expect("it is valid"))
     })
 }
 

@@ -8,7 +8,7 @@ use crate::findings::Case;
 use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::{self, ReadFiles};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::plan::{Note, Plan};
 use serde::Serialize;
@@ -36,7 +36,7 @@ struct Entry {
 }
 
 /// The result on one device.
-struct Checked {
+struct DeviceCheck {
     profile: &'static str,
     device: String,
     result: Result<Plan, Error>,
@@ -59,7 +59,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
 ///
 /// # Errors
 /// Mistakes that don't depend on the device.
-fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
+fn compile(arguments: &CheckArguments) -> Result<Vec<DeviceCheck>, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let budget = budget::read(arguments.budget.as_deref(), &mut pipeline)?;
@@ -77,7 +77,7 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
         let result = match frame {
             Ok(frame) => {
                 busy.set_message(progress::compiling(&frame, &profile.name));
-                let plan = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+                let plan = pipeline.compile(&frame, &profile, &mut MemoryEstimate(&profile), &options);
                 let result = plan.map_err(Error::from).and_then(|plan| {
                     pipeline.fits(&plan, &frame, &profile)?;
                     budget.holds(&plan, &pipeline.sources)?;
@@ -89,28 +89,28 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
             Err(wrong) if by_device => Err(wrong.into()),
             Err(wrong) => return Err(wrong.into()),
         };
-        all.push(Checked { profile: name, device: profile.name, result });
+        all.push(DeviceCheck { profile: name, device: profile.name, result });
     }
     let mut said =
         all.iter().map(|it| it.result.as_ref().err().filter(|it| it.is_about_the_pipeline()).map(Error::shown));
     let first = said.next().flatten();
     if first.is_some()
         && said.all(|other| other == first)
-        && let Some(Checked { result: Err(error), .. }) = all.pop()
+        && let Some(DeviceCheck { result: Err(error), .. }) = all.pop()
     {
         return Err(error);
     }
     Ok(all)
 }
 
-fn human(arguments: &CheckArguments, results: Vec<Checked>) -> Result<Exit, Error> {
+fn human(arguments: &CheckArguments, results: Vec<DeviceCheck>) -> Result<Exit, Error> {
     let all = results.len();
     let plans: Vec<&Plan> = results.iter().filter_map(|it| it.result.as_ref().ok()).collect();
     let said: Vec<HashSet<(&str, &str)>> =
         plans.iter().map(|plan| plan.notes.iter().map(subject_and_text).collect()).collect();
     let everywhere = |note: &&Note| said.len() > 1 && said.iter().all(|notes| notes.contains(&subject_and_text(note)));
     let mut answer = String::new();
-    for Checked { profile, result, .. } in &results {
+    for DeviceCheck { profile, result, .. } in &results {
         match result {
             Ok(plan) => {
                 answer += &format!("{}\n", fine(arguments, profile, &plan.totals));
@@ -146,11 +146,11 @@ fn indented(lines: &str) -> String {
 fn for_ci(
     arguments: &CheckArguments,
     format: CheckFormat,
-    results: Result<Vec<Checked>, Error>,
+    results: Result<Vec<DeviceCheck>, Error>,
 ) -> Result<Exit, Error> {
     let (cases, exit) = match results {
         Ok(results) => {
-            let cases = results.into_iter().map(|Checked { profile, device, result }| {
+            let cases = results.into_iter().map(|DeviceCheck { profile, device, result }| {
                 let Verdict { diagnostics, violations, .. } = verdict(device, result)?;
                 Ok(Case::new(profile, &diagnostics).violations(&violations))
             });
@@ -168,7 +168,7 @@ fn for_ci(
     Ok(exit)
 }
 
-fn json(arguments: &CheckArguments, results: Result<Vec<Checked>, Error>) -> Result<Exit, Error> {
+fn json(arguments: &CheckArguments, results: Result<Vec<DeviceCheck>, Error>) -> Result<Exit, Error> {
     let mut answer = Answer {
         format_version: 1,
         pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
@@ -178,7 +178,7 @@ fn json(arguments: &CheckArguments, results: Result<Vec<Checked>, Error>) -> Res
     };
     let exit = match results {
         Ok(results) => {
-            for Checked { profile, device, result } in results {
+            for DeviceCheck { profile, device, result } in results {
                 answer.devices.push(Entry { profile, verdict: verdict(device, result)? });
             }
             answer.fine = answer.devices.iter().all(|device| device.verdict.fine);

@@ -8,7 +8,7 @@ use crate::findings::Case;
 use crate::planning::{self, device, notes};
 use crate::system::{Exit, progress, text};
 use framewright_graph::base::ReadFiles;
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::plan::Plan;
 use serde::Serialize;
 
@@ -48,7 +48,7 @@ fn plan(arguments: &CheckArguments, profile: &Profile) -> Result<Plan, Error> {
     let choices = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
     let frame = pipeline.frame(&choices, profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
-    let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
+    let plan = pipeline.compile(&frame, profile, &mut MemoryEstimate(profile), &arguments.planning.options())?;
     pipeline.fits(&plan, &frame, profile)?;
     budget.holds(&plan, &pipeline.sources)?;
     Ok(plan)

@@ -1,7 +1,7 @@
 //! The answer, in words and as JSON.
 
 use crate::system::text;
-use framewright_lab::choosing::{Binding, Candidate, Candidates, Chosen, Limit, Quantity, Reason};
+use framewright_lab::choosing::{Binding, Candidate, Candidates, Limit, Quantity, Reason, SettingsAnswer};
 use framewright_lab::metric::Metric;
 use framewright_lab::results::{Group, Results, Spread};
 use serde::Serialize;
@@ -13,7 +13,7 @@ pub(super) struct Answer<'a> {
     pub(super) results: &'a Results,
     pub(super) candidates: &'a Candidates,
     pub(super) limits: &'a [Limit],
-    pub(super) chosen: &'a Chosen<'a>,
+    pub(super) chosen: &'a SettingsAnswer<'a>,
 }
 
 #[derive(Debug, Serialize)]
@@ -29,7 +29,7 @@ pub(super) struct Json<'a> {
     nearest_miss: Option<Entry<'a>>,
     limits: Vec<StatedLimit<'a>>,
     /// The limits that bind only together.
-    binding_together: Vec<Together<'a>>,
+    binding_together: Vec<JointLimits<'a>>,
     /// The groups whose worst figures count.
     groups: Vec<String>,
     /// The groups in which no settings can be chosen, and which don't count.
@@ -46,7 +46,7 @@ struct StatedLimit<'a> {
 }
 
 #[derive(Debug, Serialize)]
-struct Together<'a> {
+struct JointLimits<'a> {
     options: Vec<&'static str>,
     /// The settings that would be chosen without these limits.
     without: Entry<'a>,
@@ -72,8 +72,8 @@ impl Answer<'_> {
     /// The answer for programs.
     pub(super) fn json(&self) -> Json<'_> {
         let (best, binding, next, nearest) = match self.chosen {
-            Chosen::Best { best, binding, next } => (Some(*best), &binding[..], *next, None),
-            Chosen::Nearest(nearest) => (None, &[][..], None, *nearest),
+            SettingsAnswer::Best { best, binding, next } => (Some(*best), &binding[..], *next, None),
+            SettingsAnswer::Nearest(nearest) => (None, &[][..], None, *nearest),
         };
         let together = binding.iter().filter(|it| it.limits.len() > 1);
         let limits = self.limits.iter().enumerate().map(|(at, limit)| StatedLimit {
@@ -90,7 +90,7 @@ impl Answer<'_> {
             nearest_miss: nearest.map(|it| self.entry(it)),
             limits: limits.collect(),
             binding_together: together
-                .map(|it| Together { options: self.options(it), without: self.entry(it.without) })
+                .map(|it| JointLimits { options: self.options(it), without: self.entry(it.without) })
                 .collect(),
             groups: self.candidates.groups.iter().map(Group::name).collect(),
             left_out_groups: self.candidates.left_out_groups.iter().map(Group::name).collect(),
@@ -115,7 +115,7 @@ impl Answer<'_> {
     /// The answer for people. `written` is the settings file, which is written if settings are chosen.
     pub(super) fn words(&self, written: Option<&Path>) -> String {
         let mut lines = match self.chosen {
-            Chosen::Best { best, binding, next } => {
+            SettingsAnswer::Best { best, binding, next } => {
                 let mut lines = self.described("best", best);
                 lines.extend((0..self.limits.len()).map(|at| self.limit(at, best, binding)));
                 let together = binding.iter().filter(|it| it.limits.len() > 1);
@@ -127,8 +127,8 @@ impl Answer<'_> {
                 lines.extend(written.map(|file| format!("written to {}", text::path(file))));
                 lines
             }
-            Chosen::Nearest(None) => vec!["nothing that was measured can be chosen".to_owned()],
-            Chosen::Nearest(Some(nearest)) => {
+            SettingsAnswer::Nearest(None) => vec!["nothing that was measured can be chosen".to_owned()],
+            SettingsAnswer::Nearest(Some(nearest)) => {
                 let mut lines = vec!["nothing that was measured holds all limits".to_owned()];
                 lines.extend(self.described("nearest miss", nearest));
                 lines.push(format!("  {}", self.missed(nearest)));

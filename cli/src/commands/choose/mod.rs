@@ -12,7 +12,7 @@ use crate::measure::store;
 use crate::system::{Exit, text};
 use answer::Answer;
 use framewright_graph::base::ReadFiles;
-use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
+use framewright_lab::choosing::{Candidates, Limit, Quantity, SettingsAnswer};
 use framewright_lab::metric::Metric;
 use framewright_lab::results::{Part, Results, joined};
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
         return Err(Error::NoBaseline { baseline: results.shown(&results.subject.baseline), group: group.name() });
     }
     let chosen = candidates.choose(&limits);
-    if let (Chosen::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
+    if let (SettingsAnswer::Best { best, .. }, Some(file)) = (&chosen, &arguments.output) {
         let contents = settings::file(&results, &best.settings, &read)?;
         outputs::write(&[(file, contents.as_bytes())], &read)?;
     }
@@ -46,7 +46,7 @@ pub(crate) fn choose(arguments: &ChooseArguments) -> Result<Exit, Error> {
         AnswerFormat::Json => text::json(&answer.json())?,
     };
     text::print(&shown).map_err(Error::Print)?;
-    Ok(if matches!(chosen, Chosen::Best { .. }) { Exit::Fine } else { Exit::Found })
+    Ok(if matches!(chosen, SettingsAnswer::Best { .. }) { Exit::Fine } else { Exit::Found })
 }
 
 /// The results of all folders.

@@ -10,7 +10,7 @@ use crate::system::{Exit, text};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::plan::{Outline, Plan};
 use serde::Serialize;
-use subject::Explained;
+use subject::Explanation;
 
 /// The answer for programs.
 #[derive(Debug, Serialize)]
@@ -32,7 +32,7 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     let plan = plan(arguments, &read)?;
     let thing = arguments.thing.as_str();
-    let Explained { explanations, read_on } = subject::explained(&plan, thing)
+    let Explanation { explanations, read_on } = subject::explained(&plan, thing)
         .ok_or_else(|| Error::NothingToExplain { thing: thing.to_owned(), help: subject::names_near(&plan, thing) })?;
     let read_on: Vec<String> = read_on.into_iter().map(str::to_owned).collect();
     let answer = match arguments.format {

@@ -10,7 +10,7 @@ use framewright_graph::vulkan::Usage;
 use std::collections::BTreeSet;
 
 /// An explanation, and where to read on.
-pub(super) struct Explained {
+pub(super) struct Explanation {
     pub(super) explanations: Vec<Outline>,
     pub(super) read_on: Vec<&'static str>,
 }
@@ -20,10 +20,10 @@ const SYNCHRONIZATION: &str = "docs/synchronization.md, on barriers and queues";
 const PAGE: &str = "`framewright inspect … --format html`, which shows it among everything else";
 
 /// What there is to say about `thing`, if the Plan knows it.
-pub(super) fn explained(plan: &Plan, thing: &str) -> Option<Explained> {
+pub(super) fn explained(plan: &Plan, thing: &str) -> Option<Explanation> {
     let flow = Dataflow::of(plan);
     let text = Text::of(plan, Detail { verbose: true, ..Detail::default() });
-    let told = Telling { plan, flow: &flow, text: &text };
+    let told = Explainer { plan, flow: &flow, text: &text };
     let (explanations, read_on) = match thing.split_once(':') {
         Some(("step", number)) => (told.step(number), vec![SYNCHRONIZATION, PAGE]),
         Some(("resolve", name)) => (told.resolves(name), vec![PLANS, PAGE]),
@@ -32,7 +32,7 @@ pub(super) fn explained(plan: &Plan, thing: &str) -> Option<Explained> {
         Some(("queue", name)) => (told.queue(name), vec![SYNCHRONIZATION, PAGE]),
         _ => (told.named(thing), vec![PLANS, PAGE]),
     };
-    (!explanations.is_empty()).then_some(Explained { explanations, read_on })
+    (!explanations.is_empty()).then_some(Explanation { explanations, read_on })
 }
 
 /// The help for a thing that the Plan doesn't know.
@@ -50,13 +50,13 @@ pub(super) fn names_near(plan: &Plan, thing: &str) -> Option<String> {
 }
 
 #[derive(Clone, Copy)]
-struct Telling<'p> {
+struct Explainer<'p> {
     plan: &'p Plan,
     flow: &'p Dataflow,
     text: &'p Text<'p>,
 }
 
-impl<'p> Telling<'p> {
+impl<'p> Explainer<'p> {
     /// Passes, images and buffers of a name, and passes that were left out.
     fn named(self, name: &str) -> Vec<Outline> {
         let passes = (0_u32..).zip(&self.flow.nodes).filter(|(_, node)| node.name == name);

@@ -1,7 +1,7 @@
 //! `run --bisect`: every image after every pass that wrote it, in two modes that must agree, and the first that differs.
 
 use crate::command_line::args::{DebugMode, RunArguments};
-use crate::drawing::captures::{self, Captured, Drawing};
+use crate::drawing::captures::{self, CapturedImage, Drawing};
 use crate::error::Error;
 use crate::files::outputs;
 use crate::system::{Exit, text};
@@ -17,7 +17,7 @@ use serde::Serialize;
 
 /// What was compared, and what differs.
 #[derive(Debug, Serialize)]
-struct Bisected {
+struct BisectResult {
     format_version: u32,
     mode: String,
     /// How many images were compared, each after a pass that wrote it.
@@ -52,7 +52,7 @@ pub(super) fn bisect(
     read: &ReadFiles,
 ) -> Result<Exit, Error> {
     let (options, executor) = (arguments.planning.options(), arguments.executor_options());
-    let mut drawn = |options: Options, executor: ExecutorOptions| -> Result<Vec<Captured>, Error> {
+    let mut drawn = |options: Options, executor: ExecutorOptions| -> Result<Vec<CapturedImage>, Error> {
         let drawing = Drawing::new(device, pipeline, made, scene, options);
         let mut all = Vec::new();
         captures::draw(Drawing { options, executor, frames: arguments.frames, ..drawing }, |captured| {
@@ -69,7 +69,8 @@ pub(super) fn bisect(
     if let Some(difference) = first_difference.as_mut().filter(|_| mode == DebugMode::Poison) {
         difference.refuted = made.1.promise(&difference.pass, &difference.image);
     }
-    let found = Bisected { format_version: 1, mode: name, compared: first.len().min(second.len()), first_difference };
+    let found =
+        BisectResult { format_version: 1, mode: name, compared: first.len().min(second.len()), first_difference };
     if let Some(file) = &arguments.report {
         outputs::write(&[(file, text::json(&found)?.as_bytes())], read)?;
     }
@@ -96,7 +97,7 @@ fn in_mode(mode: DebugMode, options: Options, executor: ExecutorOptions) -> (Opt
 }
 
 /// How two captures of the same image differ.
-fn difference(a: &Captured, b: &Captured) -> Option<Difference> {
+fn difference(a: &CapturedImage, b: &CapturedImage) -> Option<Difference> {
     let texels = (a.extent[0] as usize * a.extent[1] as usize).max(1);
     let bytes = (a.bytes.len() / texels).max(1);
     let pairs = a.bytes.chunks(bytes).zip(b.bytes.chunks(bytes)).enumerate();
@@ -112,9 +113,9 @@ fn difference(a: &Captured, b: &Captured) -> Option<Difference> {
     })
 }
 
-impl Bisected {
+impl BisectResult {
     fn sentence(&self) -> String {
-        let Bisected { mode, compared, first_difference, .. } = self;
+        let BisectResult { mode, compared, first_difference, .. } = self;
         match first_difference {
             None => format!("all {compared} images after their passes are the same with and without `{mode}`\n"),
             Some(Difference { pass, image, texels: [differ, all], at: [x, y], refuted }) => {

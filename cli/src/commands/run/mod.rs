@@ -147,13 +147,13 @@ fn dump_all(drawing: Drawing<'_>, folder: &Path, read: &ReadFiles) -> Result<(),
         });
         Ok(())
     })?;
-    let list = text::json(&Dumped { format_version: 1, images: list })?;
+    let list = text::json(&DumpList { format_version: 1, images: list })?;
     outputs::write(&[(&folder.join("images.json"), list.as_bytes())], read)
 }
 
 /// The list of images that were dumped.
 #[derive(Serialize)]
-struct Dumped {
+struct DumpList {
     format_version: u32,
     images: Vec<DumpedImage>,
 }
@@ -188,7 +188,7 @@ fn not_handed_in(plan: &Plan) -> impl Iterator<Item = &str> {
         Role::Transient(_) | Role::Persistent { .. } => None,
     };
     let has_contents = move |image: &&Image| before(&image.role).is_some_and(|it| it.layout != Layout::Undefined);
-    // Of a buffer that leaves the frame, too, only a state tells that it comes from outside.
+    // A buffer may leave the frame and come from outside, too: only its state tells.
     let comes_in = move |buffer: &&Buffer| {
         let used = |it: State| !it.stages.is_empty() || !it.accesses.is_empty();
         before(&buffer.role).is_some_and(|it| used(it) || !is_output(Resource::Buffer(buffer.id)))

@@ -2,7 +2,7 @@
 
 use crate::drawing::timings::Row;
 use crate::system::text;
-use crate::window::chosen::Chosen;
+use crate::window::chosen_setting::ChosenSetting;
 use crate::window::pace::Speed;
 use framewright::Renderer;
 use framewright_graph::language::ChosenBy;
@@ -39,7 +39,7 @@ impl Contents {
         name: &str,
         [width, height]: [u32; 2],
         renderer: &Renderer,
-        chosen: &Chosen,
+        chosen: &ChosenSetting,
         speed: Option<Speed>,
         wrong: Option<&str>,
         times: &[Row],

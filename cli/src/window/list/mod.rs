@@ -13,7 +13,7 @@ use framewright::{
 };
 use framewright_graph::vulkan::Aspects;
 use lines::Line;
-use paint::{Grid, Painted};
+use paint::{Grid, Painting};
 use std::time::{Duration, Instant};
 
 /// Draws the list over what the window shows.
@@ -36,7 +36,7 @@ pub(super) struct List {
     /// What is shown.
     shown: Option<(Grid, Vec<Line>)>,
     /// Its picture; `None`: there is nothing to show.
-    painted: Option<Painted>,
+    painted: Option<Painting>,
     /// Draws the picture, where there is one.
     renderer: Option<Renderer>,
     /// What that is made with.
@@ -124,7 +124,7 @@ impl List {
         if is_new {
             self.painted = paint::painted(&lines, &grid);
         }
-        let Some(Painted { extent: [width, height], texels }) = &self.painted else {
+        let Some(Painting { extent: [width, height], texels }) = &self.painted else {
             self.renderer = None;
             return Ok(());
         };

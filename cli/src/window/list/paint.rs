@@ -29,7 +29,7 @@ pub(super) struct Grid {
 
 /// A picture with its texels in the curve of sRGB, not multiplied by alpha.
 #[derive(Debug)]
-pub(super) struct Painted {
+pub(super) struct Painting {
     pub(super) extent: [u32; 2],
     pub(super) texels: Vec<u8>,
 }
@@ -49,7 +49,7 @@ impl Grid {
 }
 
 /// The lines as a picture; `None` if there is nothing to paint.
-pub(super) fn painted(lines: &[Line], grid: &Grid) -> Option<Painted> {
+pub(super) fn painted(lines: &[Line], grid: &Grid) -> Option<Painting> {
     let columns = lines.iter().map(|line| line.text.chars().count()).max().filter(|columns| *columns > 0)?;
     let cell = grid.font.character_size;
     let [width, height] = [cell.width * count(columns), cell.height * count(lines.len())];
@@ -81,7 +81,7 @@ fn count(number: usize) -> u32 {
 
 /// What is painted on: each pixel is a square of texels.
 struct Canvas {
-    painted: Painted,
+    painted: Painting,
     size: Size,
     zoom: u32,
 }
@@ -90,7 +90,7 @@ impl Canvas {
     fn new([width, height]: [u32; 2], zoom: u32) -> Canvas {
         let extent = [width * zoom, height * zoom];
         let texels = GROUND.repeat((extent[0] * extent[1]) as usize);
-        Canvas { painted: Painted { extent, texels }, size: Size::new(width, height), zoom }
+        Canvas { painted: Painting { extent, texels }, size: Size::new(width, height), zoom }
     }
 }
 
@@ -134,7 +134,7 @@ mod tests {
     }
 
     /// How many texels are neither ground nor bar.
-    fn letters(painted: &Painted) -> usize {
+    fn letters(painted: &Painting) -> usize {
         let [red, green, blue] = [BAR.r(), BAR.g(), BAR.b()];
         painted.texels.chunks_exact(4).filter(|texel| **texel != GROUND && **texel != [red, green, blue, 255]).count()
     }

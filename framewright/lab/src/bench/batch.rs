@@ -4,7 +4,7 @@ use super::choice::Choice;
 use super::{Bench, settings};
 use crate::error::Error;
 use crate::results::{Outcome, Row, Subject};
-use framewright::{Planned, SceneRenderer};
+use framewright::{PlannedFrame, SceneRenderer};
 use framewright_graph::frame::{Draw, Pass, Stereo};
 use framewright_graph::plan::{Note, Stage};
 use framewright_vulkan::{ExecutorOptions, FrameReport};
@@ -16,7 +16,7 @@ pub const WARM_UP: u32 = 2;
 
 /// What was just done, of the work of a batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
+pub enum BatchProgress {
     /// A frame of a choice: each has [`WARM_UP`] and those whose times are taken.
     Frame,
     /// A choice: it has its row.
@@ -33,7 +33,7 @@ impl Bench<'_> {
         &mut self,
         (baseline, subject): (&Choice, &Subject),
         batch: &[Choice],
-        progress: &dyn Fn(Drawn),
+        progress: &dyn Fn(BatchProgress),
         rows: &mut Vec<Row>,
     ) -> Result<(), Error> {
         let options = ExecutorOptions { timestamps: true, fragment_counts: true, ..ExecutorOptions::default() };
@@ -64,7 +64,7 @@ impl Bench<'_> {
                 self.goes_on(round, WARM_UP + self.options.frames)?;
                 // The baseline isn't counted: it belongs to all.
                 if at > 0 {
-                    progress(Drawn::Frame);
+                    progress(BatchProgress::Frame);
                 }
                 let Ok(drawn) = ready else { continue };
                 match self.own(drawn.draw().map_err(Error::from))? {
@@ -103,7 +103,7 @@ impl Bench<'_> {
                 stereo: stereo.name().to_owned(),
                 outcome,
             });
-            progress(Drawn::Choice);
+            progress(BatchProgress::Choice);
         }
         Ok(())
     }
@@ -116,8 +116,8 @@ impl Bench<'_> {
 
 /// Why an image that objects are drawn into has fewer samples than were chosen: the device lacks them. What would be drawn is another
 /// choice, so this one isn't measured.
-fn fewer_samples(planned: &Planned) -> Option<String> {
-    let Planned { frame, plan, .. } = planned;
+fn fewer_samples(planned: &PlannedFrame) -> Option<String> {
+    let PlannedFrame { frame, plan, .. } = planned;
     let draws = |pass: &&Pass| pass.work.draws(Draw::shows_objects);
     let mut targets = frame.passes.iter().filter(draws).flat_map(|pass| &pass.color);
     targets.find_map(|target| {

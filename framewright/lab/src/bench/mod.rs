@@ -1,16 +1,16 @@
 //! A pipeline on a device, whose choices are measured.
 //!
 //! ```text
-//! choices ─► batch: drawn in turns with the baseline ─► measured: cost, reference, errors
+//! choices ─► batch: drawn in turns with the baseline ─► choice_figures: cost, reference, errors
 //! ```
 
 mod batch;
 mod checks;
 mod choice;
-mod converging;
+mod choice_figures;
+mod converging_frame;
 mod cost;
-mod held_against;
-mod measured;
+mod error_baseline;
 mod pipeline_digest;
 mod program;
 mod reference;
@@ -19,16 +19,16 @@ mod references;
 use crate::error::Error;
 use crate::results::Subject;
 use crate::sweep::{SCENE, SIZE, STEREO, size_name};
-use framewright::{Choices, Device, Pipeline, Planned, Scene};
+use framewright::{Choices, Device, Pipeline, PlannedFrame, Scene};
 use framewright_graph::compile;
 use framewright_graph::plan::Plan;
 use references::{GIVEN, Reference, References};
 use std::collections::BTreeMap;
 
-pub use batch::{AT_ONCE, Drawn, WARM_UP};
+pub use batch::{AT_ONCE, BatchProgress, WARM_UP};
 pub use checks::{check_sizes, check_values};
 pub use choice::{Choice, MeasuredScene, REFERENCE, of_reference, reference_settings};
-pub use held_against::HeldAgainst;
+pub use error_baseline::ErrorBaseline;
 pub use program::Program;
 
 /// How choices are measured.
@@ -39,7 +39,7 @@ pub struct BenchOptions {
     /// Frames of the moving scene over which flicker is measured; `None`: it isn't.
     pub flicker: Option<u32>,
     /// The pictures that errors are measured against.
-    pub held_against: HeldAgainst,
+    pub held_against: ErrorBaseline,
 }
 
 /// A pipeline on a device, and what its choices are held against.
@@ -66,7 +66,7 @@ impl<'p> Bench<'p> {
         program: &'p dyn Program,
     ) -> Bench<'p> {
         let mut references = References::default();
-        if let HeldAgainst::Picture { picture, .. } = &options.held_against {
+        if let ErrorBaseline::Picture { picture, .. } = &options.held_against {
             references.remember(GIVEN, Reference { picture: picture.clone(), errors: None });
         }
         Bench {
@@ -108,7 +108,7 @@ impl<'p> Bench<'p> {
     }
 
     /// The Plan of a choice for a scene, under more settings.
-    fn planned(&mut self, choice: &Choice, scene: &Scene, more: &[(String, String)]) -> Result<Planned, Error> {
+    fn planned(&mut self, choice: &Choice, scene: &Scene, more: &[(String, String)]) -> Result<PlannedFrame, Error> {
         let mut choices = choice.of(&self.of_all, scene);
         choices.set.extend(more.iter().cloned());
         let (profile, mut memory) = (self.device.profile(), self.device.memory());

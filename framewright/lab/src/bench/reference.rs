@@ -1,12 +1,12 @@
 //! The picture that choices are held against: the same pipeline under its preset `reference`, drawn many times, each time shifted by
 //! another part of a texel, and averaged: before tone mapping what is tone-mapped, all else as it is shown.
 
-use super::converging::Converging;
+use super::converging_frame::ConvergingFrame;
 use super::program::Program;
 use crate::error::Error;
 use crate::outputs;
 use crate::picture::Light;
-use framewright::{Pipeline, Planned, SceneRenderer};
+use framewright::{Pipeline, PlannedFrame, SceneRenderer};
 use framewright_graph::frame::{Draw, Jitter, LONGEST_JITTER};
 use framewright_graph::plan::Plan;
 use framewright_passes::scene::Scene;
@@ -19,7 +19,7 @@ const LEAST_FRAMES: u16 = 16;
 
 /// A reference, and one of half as many frames.
 #[derive(Debug)]
-pub(super) struct Drawn {
+pub(super) struct ReferencePair {
     pub(super) picture: Light,
     /// One of half as many samples: its distance from the whole is an estimate of the error that the whole has itself.
     pub(super) of_half: Light,
@@ -33,11 +33,11 @@ pub(super) struct Drawn {
 /// Those of drawing; Ctrl-C.
 pub(super) fn draw(
     (device, program): (&Device, &dyn Program),
-    converging: &Converging,
+    converging: &ConvergingFrame,
     pipeline: &mut Pipeline,
     (scene, size): (&Scene, [u32; 2]),
     progress: &dyn Fn(usize, usize),
-) -> Result<Option<Drawn>, Error> {
+) -> Result<Option<ReferencePair>, Error> {
     let planned = |pipeline: &mut Pipeline, frames| {
         let mut memory = device.memory();
         converging.planned(pipeline, &device.profile(), &mut memory, frames)
@@ -55,14 +55,18 @@ pub(super) fn draw(
         mean((device, program), &planned, pipeline, scene, (&shifts, number), (converging.steps.is_none(), &progress))
     };
     let Some(picture) = mean(all, 0)? else { return Ok(None) };
-    Ok(mean(all / 2, with_those_before(all))?.map(|of_half| Drawn { picture, of_half, steps: converging.steps }))
+    Ok(mean(all / 2, with_those_before(all))?.map(|of_half| ReferencePair {
+        picture,
+        of_half,
+        steps: converging.steps,
+    }))
 }
 
 /// The mean of what a display shows of some frames, after others that aren't looked at: each is cut to what the tested output can
 /// hold. `None` if there is no picture.
 fn mean(
     (device, program): (&Device, &dyn Program),
-    planned: &Planned,
+    planned: &PlannedFrame,
     pipeline: &mut Pipeline,
     scene: &Scene,
     (shifts, (before, frames)): (&Jitter, (u16, u16)),

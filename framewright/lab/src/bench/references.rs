@@ -1,7 +1,7 @@
 //! The references of a sweep: each is drawn once, and kept in the folder of the results for the next time.
 
 use super::program::Program;
-use super::reference::Drawn;
+use super::reference::ReferencePair;
 use crate::digest::Digest;
 use crate::error::Error;
 use crate::metric::{Errors, PIXELS_PER_DEGREE};
@@ -40,7 +40,7 @@ pub(super) struct References {
 /// The file beside a reference's picture.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Beside {
+struct ReferenceFile {
     format_version: u32,
     /// A digest of the picture's file and of all that is said here.
     digest: String,
@@ -74,7 +74,7 @@ impl References {
     /// The reference that was kept under a key; `None` if there is none, or it is damaged.
     pub(super) fn read(key: &str, program: &dyn Program) -> Option<Reference> {
         let beside = program.kept(&References::name(key, "json"))?;
-        let Beside { format_version: _, digest, steps, errors } = serde_json::from_slice(&beside).ok()?;
+        let ReferenceFile { format_version: _, digest, steps, errors } = serde_json::from_slice(&beside).ok()?;
         let file = program.kept(&References::name(key, "exr"))?;
         if digest != self::digest(&file, steps, &errors).ok()? {
             return None;
@@ -87,8 +87,8 @@ impl References {
     ///
     /// # Errors
     /// If it can't be written.
-    pub(super) fn keep(key: &str, drawn: Drawn, program: &dyn Program) -> Result<Reference, Error> {
-        let Drawn { picture, of_half, steps } = drawn;
+    pub(super) fn keep(key: &str, drawn: ReferencePair, program: &dyn Program) -> Result<Reference, Error> {
+        let ReferencePair { picture, of_half, steps } = drawn;
         let file = encoded(&picture, FileFormat::OpenExr)?;
         let [picture, of_half] = [picture, of_half].map(|drawn| shown(drawn, steps));
         let name = |ending| PathBuf::from(References::name(key, ending));
@@ -98,7 +98,7 @@ impl References {
             picture: (name("half.exr"), of_half.extent),
         })?;
         let digest = digest(&file, steps, &errors)?;
-        let beside = Beside { format_version: FORMAT_VERSION, digest, steps, errors };
+        let beside = ReferenceFile { format_version: FORMAT_VERSION, digest, steps, errors };
         let text = serde_json::to_string_pretty(&beside)? + "\n";
         let files = [("exr", &*file), ("json", text.as_bytes())];
         for (ending, contents) in files {

@@ -2,7 +2,7 @@
 
 use super::limits::Quantity;
 use crate::metric::Metric;
-use crate::results::{Group, Measured, Outcome, Results, Row, Spread};
+use crate::results::{Group, Outcome, Results, Row, RowFigures, Spread};
 use crate::sweep::{SCENE, SIZE, STEREO, size_name};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,7 +66,7 @@ pub struct Candidates {
 }
 
 /// A row's figures, if settings can be chosen by them.
-fn usable(row: &Row) -> Result<&Measured, Reason> {
+fn usable(row: &Row) -> Result<&RowFigures, Reason> {
     match &row.outcome {
         Outcome::Failed(_) => Err(Reason::Failed),
         Outcome::Measured(measured) if measured.errors.is_none() => Err(Reason::WithoutErrors),
@@ -115,7 +115,7 @@ impl Candidates {
     fn candidate(&self, rows: &[&Row]) -> Result<Candidate, Reason> {
         let (counting, others): (Vec<&Row>, Vec<&Row>) =
             rows.iter().copied().partition(|row| self.groups.contains(&row.group()));
-        let measured = counting.iter().map(|row| usable(row)).collect::<Result<Vec<&Measured>, Reason>>()?;
+        let measured = counting.iter().map(|row| usable(row)).collect::<Result<Vec<&RowFigures>, Reason>>()?;
         if counting.is_empty()
             && let Some(row) = others.first()
         {
@@ -126,7 +126,7 @@ impl Candidates {
             return Err(Reason::NotEverywhere);
         }
         let baseline = |row: &&Row| self.baselines.get(&row.group()).copied().unwrap_or(1.0);
-        let rows: Vec<(&Measured, f64)> = measured.into_iter().zip(counting.iter().map(baseline)).collect();
+        let rows: Vec<(&RowFigures, f64)> = measured.into_iter().zip(counting.iter().map(baseline)).collect();
         Ok(Candidate::of_rows(counting.first().map(|row| row.settings.clone()).unwrap_or_default(), &rows))
     }
 }
@@ -159,8 +159,8 @@ fn baselines(results: &Results) -> BTreeMap<Group, f64> {
 
 impl Candidate {
     /// Rows with the time of the baseline's settings in their groups.
-    fn of_rows(settings: BTreeMap<String, String>, rows: &[(&Measured, f64)]) -> Candidate {
-        let most = |figure: fn(&Measured) -> u64| rows.iter().map(|(row, _)| figure(row)).max().unwrap_or(0);
+    fn of_rows(settings: BTreeMap<String, String>, rows: &[(&RowFigures, f64)]) -> Candidate {
+        let most = |figure: fn(&RowFigures) -> u64| rows.iter().map(|(row, _)| figure(row)).max().unwrap_or(0);
         // Times that are missing in one row are missing.
         let times: Option<Vec<Spread>> = rows.iter().map(|(row, _)| row.cost.gpu_milliseconds).collect();
         let ratios: Option<Vec<Spread>> =
@@ -171,7 +171,7 @@ impl Candidate {
             let worst = if metric.is_likeness() { f64::min } else { f64::max };
             figures.reduce(worst).unwrap_or(f64::NAN)
         };
-        let flip = |row: &Measured| row.errors.as_ref().map_or(f64::NAN, |errors| errors.flip.mean);
+        let flip = |row: &RowFigures| row.errors.as_ref().map_or(f64::NAN, |errors| errors.flip.mean);
         let worst_row = rows.iter().map(|(row, _)| row).max_by(|a, b| flip(a).total_cmp(&flip(b)));
         let own = worst_row.and_then(|row| row.reference_errors.as_ref());
         Candidate {

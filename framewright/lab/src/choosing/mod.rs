@@ -12,14 +12,14 @@ use std::collections::BTreeMap;
 
 /// The answer.
 #[derive(Debug)]
-pub enum Chosen<'a> {
+pub enum SettingsAnswer<'a> {
     /// Settings hold all limits.
     Best {
         /// The best of those.
         best: &'a Candidate,
         /// The limits that bind, alone or together.
         binding: Vec<Binding<'a>>,
-        /// Of the better settings those that miss the limits by least.
+        /// The better settings that miss the limits by least.
         next: Option<&'a Candidate>,
     },
     /// None does; these miss by least.
@@ -39,17 +39,17 @@ impl Candidates {
     /// Chooses: with a limit of cost the least error, of equal ones the fastest, then the smallest; with limits of error alone
     /// the fastest, of equally fast ones the one of least error, then the smallest.
     #[must_use]
-    pub fn choose(&self, limits: &[Limit]) -> Chosen<'_> {
+    pub fn choose(&self, limits: &[Limit]) -> SettingsAnswer<'_> {
         let by_error = limits.iter().any(|limit| limit.quantity.is_cost());
         let order = |a: &&Candidate, b: &&Candidate| a.compare(b, by_error);
         let holds_all = |candidate: &&Candidate| missed(candidate, limits).is_empty();
         // Settings of equal figures keep the order of their values.
         let Some(best) = self.all.iter().filter(holds_all).min_by(order) else {
-            return Chosen::Nearest(nearest(self.all.iter(), limits, by_error));
+            return SettingsAnswer::Nearest(nearest(self.all.iter(), limits, by_error));
         };
         let better: Vec<&Candidate> = self.all.iter().filter(|one| one.compare(best, by_error).is_lt()).collect();
         let next = nearest(better.iter().copied(), limits, by_error);
-        Chosen::Best { best, binding: binding(&better, limits, order), next }
+        SettingsAnswer::Best { best, binding: binding(&better, limits, order), next }
     }
 }
 

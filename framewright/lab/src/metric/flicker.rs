@@ -6,7 +6,7 @@
 //! `sqrt(Σ (e(f) − e(f − 1))² / (3 · (N − 1)))`.
 
 use super::plane::Plane;
-use super::{Pooled, is_finite, shown};
+use super::{PooledFigures, is_finite, shown};
 use crate::picture::Light;
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +72,7 @@ impl Changes {
         let of = |(sum, finite): (&f64, &bool)| if *finite { (sum / changes).sqrt() } else { 0.0 };
         let values: Vec<f64> = self.squares.iter().zip(&self.finite).map(of).collect();
         let counted = values.iter().zip(&self.finite).filter(|(_, finite)| **finite).map(|(value, _)| *value);
-        let Pooled { mean, percentile_95, worst } = Pooled::of(counted);
+        let PooledFigures { mean, percentile_95, worst } = PooledFigures::of(counted);
         let non_finite = self.finite.iter().filter(|finite| !**finite).count();
         let map = Plane { extent: self.extent, values };
         Flicker { frames: self.frames, mean, percentile_95, worst, non_finite, map }

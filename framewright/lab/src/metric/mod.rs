@@ -68,7 +68,7 @@ pub struct Errors {
     /// `20 log10(peak / rmse)` in dB; `None` if there is no difference. The peak is 1, or the largest light of a reference that is
     /// brighter.
     pub psnr: Option<f64>,
-    /// Of values from 0 to 1 in the curve of sRGB: 1 if there is no difference.
+    /// Structural similarity of values from 0 to 1 in the curve of sRGB: 1 if there is no difference.
     pub ssim: f64,
     /// Pixels that aren't finite: in the reference, in the other picture.
     pub non_finite: [usize; 2],
@@ -157,7 +157,7 @@ impl Errors {
         let inside = |at: &usize| both[*at] && ssim::is_inside(extent, *at);
         let ssim = mean((0..both.len()).filter(inside).map(|at| similarity.values[at]), 1.0);
         let pooled =
-            Pooled::of(flip_map.values.iter().zip(&both).filter(|(_, finite)| **finite).map(|(flip, _)| *flip));
+            PooledFigures::of(flip_map.values.iter().zip(&both).filter(|(_, finite)| **finite).map(|(flip, _)| *flip));
         let differences = |a: &[[f64; 3]], b: &[[f64; 3]]| -> Vec<f64> {
             let pixels = a.iter().zip(b).zip(&both).filter(|(_, finite)| **finite);
             pixels.flat_map(|((a, b), _)| [0, 1, 2].map(|at| b[at] - a[at])).collect()
@@ -226,20 +226,20 @@ fn mean(values: impl Iterator<Item = f64>, none: f64) -> f64 {
 
 /// Figures of a value at each pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Pooled {
+struct PooledFigures {
     mean: f64,
     /// The least value that at least 95 of 100 pixels don't exceed.
     percentile_95: f64,
     worst: f64,
 }
 
-impl Pooled {
+impl PooledFigures {
     /// Those of some pixels; all 0 of none.
-    fn of(values: impl Iterator<Item = f64>) -> Pooled {
+    fn of(values: impl Iterator<Item = f64>) -> PooledFigures {
         let mut sorted: Vec<f64> = values.collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let rank = (sorted.len() * 95).div_ceil(100).saturating_sub(1);
-        Pooled {
+        PooledFigures {
             mean: mean(sorted.iter().copied(), 0.0),
             percentile_95: sorted.get(rank).copied().unwrap_or(0.0),
             worst: sorted.last().copied().unwrap_or(0.0),

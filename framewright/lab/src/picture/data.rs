@@ -32,7 +32,7 @@ pub struct Picture<'t> {
     pub encoding: Option<Encoding>,
     /// Width and height in texels.
     pub extent: [u32; 2],
-    /// Rows from the top without padding, in the machine's byte order. Of depth-stencil formats they hold the depth alone.
+    /// Rows from the top without padding, in the machine's byte order. Formats of depth and stencil have the depth alone.
     pub bytes: &'t [u8],
 }
 

@@ -57,7 +57,7 @@ fn integers(format: Format, bytes: &[u8]) -> Vec<FlatSamples> {
     if is_signed && components.clone().all(|at| component(at).all(is_exact)) {
         return components.map(|at| FlatSamples::F32(component(at).map(|value| value as f32).collect())).collect();
     }
-    // Of a negative number the lower half is its two's complement.
+    // The lower half of a negative number is its two's complement.
     let word = |value: i64| u32::try_from(value & i64::from(u32::MAX)).unwrap_or_default();
     components.map(|at| FlatSamples::U32(component(at).map(word).collect())).collect()
 }

@@ -146,7 +146,7 @@ fn opened_exr(file: &[u8]) -> Result<(Exr<'_>, [usize; 2]), DecodingError> {
     Ok((opened, extent))
 }
 
-/// An OpenEXR file holds linear light. Of several layers the first one with colours counts.
+/// An OpenEXR file holds linear light. If it has several layers, the first one with colours counts.
 fn of_exr(file: &[u8]) -> Result<Light, DecodingError> {
     let (opened, extent) = opened_exr(file)?;
     sized(extent)?;

@@ -4,7 +4,7 @@ use framewright_graph::vulkan::{Format, Numeric};
 use framewright_passes::srgb;
 use half::f16;
 
-/// Bytes of one texel that was read back. Of depth-stencil formats it is the depth alone.
+/// Bytes of one texel that was read back. Formats of depth and stencil have the depth alone.
 pub(super) fn bytes(format: Format) -> usize {
     let bytes = if format == Format::D32_SFLOAT_S8_UINT { 4 } else { format.texel_bytes() };
     usize::try_from(bytes).unwrap_or(usize::MAX)

@@ -81,7 +81,7 @@ pub struct Row {
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// It has figures.
-    Measured(Box<Measured>),
+    Measured(Box<RowFigures>),
     /// The choice can't be drawn: the error's text.
     Failed(String),
 }
@@ -89,7 +89,7 @@ pub enum Outcome {
 /// A row's figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
+pub struct RowFigures {
     /// What the frame costs.
     pub cost: Cost,
     /// The errors beside the reference; `None` if there was none.

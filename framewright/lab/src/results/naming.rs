@@ -1,6 +1,6 @@
 //! Names of what results hold, for people and as keys.
 
-use super::{Measured, Outcome, Results, Row};
+use super::{Outcome, Results, Row, RowFigures};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The surroundings of a row: rows of one group differ in settings alone, and can be compared.
@@ -41,7 +41,7 @@ impl Row {
     }
 }
 
-impl Measured {
+impl RowFigures {
     /// Whether all pixels are finite, in the picture, its reference and all frames of the moving scene. If not, its figures are those
     /// of the other pixels alone.
     pub fn is_finite(&self) -> bool {

@@ -1,6 +1,6 @@
 //! Figures that a measurement can have. Others come of a damaged file.
 
-use super::{Cost, Measured, Outcome, Results, Row, Spread};
+use super::{Cost, Outcome, Results, Row, RowFigures, Spread};
 use crate::metric::{Errors, Flicker};
 use crate::picture::FileFormat;
 use std::path::{Component, Path};
@@ -74,7 +74,7 @@ fn of_cost(cost: &Cost) -> Option<String> {
     spreads.into_iter().find_map(|(name, spread)| of_spread(name, spread?))
 }
 
-fn of_passes(measured: &Measured) -> Option<String> {
+fn of_passes(measured: &RowFigures) -> Option<String> {
     measured.passes.iter().find_map(|pass| of_spread(&format!("pass `{}`", pass.name), pass.gpu_milliseconds?))
 }
 
@@ -116,7 +116,7 @@ fn of_errors(name: &str, errors: &Errors, size: [u32; 2]) -> Option<String> {
     most.map(|count| format!("`{name}.non_finite` can't be {count} of {pixels} pixels"))
 }
 
-fn of_pictures(measured: &Measured) -> Option<String> {
+fn of_pictures(measured: &RowFigures) -> Option<String> {
     let wrong = measured.pictures().find(|(_, path)| !is_within(path))?;
     Some(format!("`{}` is `{}`: pictures are .png or .exr files within the folder", wrong.0, wrong.1))
 }

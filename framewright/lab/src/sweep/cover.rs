@@ -36,7 +36,7 @@ pub fn rows(sizes: &[usize]) -> Vec<Vec<usize>> {
         })
         .collect();
     for (done, axis) in (1..).zip(others) {
-        let mut open = Open::new(sizes, &order[..done], *axis);
+        let mut open = OpenPairs::new(sizes, &order[..done], *axis);
         widen(&mut rows, &mut open);
         add_what_is_left(&mut rows, &mut open, sizes.len());
     }
@@ -45,7 +45,7 @@ pub fn rows(sizes: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// Pairs of a new axis' values with those of the axes before it that occur in no row yet.
-struct Open<'a> {
+struct OpenPairs<'a> {
     before: &'a [usize],
     axis: usize,
     values: usize,
@@ -53,11 +53,11 @@ struct Open<'a> {
     pairs: Vec<Vec<bool>>,
 }
 
-impl Open<'_> {
-    fn new<'a>(sizes: &[usize], before: &'a [usize], axis: usize) -> Open<'a> {
+impl OpenPairs<'_> {
+    fn new<'a>(sizes: &[usize], before: &'a [usize], axis: usize) -> OpenPairs<'a> {
         let values = sizes[axis];
         let pairs = before.iter().map(|other| vec![true; sizes[*other] * values]).collect();
-        Open { before, axis, values, pairs }
+        OpenPairs { before, axis, values, pairs }
     }
 
     /// How many pairs `row` would cover with `value` on the new axis.
@@ -80,7 +80,7 @@ impl Open<'_> {
 }
 
 /// Gives each row the new axis' value that covers most; of equal ones that which was taken least.
-fn widen(rows: &mut [Vec<usize>], open: &mut Open<'_>) {
+fn widen(rows: &mut [Vec<usize>], open: &mut OpenPairs<'_>) {
     let mut taken = vec![0_usize; open.values];
     for row in rows {
         let rank =
@@ -93,7 +93,7 @@ fn widen(rows: &mut [Vec<usize>], open: &mut Open<'_>) {
 }
 
 /// Puts the pairs that no row covers into free cells, or else into rows of their own.
-fn add_what_is_left(rows: &mut Vec<Vec<usize>>, open: &mut Open<'_>, axes: usize) {
+fn add_what_is_left(rows: &mut Vec<Vec<usize>>, open: &mut OpenPairs<'_>, axes: usize) {
     for (at, other) in open.before.iter().enumerate() {
         for pair in 0..open.pairs[at].len() {
             if !open.pairs[at][pair] {

@@ -27,7 +27,7 @@ pub const MOST_CHOICES: usize = 10_000;
 
 /// How several sweeps make choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Combined {
+pub enum Combination {
     /// Every value with every other.
     All,
     /// Each pair of values of any two settings occurs.
@@ -38,33 +38,35 @@ pub enum Combined {
 
 /// The number of choices that sweeps make, even where there are too many to make.
 #[must_use]
-pub fn count(sweeps: &[Sweep], combined: Combined) -> u128 {
+pub fn count(sweeps: &[Sweep], combined: Combination) -> u128 {
     let sizes = sweeps.iter().map(|sweep| sweep.values.len() as u128);
     match combined {
-        Combined::OneByOne => sizes.sum::<u128>() + 1,
+        Combination::OneByOne => sizes.sum::<u128>() + 1,
         // At most: a pair of values in each.
-        Combined::Pairwise => cover::pairs(&sweeps.iter().map(|sweep| sweep.values.len()).collect::<Vec<_>>()) as u128,
-        Combined::All => sizes.fold(1, u128::saturating_mul),
+        Combination::Pairwise => {
+            cover::pairs(&sweeps.iter().map(|sweep| sweep.values.len()).collect::<Vec<_>>()) as u128
+        }
+        Combination::All => sizes.fold(1, u128::saturating_mul),
     }
 }
 
 /// The choices that sweeps make, each once: values by name. The last sweep varies fastest.
 #[must_use]
-pub fn choices(sweeps: &[Sweep], combined: Combined) -> Vec<BTreeMap<String, String>> {
+pub fn choices(sweeps: &[Sweep], combined: Combination) -> Vec<BTreeMap<String, String>> {
     let chosen = |row: &[usize]| -> BTreeMap<String, String> {
         sweeps.iter().zip(row).map(|(sweep, at)| (sweep.name.clone(), sweep.values[*at].clone())).collect()
     };
     match combined {
-        Combined::OneByOne => {
+        Combination::OneByOne => {
             let one = |sweep: &Sweep, value: &String| BTreeMap::from([(sweep.name.clone(), value.clone())]);
             let each = sweeps.iter().flat_map(|sweep| sweep.values.iter().map(move |value| one(sweep, value)));
             std::iter::once(BTreeMap::new()).chain(each).collect()
         }
-        Combined::Pairwise if sweeps.len() > 1 => {
+        Combination::Pairwise if sweeps.len() > 1 => {
             let sizes: Vec<usize> = sweeps.iter().map(|sweep| sweep.values.len()).collect();
             cover::rows(&sizes).iter().map(|row| chosen(row)).collect()
         }
-        Combined::All | Combined::Pairwise => {
+        Combination::All | Combination::Pairwise => {
             let mut rows = vec![Vec::new()];
             for sweep in sweeps {
                 let longer = |row: &Vec<usize>| {
@@ -101,10 +103,10 @@ mod tests {
             values: values.iter().map(|value| (*value).to_owned()).collect(),
         };
         let sweeps = [sweep("a", &["1", "2", "3"]), sweep("b", &["x", "y"]), sweep("c", &["p", "q"])];
-        let all = choices(&sweeps, Combined::All);
-        assert_eq!((all.len() as u128, count(&sweeps, Combined::All)), (12, 12));
+        let all = choices(&sweeps, Combination::All);
+        assert_eq!((all.len() as u128, count(&sweeps, Combination::All)), (12, 12));
         assert_eq!(all[1]["c"], "q");
-        let pairs = choices(&sweeps, Combined::Pairwise);
+        let pairs = choices(&sweeps, Combination::Pairwise);
         assert!(
             pairs.len() < 12
                 && all
@@ -112,9 +114,9 @@ mod tests {
                     .flat_map(|row| row.iter().zip(row.iter().skip(1)))
                     .all(|(one, other)| { pairs.iter().any(|row| row[one.0] == *one.1 && row[other.0] == *other.1) })
         );
-        assert_eq!(choices(&sweeps, Combined::OneByOne).len(), 8);
-        assert_eq!(choices(&sweeps[..1], Combined::Pairwise).len(), 3);
-        assert_eq!(choices(&[], Combined::All), [BTreeMap::new()]);
+        assert_eq!(choices(&sweeps, Combination::OneByOne).len(), 8);
+        assert_eq!(choices(&sweeps[..1], Combination::Pairwise).len(), 3);
+        assert_eq!(choices(&[], Combination::All), [BTreeMap::new()]);
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! A program measures choices, joins two parts of a sweep, and chooses, without the command.
 
 use framewright::{Choices, Pipeline, ReadFiles, RendererOptions, Stereo, load_scene};
-use framewright_lab::bench::{Bench, BenchOptions, Choice, Drawn, HeldAgainst, MeasuredScene, Program, WARM_UP};
-use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
+use framewright_lab::bench::{
+    BatchProgress, Bench, BenchOptions, Choice, ErrorBaseline, MeasuredScene, Program, WARM_UP,
+};
+use framewright_lab::choosing::{Candidates, Limit, Quantity, SettingsAnswer};
 use framewright_lab::metric::{Errors, Metric, PIXELS_PER_DEGREE};
 use framewright_lab::picture::Light;
 use framewright_lab::results::{FORMAT_VERSION, Outcome, Part, Results, joined};
-use framewright_lab::sweep::{self, Combined, Sweep};
+use framewright_lab::sweep::{self, Combination, Sweep};
 use framewright_tests::render;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,7 +42,7 @@ impl Program for Memory {
 fn bench<'p>(device: &framewright::Device, program: &'p Memory) -> Bench<'p> {
     let pipeline =
         Pipeline::open("forward", &RendererOptions::default(), &ReadFiles::default()).expect("it is shipped");
-    let options = BenchOptions { frames: FRAMES, flicker: None, held_against: HeldAgainst::References };
+    let options = BenchOptions { frames: FRAMES, flicker: None, held_against: ErrorBaseline::References };
     Bench::new(device, pipeline, Choices::default(), options, program)
 }
 
@@ -49,7 +51,7 @@ fn choices() -> (Choice, Vec<Choice>) {
     let scene = Rc::new(MeasuredScene::new(name.to_owned(), load_scene(name).expect("it is shipped")));
     let baseline = Choice { values: BTreeMap::new(), scene, size: [32, 18], stereo: vec![Stereo::Off] };
     let swept = [Sweep { name: "msaa".to_owned(), values: vec!["1".to_owned(), "4".to_owned()] }];
-    let choices = sweep::choices(&swept, Combined::All);
+    let choices = sweep::choices(&swept, Combination::All);
     let choices = choices.into_iter().map(|values| Choice { values, ..baseline.clone() }).collect();
     (baseline, choices)
 }
@@ -64,8 +66,8 @@ fn choices_are_measured_joined_and_chosen_from() {
     for choice in &choices {
         let (frames, done) = (Cell::new(0), Cell::new(0));
         let progress = |drawn| match drawn {
-            Drawn::Frame => frames.set(frames.get() + 1),
-            Drawn::Choice => done.set(done.get() + 1),
+            BatchProgress::Frame => frames.set(frames.get() + 1),
+            BatchProgress::Choice => done.set(done.get() + 1),
         };
         let mut rows = Vec::new();
         let choice = std::slice::from_ref(choice);
@@ -87,9 +89,9 @@ fn choices_are_measured_joined_and_chosen_from() {
     let flip = |value| [Limit { quantity: Quantity::Error(Metric::Flip), value }];
     let candidates = Candidates::of(&results);
     let between = (four.of(Metric::Flip) + one.of(Metric::Flip)) / 2.0;
-    let Chosen::Best { best, .. } = candidates.choose(&flip(between)) else { panic!("four samples hold it") };
+    let SettingsAnswer::Best { best, .. } = candidates.choose(&flip(between)) else { panic!("four samples hold it") };
     assert_eq!(best.settings["msaa"], "4");
-    assert!(matches!(candidates.choose(&flip(0.0)), Chosen::Nearest(Some(_))));
+    assert!(matches!(candidates.choose(&flip(0.0)), SettingsAnswer::Nearest(Some(_))));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
-use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{Blend, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
+use crate::compile::model::{AdaptedFrame, InitialContents, OpKind, PhysicalIndex, Role, Use};
+use crate::frame::{Blend, BufferUse, ColorTarget, Resource, SampledImage, Storage, TransferUse, Work};
 use crate::vulkan::{AccessKind, Accesses, Aspects, Format, Layout, Stages};
 
 /// A reading use of this kind, from which the others are made.
@@ -21,12 +21,12 @@ fn used(resource: PhysicalIndex, range: u32, role: Role, kind: AccessKind) -> Us
     }
 }
 
-pub(super) fn sampled(sampled: &Sampled, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
+pub(super) fn sampled(sampled: &SampledImage, entry: u32, resource: PhysicalIndex, range: u32) -> Use {
     Use { entry, stages: sampled.stages, ..used(resource, range, Role::Sampled, AccessKind::Sampled) }
 }
 
 /// Gives depth that is an attachment somewhere the layouts in which it can be sampled and tested at once.
-pub(super) fn settle_depth(adapted: &mut Adapted) {
+pub(super) fn settle_depth(adapted: &mut AdaptedFrame) {
     let attaches = |used: &Use| used.role.is_attachment() && !used.role.is_color();
     if !adapted.uses.iter().any(attaches) {
         return;
@@ -165,7 +165,7 @@ pub(super) fn forward_draw(source: PhysicalIndex, target: PhysicalIndex) -> [Use
 }
 
 /// Whether a pass with these uses draws colour into several samples.
-pub(crate) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
+pub(crate) fn has_samples(adapted: &AdaptedFrame, uses: &[Use]) -> bool {
     let mut colors = uses.iter().filter(|used| used.role.is_color());
     colors.any(|used| adapted.resources[used.resource as usize].image().is_some_and(|image| image.samples > 1))
 }

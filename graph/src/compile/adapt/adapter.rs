@@ -2,16 +2,30 @@
 
 use super::access;
 use super::demote::Demotions;
-use super::input::Input;
 use super::last_accesses::LastAccesses;
 use crate::base::{Diagnostic, Place, Span};
-use crate::compile::model::{Adapted, Op, OpKind, PhysicalIndex, SubresourceIndex, Use};
-use crate::frame::{ImageIndex, ResolveWay};
-use crate::plan::{Inserted, Note, NoteKind};
+use crate::compile::cull::LivePasses;
+use crate::compile::model::{AdaptedFrame, Negotiated, Op, OpKind, PhysicalIndex, SubresourceIndex, Use};
+use crate::compile::options::Options;
+use crate::compile::parts::Grids;
+use crate::device::Profile;
+use crate::frame::{Frame, ImageIndex, ResolveWay};
+use crate::plan::{InsertionCause, Note, NoteKind};
 use crate::vulkan::Subresources;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// The frame, and what the stages before found out.
+#[derive(Clone, Copy)]
+pub(crate) struct Input<'a> {
+    pub(crate) frame: &'a Frame,
+    pub(crate) grids: &'a Grids,
+    pub(crate) live: &'a LivePasses,
+    pub(crate) negotiated: &'a Negotiated,
+    pub(crate) device: &'a Profile,
+    pub(crate) options: &'a Options,
+}
 
 /// The adapted part of the frame so far, and which physical image and buffer holds each current version.
 pub(super) struct Adapter<'a> {
@@ -40,7 +54,7 @@ pub(super) struct Adapter<'a> {
     pub(super) renamed: bool,
     /// Number of physical images so far.
     pub(super) images: u32,
-    pub(super) adapted: Adapted,
+    pub(super) adapted: AdaptedFrame,
     pub(super) notes: Vec<Note>,
     pub(super) errors: Vec<Diagnostic>,
     /// Behind the uses of all operations so far.
@@ -86,7 +100,7 @@ impl<'a> Adapter<'a> {
             demotions: Demotions::default(),
             renamed: false,
             images: 0,
-            adapted: Adapted::default(),
+            adapted: AdaptedFrame::default(),
             notes: Vec::new(),
             errors: Vec::new(),
             first_use: 0,
@@ -202,8 +216,8 @@ impl<'a> Adapter<'a> {
         self.input.frame.sources.place(span)
     }
 
-    pub(super) fn reason(&self, because: String, span: Span) -> Box<Inserted> {
-        Box::new(Inserted { because, at: self.place(span) })
+    pub(super) fn reason(&self, because: String, span: Span) -> Box<InsertionCause> {
+        Box::new(InsertionCause { because, at: self.place(span) })
     }
 
     pub(super) fn note(&mut self, kind: NoteKind, subject: &Arc<str>, text: String, span: Span) {

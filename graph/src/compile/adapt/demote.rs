@@ -1,7 +1,7 @@
 //! Demotion: a full-screen draw that covers every pixel of a multisampled image gains nothing from the samples. Unless
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
-use super::input::Input;
+use super::adapter::Input;
 use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, ResolveWay, Resource};
 use crate::plan::{Note, NoteKind};
 use std::collections::BTreeSet;

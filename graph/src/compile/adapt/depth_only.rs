@@ -6,12 +6,12 @@ use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Use};
 use crate::frame::{ImageIndex, ViewIndex};
-use crate::plan::{AttachmentKind, Inserted};
+use crate::plan::{AttachmentKind, InsertionCause};
 use crate::vulkan::{Aspects, Stages, Subresources};
 use std::sync::Arc;
 
 /// A pass that made depth what it is, and can do so again.
-enum Again {
+enum DepthWork {
     /// It is drawn, onto these contents.
     Drawn(u32, InitialContents),
     /// It fills.
@@ -19,7 +19,7 @@ enum Again {
 }
 
 /// Why depth can't be drawn again.
-struct Unavailable {
+struct DepthHindrance {
     /// In words: "`terrain` is recorded by the program".
     what: String,
     /// The pass that is why.
@@ -57,7 +57,7 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let passes = match self.redrawable(source, declared.layers) {
             Ok(passes) => passes,
-            Err(Unavailable { what, at }) => {
+            Err(DepthHindrance { what, at }) => {
                 let name = &declared.name;
                 let message = format!("{because}, and its depth can't be drawn again with 1: {what}");
                 // Several layers can't be resolved either.
@@ -80,12 +80,12 @@ impl Adapter<'_> {
         let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
         for again in passes {
             match again {
-                Again::Drawn(pass, contents) => {
+                DepthWork::Drawn(pass, contents) => {
                     let uses = [access::depth(Aspects::DEPTH, target, range, contents, true, declared.format)];
-                    let draw = InsertedDraw { name: self.depth_only_name(pass), why: Inserted::clone(&why) };
+                    let draw = InsertedDraw { name: self.depth_only_name(pass), why: InsertionCause::clone(&why) };
                     self.push(OpKind::DepthOnly { pass, draw: Box::new(draw) }, &uses);
                 }
-                Again::Filled(pass) => {
+                DepthWork::Filled(pass) => {
                     let uses = [access::target(target, range, Stages::CLEAR)];
                     self.push(OpKind::FillAgain { pass, why: why.clone() }, &uses);
                 }
@@ -108,7 +108,7 @@ impl Adapter<'_> {
     }
 
     /// The passes that made all of the current version.
-    fn redrawable(&self, resource: PhysicalIndex, layers: u32) -> Result<Vec<Again>, Unavailable> {
+    fn redrawable(&self, resource: PhysicalIndex, layers: u32) -> Result<Vec<DepthWork>, DepthHindrance> {
         let Adapter { adapted, input, .. } = self;
         let writers = self.depth_writers.get(&resource).map_or(&[][..], Vec::as_slice);
         let mut passes = Vec::with_capacity(writers.len());
@@ -118,10 +118,10 @@ impl Adapter<'_> {
             let unavailable = |what: &str| {
                 let name = pass.map_or("a copy", |(_, pass)| &pass.name);
                 let at = pass.map_or(Span::NONE, |(_, pass)| pass.span);
-                Unavailable { what: format!("`{name}` {what}"), at }
+                DepthHindrance { what: format!("`{name}` {what}"), at }
             };
             if let (OpKind::Pass(number), Some(_)) = (kind, pass.and_then(|(_, pass)| pass.work.filled())) {
-                passes.push(Again::Filled(*number));
+                passes.push(DepthWork::Filled(*number));
                 continue;
             }
             let (OpKind::Draw(number), Some((_, pass))) = (kind, pass) else {
@@ -145,12 +145,12 @@ impl Adapter<'_> {
             if passes.is_empty() && contents == InitialContents::Keep {
                 return Err(unavailable("draws onto what was there before the frame"));
             }
-            passes.push(Again::Drawn(*number, contents));
+            passes.push(DepthWork::Drawn(*number, contents));
         }
         match (passes.is_empty(), layers) {
-            (true, _) => Err(Unavailable { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),
+            (true, _) => Err(DepthHindrance { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),
             (false, 1) => Ok(passes),
-            (false, _) => Err(Unavailable { what: "it has several layers".to_owned(), at: Span::NONE }),
+            (false, _) => Err(DepthHindrance { what: "it has several layers".to_owned(), at: Span::NONE }),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Last accesses: until when each image of the frame is used.
 
-use crate::compile::cull::Live;
+use crate::compile::cull::LivePasses;
 use crate::frame::{Frame, ImageIndex};
 
 /// For each image of the frame the last pass that stays and accesses it, and the last that writes it.
@@ -11,7 +11,7 @@ pub(super) struct LastAccesses {
 }
 
 impl LastAccesses {
-    pub(super) fn of(frame: &Frame, live: &Live) -> LastAccesses {
+    pub(super) fn of(frame: &Frame, live: &LivePasses) -> LastAccesses {
         let mut last = LastAccesses { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
         for number in &live.passes {
             let pass = &frame.passes[*number as usize];

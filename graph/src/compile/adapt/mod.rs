@@ -8,7 +8,6 @@ mod adapter;
 mod demote;
 mod depth_only;
 mod forward;
-mod input;
 mod last_accesses;
 mod pass;
 mod resolve;
@@ -16,9 +15,9 @@ mod resources;
 mod versions;
 
 pub(super) use access::has_samples;
-pub(super) use input::Input;
+pub(super) use adapter::Input;
 
-use super::model::Adapted;
+use super::model::AdaptedFrame;
 use crate::base::Diagnostic;
 use crate::frame::Resource;
 use crate::plan::Note;
@@ -26,7 +25,7 @@ use adapter::Adapter;
 use last_accesses::LastAccesses;
 
 /// The physical resources and operations of a frame, with notes of what was decided.
-pub(super) fn adapt(input: Input<'_>) -> Result<(Adapted, Vec<Note>), Vec<Diagnostic>> {
+pub(super) fn adapt(input: Input<'_>) -> Result<(AdaptedFrame, Vec<Note>), Vec<Diagnostic>> {
     let Input { frame, live, .. } = input;
     let mut adapter = Adapter::new(input);
     if live.passes.iter().any(|pass| frame.passes[*pass as usize].work.forwarded().is_some()) {

@@ -4,7 +4,7 @@ use super::access;
 use super::adapter::Adapter;
 use crate::base::Diagnostic;
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
-use crate::frame::{Face, ImageIndex, NoteKind, Pass, Sampled};
+use crate::frame::{Face, ImageIndex, NoteKind, Pass, SampledImage};
 use crate::vulkan::{Aspects, Subresources};
 
 impl Adapter<'_> {
@@ -84,7 +84,7 @@ impl Adapter<'_> {
 
     /// The physical image that a sampling pass reads.
     #[inline]
-    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<PhysicalIndex> {
+    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &SampledImage) -> Option<PhysicalIndex> {
         let before = self.current(sampled.image);
         if sampled.frames_ago == 0 && sampled.face != Face::Samples && self.samples(before) == 1 {
             return Some(self.sampled_as_it_is(number, pass, sampled, before));
@@ -98,7 +98,7 @@ impl Adapter<'_> {
         &mut self,
         number: u32,
         pass: &Pass,
-        sampled: &Sampled,
+        sampled: &SampledImage,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
         if self.demotions.is_worth_a_note(sampled.image) {
@@ -107,7 +107,7 @@ impl Adapter<'_> {
         self.version_before(number, pass, sampled, before)
     }
 
-    fn note_one_sample(&mut self, pass: &Pass, sampled: &Sampled) {
+    fn note_one_sample(&mut self, pass: &Pass, sampled: &SampledImage) {
         let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
         let image = &self.input.frame.images[sampled.image.0 as usize];
         self.note(NoteKind::NotResolved, &image.name, text, sampled.span);
@@ -118,7 +118,7 @@ impl Adapter<'_> {
         &mut self,
         number: u32,
         pass: &Pass,
-        sampled: &Sampled,
+        sampled: &SampledImage,
         before: PhysicalIndex,
     ) -> Option<PhysicalIndex> {
         let declared = &self.input.frame.images[sampled.image.0 as usize];
@@ -154,7 +154,7 @@ impl Adapter<'_> {
     }
 
     /// Whether a shader can sample an earlier frame, which is never resolved. Reports it if not.
-    fn samples_unresolved(&mut self, pass: &Pass, sampled: &Sampled, earlier: PhysicalIndex) -> bool {
+    fn samples_unresolved(&mut self, pass: &Pass, sampled: &SampledImage, earlier: PhysicalIndex) -> bool {
         let count = self.samples(earlier);
         if count == 1 || sampled.face == Face::Samples {
             return true;
@@ -181,7 +181,7 @@ impl Adapter<'_> {
     ) {
         let range = Subresources { aspects: plane, ..range };
         let declared = &self.input.frame.images[image.0 as usize];
-        let same = |sampled: &&Sampled| {
+        let same = |sampled: &&SampledImage| {
             let seen = declared.sampled_part(sampled.range);
             sampled.image == image && sampled.frames_ago == 0 && declared.overlap(seen, range)
         };

@@ -11,7 +11,7 @@ use crate::compile::model::{InsertedDraw, OpKind, PhysicalIndex, ResolveShader, 
 use crate::compile::parts::join;
 use crate::device::Profile;
 use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
-use crate::plan::Inserted;
+use crate::plan::InsertionCause;
 use crate::vulkan::{Aspects, Numeric, ResolveMode, Subresources, name_of};
 
 impl Adapter<'_> {
@@ -133,7 +133,7 @@ impl Adapter<'_> {
     }
 
     /// Inserts a full-screen draw from one image into another.
-    fn resolve_by_draw(&mut self, by: ResolveShader, why: Inserted, uses: [Use; 2]) -> PhysicalIndex {
+    fn resolve_by_draw(&mut self, by: ResolveShader, why: InsertionCause, uses: [Use; 2]) -> PhysicalIndex {
         let [source, target] = [uses[0].resource, uses[1].resource];
         let resource = &self.adapted.resources[target as usize];
         // Inserted images have names of their own.

@@ -6,7 +6,7 @@ use crate::compile::model::{Kind, MemorySource, PhysicalIndex, PhysicalResource,
 use crate::compile::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
-use crate::plan::Inserted;
+use crate::plan::InsertionCause;
 use crate::vulkan::{BufferUsage, FillValue, Format, Rotation, Sharing, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -150,7 +150,13 @@ impl Adapter<'_> {
     }
 
     /// A further physical image for `image`, which holds no version yet.
-    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> PhysicalIndex {
+    pub(super) fn second(
+        &mut self,
+        image: ImageIndex,
+        what: &str,
+        why: Box<InsertionCause>,
+        samples: u32,
+    ) -> PhysicalIndex {
         let count = self.inserted_for.entry(image).or_insert(0);
         *count += 1;
         let name = &self.input.frame.images[image.0 as usize].name;
@@ -163,7 +169,13 @@ impl Adapter<'_> {
     }
 
     /// A further physical image for `image`, which takes its next version.
-    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> PhysicalIndex {
+    pub(super) fn replace(
+        &mut self,
+        image: ImageIndex,
+        what: &str,
+        why: Box<InsertionCause>,
+        samples: u32,
+    ) -> PhysicalIndex {
         let resource = self.second(image, what, why, samples);
         self.resource_of[image.0 as usize] = Some(resource);
         resource

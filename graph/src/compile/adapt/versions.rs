@@ -3,7 +3,7 @@
 use super::adapter::Adapter;
 use crate::base::Span;
 use crate::compile::model::{OpKind, PhysicalIndex};
-use crate::frame::{Face, ImageIndex, Pass, Sampled};
+use crate::frame::{Face, ImageIndex, Pass, SampledImage};
 use crate::vulkan::Subresources;
 
 impl Adapter<'_> {
@@ -13,7 +13,7 @@ impl Adapter<'_> {
         &mut self,
         number: u32,
         pass: &Pass,
-        sampled: &Sampled,
+        sampled: &SampledImage,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
         if self.feeds_back { self.version_before_feedback(number, pass, sampled, before) } else { before }
@@ -24,7 +24,7 @@ impl Adapter<'_> {
         &mut self,
         number: u32,
         pass: &Pass,
-        sampled: &Sampled,
+        sampled: &SampledImage,
         before: PhysicalIndex,
     ) -> PhysicalIndex {
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
@@ -37,7 +37,7 @@ impl Adapter<'_> {
     }
 
     /// A copy of the parts of `before` that a pass samples while it writes the image.
-    fn copied(&mut self, pass: &Pass, sampled: &Sampled, before: PhysicalIndex) -> PhysicalIndex {
+    fn copied(&mut self, pass: &Pass, sampled: &SampledImage, before: PhysicalIndex) -> PhysicalIndex {
         let image = sampled.image;
         let declared = &self.input.frame.images[image.0 as usize];
         let because = format!("`{}` samples `{}` while it writes it", pass.name, declared.name);
@@ -62,7 +62,7 @@ impl Adapter<'_> {
     }
 
     /// Whether a pass writes what it samples, in the very image that it samples.
-    fn overwrites(&self, number: u32, pass: &Pass, sampled: &Sampled) -> bool {
+    fn overwrites(&self, number: u32, pass: &Pass, sampled: &SampledImage) -> bool {
         let image = sampled.image;
         let declared = &self.input.frame.images[image.0 as usize];
         let moves = |range: Subresources, keeps: bool| self.moves_on(number, image, range, keeps);

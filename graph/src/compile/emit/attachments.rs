@@ -3,7 +3,7 @@
 use super::passes;
 use super::stage_results::{StageResults, cause};
 use crate::compile::model::{OpKind, Role};
-use crate::compile::retain::{AttachmentOps, Next};
+use crate::compile::retain::{AttachmentOps, LaterUse};
 use crate::compile::scope::{Scope, Target, op_name};
 use crate::frame::Blend;
 use crate::plan::{Attachment, AttachmentKind, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
@@ -144,10 +144,10 @@ fn reason(results: &StageResults<'_>, ops: &AttachmentOps) -> Reason {
         untouched: if ops.load == LoadOp::Load { untouched(results, ops) } else { None },
         store: ops.store,
         next: match ops.next {
-            Next::Op(op) => name(op).map_or(NextUse::Transfer, NextUse::Pass),
-            Next::After => NextUse::AfterFrame,
-            Next::Replaced => NextUse::Replaced,
-            Next::Nobody => NextUse::Never,
+            LaterUse::Op(op) => name(op).map_or(NextUse::Transfer, NextUse::Pass),
+            LaterUse::After => NextUse::AfterFrame,
+            LaterUse::Replaced => NextUse::Replaced,
+            LaterUse::Nobody => NextUse::Never,
         },
     }
 }

@@ -3,14 +3,14 @@
 use super::stage_results::{StageResults, resource_id};
 use crate::compile::parts::join;
 use crate::compile::steps::NEVER;
-use crate::compile::sync::{Batched, SubresourceBarrier};
+use crate::compile::sync::{BarrierAtStep, SubresourceBarrier};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
 use crate::vulkan::{Accesses, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct StepBarriers<'p, 'a> {
     results: &'p StageResults<'a>,
-    batched: &'p [Batched],
+    batched: &'p [BarrierAtStep],
     memory: usize,
 }
 

@@ -1,11 +1,11 @@
 //! Images and buffers of the Plan.
 
 use super::stage_results::StageResults;
-use crate::compile::model::{Adapted, Kind, MemorySource, PhysicalResource};
+use crate::compile::model::{AdaptedFrame, Kind, MemorySource, PhysicalResource};
 use crate::compile::scope::resource_name;
 use crate::compile::sync::States;
 use crate::frame::{Frame, Lifetime, Resource};
-use crate::plan::{Buffer, BufferId, Cause, ChosenFormat, Image, ImageId, Initial, Placement, Role};
+use crate::plan::{Buffer, BufferId, Cause, ChosenFormat, FirstContents, Image, ImageId, Placement, Role};
 use crate::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
 
 /// Images and buffers of the Plan.
@@ -70,7 +70,7 @@ fn chosen_format(frame: &Frame, resource: &PhysicalResource, more_bytes: i64) ->
 
 fn role(
     frame: &Frame,
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     resource: &PhysicalResource,
     states: Option<States>,
     placement: Option<&Placement>,
@@ -79,7 +79,7 @@ fn role(
     let States { before, after } = states.unwrap_or(States { before: nothing, after: nothing });
     match (resource.memory, placement) {
         (MemorySource::Persistent { becomes, initial }, _) => {
-            let initial = initial.map_or_else(|| file(frame, resource), Initial::Value);
+            let initial = initial.map_or_else(|| file(frame, resource), FirstContents::Value);
             Role::Persistent { becomes: adapted.resources[becomes as usize].id, initial, before, after }
         }
         (MemorySource::Transient, Some(placement)) => Role::Transient(placement.clone()),
@@ -90,12 +90,12 @@ fn role(
 }
 
 /// The initial contents of a resource without an initial value: its file.
-fn file(frame: &Frame, resource: &PhysicalResource) -> Initial {
+fn file(frame: &Frame, resource: &PhysicalResource) -> FirstContents {
     match resource.of {
         Resource::Image(image) => match &frame.images[image.0 as usize].lifetime {
-            Lifetime::File(file) => Initial::File(file.clone()),
-            _ => Initial::Value(FillValue::Bits([0; 4])),
+            Lifetime::File(file) => FirstContents::File(file.clone()),
+            _ => FirstContents::Value(FillValue::Bits([0; 4])),
         },
-        Resource::Buffer(_) => Initial::Value(FillValue::Bits([0; 4])),
+        Resource::Buffer(_) => FirstContents::Value(FillValue::Bits([0; 4])),
     }
 }

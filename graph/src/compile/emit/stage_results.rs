@@ -1,13 +1,13 @@
 //! What was decided about a frame, beside the frame: the parts of a Plan are made of both.
 
-use crate::compile::memory::Placed;
-use crate::compile::model::{Adapted, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
+use crate::compile::memory::PlacedResources;
+use crate::compile::model::{AdaptedFrame, Kind, Op, PhysicalIndex, PhysicalResource, SubresourceIndex};
 use crate::compile::retain::LoadStoreOps;
-use crate::compile::scope::Scoped;
+use crate::compile::scope::ScopedSteps;
 use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
 use crate::frame::{Frame, Work};
-use crate::plan::{BufferId, Cause, ImageId, Inserted, Resource};
+use crate::plan::{BufferId, Cause, ImageId, InsertionCause, Resource};
 use crate::vulkan::Subresources;
 use std::sync::Arc;
 
@@ -15,10 +15,10 @@ use std::sync::Arc;
 pub(super) struct StageResults<'a> {
     pub(super) frame: &'a Frame,
     pub(super) decisions: &'a Decisions,
-    pub(super) adapted: &'a Adapted,
-    pub(super) scoped: &'a Scoped,
+    pub(super) adapted: &'a AdaptedFrame,
+    pub(super) scoped: &'a ScopedSteps,
     pub(super) load_store: &'a LoadStoreOps,
-    pub(super) placed: &'a Placed,
+    pub(super) placed: &'a PlacedResources,
     pub(super) sync: &'a Barriers,
     /// The empty name, for parts without a name.
     pub(super) nothing: Arc<str>,
@@ -58,7 +58,7 @@ pub(super) fn cause(results: &StageResults<'_>, op: &Op) -> Cause {
     };
     let at = results.frame.sources.place(pass.span);
     match &pass.inserted {
-        Some(because) => Cause::Inserted(Box::new(Inserted { because: because.to_string(), at })),
+        Some(because) => Cause::Inserted(Box::new(InsertionCause { because: because.to_string(), at })),
         None => Cause::Written(at),
     }
 }

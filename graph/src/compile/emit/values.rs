@@ -1,6 +1,6 @@
 //! Settings, views and totals of the Plan.
 
-use crate::compile::memory::Placed;
+use crate::compile::memory::PlacedResources;
 use crate::frame::{self, Frame};
 use crate::plan::{Change, SettingUsed, Totals, View, ViewEye, ViewId};
 
@@ -15,7 +15,7 @@ pub(super) fn changes(frame: &Frame) -> Vec<Change> {
 }
 
 /// Totals with the sizes of memory.
-pub(super) fn with_bytes(placed: &Placed, totals: Totals) -> Totals {
+pub(super) fn with_bytes(placed: &PlacedResources, totals: Totals) -> Totals {
     Totals {
         transient_bytes: placed.transient_bytes,
         placed_bytes: placed.heaps.iter().map(|heap| heap.bytes).sum(),

@@ -57,7 +57,7 @@ fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
 /// Demands of a frame on the formats of its images, and other formats where the device lacks those.
 pub(crate) struct Formats<'d> {
     pub(crate) supports: Supports<'d>,
-    /// Of each image, in the formats that are taken.
+    /// The needs of each image, in the formats that are taken.
     pub(super) needs: Vec<Needs>,
     /// Whether the device has all that the images need of their formats.
     pub(super) are_met: bool,
@@ -74,8 +74,8 @@ impl Formats<'_> {
     }
 }
 
-/// Finds formats in place of those that the device can't use as the passes `live` do. Without a substitute the frame's own
-/// stay, to be refused.
+/// Finds substitutes for formats that the device can't use as the passes `live` do. Without a substitute the frame's own
+/// format stays, to be refused.
 pub(crate) fn formats<'d>(frame: &Frame, live: &[u32], device: &'d Profile) -> Formats<'d> {
     let supports = Supports::new(device);
     let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
@@ -140,8 +140,8 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
     (!notes.is_empty()).then_some((substitute, notes))
 }
 
-/// Of each image whether the embedding program, a shader or a copy relies on its very format. An output in HDR10 has a second
-/// one, and the Plan says which it is.
+/// By image, whether the embedding program, a shader or a copy relies on its very format. An output in HDR10 may have either of
+/// two formats, and the Plan says which it is.
 fn fixed<'f>(frame: &Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<bool> {
     let imported = |image: &Image| matches!(image.lifetime, Lifetime::Imported { .. });
     let mut fixed: Vec<bool> = frame.images.iter().map(imported).collect();

@@ -13,7 +13,7 @@ pub(crate) struct Supports<'d> {
 impl<'d> Supports<'d> {
     pub(super) fn new(device: &'d Profile) -> Supports<'d> {
         let mut of = [None; Format::ALL.len()];
-        // Of several entries the first counts.
+        // Backwards, so that the first of several entries counts.
         device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
         Supports { device, of }
     }
@@ -32,7 +32,7 @@ pub(super) struct Needs {
 }
 
 impl Needs {
-    /// Of each image of a frame.
+    /// The needs of each image of a frame.
     pub(super) fn of<'f>(frame: &'f Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<Needs> {
         let mut needs = vec![Needs::default(); frame.images.len()];
         for pass in passes {

@@ -3,18 +3,18 @@
 
 use super::needs::Supports;
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, MemorySource, OpKind, PhysicalIndex, PhysicalResource};
-use crate::compile::scope::{Scoped, Step, resource_name};
+use crate::compile::model::{AdaptedFrame, MemorySource, OpKind, PhysicalIndex, PhysicalResource};
+use crate::compile::scope::{ScopedSteps, Step, resource_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
-use crate::plan::Inserted;
+use crate::plan::InsertionCause;
 use crate::vulkan::{Format, Usage};
 
 /// Refuses images whose formats can't be used as the Plan does on this device.
 pub(crate) fn check_support(
     frame: &Frame,
-    adapted: &Adapted,
-    scoped: &Scoped,
+    adapted: &AdaptedFrame,
+    scoped: &ScopedSteps,
     supports: &Supports<'_>,
 ) -> Result<(), Vec<Diagnostic>> {
     let device = supports.device;
@@ -47,7 +47,7 @@ const FOLLOWS: Usage = Usage::TRANSIENT_ATTACHMENT.union(Usage::INPUT_ATTACHMENT
 
 fn refusal(
     frame: &Frame,
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     device: &Profile,
     at: PhysicalIndex,
     (image, missing): (&ImageDescriptor, Usage),
@@ -65,8 +65,8 @@ fn refusal(
 }
 
 /// Why a resource has its usages: an inserted operation that uses it, or where it comes from and goes.
-fn why<'a>(adapted: &'a Adapted, resource: &'a PhysicalResource, at: PhysicalIndex) -> &'a str {
-    let inserted = |number: u32| -> Option<&Inserted> {
+fn why<'a>(adapted: &'a AdaptedFrame, resource: &'a PhysicalResource, at: PhysicalIndex) -> &'a str {
+    let inserted = |number: u32| -> Option<&InsertionCause> {
         let why = adapted.ops[number as usize].kind.inserted()?;
         adapted.uses(number).iter().any(|used| used.resource == at).then_some(why)
     };

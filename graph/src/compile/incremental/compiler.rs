@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// - Anything else, other sizes among it: the frame is compiled anew.
 #[derive(Debug, Default)]
 pub struct Compiler {
-    last: Option<Box<Last>>,
+    last: Option<Box<LastFrame>>,
 }
 
 /// How much of the last frame's compilation served for this one.
@@ -38,7 +38,7 @@ pub enum Reuse {
 
 /// The last frame and its results.
 #[derive(Debug)]
-struct Last {
+struct LastFrame {
     /// As it was given.
     given: Arc<Frame>,
     /// The same with images that are turned.
@@ -80,8 +80,8 @@ impl Compiler {
         let last = match known {
             Some(last) => last.follow(frame, memory)?,
             None => {
-                let last = Last::new(&turned(frame)?, device, memory, options)?;
-                Box::new(Last { given: frame.clone(), ..last })
+                let last = LastFrame::new(&turned(frame)?, device, memory, options)?;
+                Box::new(LastFrame { given: frame.clone(), ..last })
             }
         };
         Ok(&self.last.insert(last).plan)
@@ -99,17 +99,17 @@ fn turned(frame: &Arc<Frame>) -> Result<Arc<Frame>, Vec<Diagnostic>> {
     Ok(rotate::rotate(frame)?.map_or_else(|| frame.clone(), Arc::new))
 }
 
-impl Last {
-    /// Of a frame with images that are turned.
+impl LastFrame {
+    /// Compiles a frame whose images are turned already.
     fn new(
         frame: &Arc<Frame>,
         device: &Arc<Profile>,
         memory: &mut dyn MemoryProvider,
         options: &Options,
-    ) -> Result<Last, Vec<Diagnostic>> {
+    ) -> Result<LastFrame, Vec<Diagnostic>> {
         let (decisions, substitute) = stages::decide(frame, device, memory, options)?;
         let plan = emit::emit(substitute.as_ref().unwrap_or(frame), device, &decisions);
-        Ok(Last {
+        Ok(LastFrame {
             given: frame.clone(),
             frame: frame.clone(),
             device: device.clone(),
@@ -123,10 +123,10 @@ impl Last {
 
     /// The next frame on the same device.
     fn follow(
-        mut self: Box<Last>,
+        mut self: Box<LastFrame>,
         frame: &Arc<Frame>,
         memory: &mut dyn MemoryProvider,
-    ) -> Result<Box<Last>, Vec<Diagnostic>> {
+    ) -> Result<Box<LastFrame>, Vec<Diagnostic>> {
         self.reuse = Reuse::Everything;
         if Arc::ptr_eq(&self.given, frame) {
             return Ok(self);
@@ -140,7 +140,7 @@ impl Last {
                 self.put_in_values(frame);
             }
             Difference::Values | Difference::Structure => {
-                *self = Last::new(frame, &self.device, memory, &self.options)?;
+                *self = LastFrame::new(frame, &self.device, memory, &self.options)?;
             }
         }
         (self.given, self.frame) = (given.clone(), frame.clone());
@@ -148,7 +148,7 @@ impl Last {
     }
 
     fn put_in_values(&mut self, frame: &Frame) {
-        let Last { decisions, plan, .. } = self;
+        let LastFrame { decisions, plan, .. } = self;
         retain::renew_clear_values(frame, &decisions.adapted, &mut decisions.load_store);
         emit::values(frame, decisions, plan);
     }

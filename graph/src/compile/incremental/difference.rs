@@ -1,7 +1,8 @@
 //! The difference between two frames.
 
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, Pass, Sampled, StencilState, Storage, View, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, Pass, SampledImage, StencilState, Storage, View,
+    Work,
 };
 use crate::vulkan::FillValue;
 use std::sync::Arc;
@@ -177,8 +178,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     unless(same_params, Values).max(works(&old.work, work)).max(of_lists(&old.color, color, color_target)).max(depth)
 }
 
-fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
-    let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
+fn same_sampled(old: &SampledImage, new: &SampledImage) -> bool {
+    let SampledImage { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
     old.image == *image
         && old.range == *range
         && old.frames_ago == *frames_ago

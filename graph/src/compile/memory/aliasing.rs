@@ -1,6 +1,6 @@
 //! Aliasing: which transient image or buffer had the memory of another one before, within the frame and across frames.
 
-use super::place::Placed;
+use super::place::PlacedResources;
 use crate::compile::model::PhysicalIndex;
 use crate::compile::steps::NEVER;
 
@@ -25,7 +25,7 @@ struct Aliasing {
 }
 
 /// All alias edges. `by_first_step`: the placed resources, in the order of first steps.
-pub(in crate::compile) fn alias_edges(placed: &Placed, by_first_step: &[PhysicalIndex]) -> Vec<AliasEdge> {
+pub(in crate::compile) fn alias_edges(placed: &PlacedResources, by_first_step: &[PhysicalIndex]) -> Vec<AliasEdge> {
     let mut aliasing = Aliasing {
         edges: Vec::with_capacity(2 * by_first_step.len()),
         ends: vec![[NEVER; 2]; placed.placements.len()],
@@ -40,7 +40,7 @@ pub(in crate::compile) fn alias_edges(placed: &Placed, by_first_step: &[Physical
 
 impl Aliasing {
     /// Numbers the offsets of a heap at which placements begin or end.
-    fn number(&mut self, placed: &Placed, heap: u32) {
+    fn number(&mut self, placed: &PlacedResources, heap: u32) {
         let first = self.heaps.last().map_or(0, |[_, end]| *end);
         // All offsets are multiples of an alignment.
         let here = || placed.placements.iter().flatten().filter(|it| it.heap == heap);
@@ -56,7 +56,7 @@ impl Aliasing {
 
     /// Numbers offsets from `first` on. Each multiple of 2 to the power of `unit` has a bit, which is set where an offset is.
     /// The bits take `words` words. Returns the number behind the last one.
-    fn number_marked(&mut self, placed: &Placed, heap: u32, first: u32, (unit, words): (u32, usize)) -> u32 {
+    fn number_marked(&mut self, placed: &PlacedResources, heap: u32, first: u32, (unit, words): (u32, usize)) -> u32 {
         // Each word with the number of its first offset.
         let mut marked = vec![(0_u64, 0_u32); words];
         let place = |offset: u64| (((offset >> unit) / 64) as usize, 1_u64 << ((offset >> unit) % 64));
@@ -84,7 +84,7 @@ impl Aliasing {
     }
 
     /// The same, by sorting: for offsets that lie too far apart to mark them.
-    fn number_sorted(&mut self, placed: &Placed, heap: u32, first: u32) -> u32 {
+    fn number_sorted(&mut self, placed: &PlacedResources, heap: u32, first: u32) -> u32 {
         let mut sorted: Vec<(u64, u32)> = Vec::with_capacity(2 * placed.placements.len());
         for (placement, at) in placed.placements.iter().zip(0_u32..) {
             if let Some(it) = placement
@@ -104,7 +104,7 @@ impl Aliasing {
     }
 
     /// Follows the owners of each piece of a heap. The ends of placements cut the heap into pieces.
-    fn follow(&mut self, placed: &Placed, by_first_step: &[PhysicalIndex], heap: u32) {
+    fn follow(&mut self, placed: &PlacedResources, by_first_step: &[PhysicalIndex], heap: u32) {
         let Some([first_piece, end_piece]) = self.heaps.last().copied() else { return };
         let mut owners = vec![NEVER; (end_piece - first_piece) as usize];
         let mut from_frame_before: Vec<(PhysicalIndex, u32)> = Vec::with_capacity(owners.len());
@@ -146,12 +146,12 @@ mod tests {
     use crate::plan::{Heap, Placement, StepId};
 
     /// Placements in one heap, each by its offset and bytes.
-    fn placed(places: [(u64, u64); 3]) -> Placed {
+    fn placed(places: [(u64, u64); 3]) -> PlacedResources {
         let placement = |(offset, bytes)| {
             Some(Placement { heap: 0, offset, bytes, alignment: 1, type_bits: 1, lifetime: [StepId(0); 2] })
         };
         let bytes = places.iter().map(|(offset, bytes)| offset + bytes).max().unwrap_or(0);
-        Placed {
+        PlacedResources {
             heaps: vec![Heap { bytes, alignment: 1, type_bits: 1, lazily_allocated: false }],
             placements: places.map(placement).to_vec(),
             transient_bytes: 0,

@@ -73,7 +73,7 @@ impl Walk {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pack::Measured;
+    use super::super::pack::MeasuredBlocks;
     use super::*;
 
     const MIB: u64 = 1 << 20;
@@ -85,7 +85,7 @@ mod tests {
     /// Where intervals start in four steps whose blocks take 100 MiB together at most, and `extra` more in step 1.
     fn starts(waits: &[u32], extra: u64) -> Option<Vec<u32>> {
         let blocks = [block(0, 0, 50 * MIB), block(1, 1, 50 * MIB + extra), block(2, 3, 100 * MIB), block(3, 3, 0)];
-        Intervals::of(waits, &Measured::of(&blocks).changes, 100 * MIB).map(|intervals| intervals.starts)
+        Intervals::of(waits, &MeasuredBlocks::of(&blocks).changes, 100 * MIB).map(|intervals| intervals.starts)
     }
 
     #[test]

@@ -6,4 +6,4 @@ mod pack;
 mod place;
 
 pub(super) use aliasing::{AliasEdge, alias_edges};
-pub(super) use place::{Placed, Times, by_first_step, place};
+pub(super) use place::{PlacedResources, Times, by_first_step, place};

@@ -1,9 +1,9 @@
 //! `place`: each transient image and buffer gets an offset in memory, which others that live at other times share.
 
 use super::intervals::Intervals;
-use super::pack::{Block, Measured, Packing};
+use super::pack::{Block, MeasuredBlocks, Packing};
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, Kind, PhysicalIndex};
+use crate::compile::model::{AdaptedFrame, Kind, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::steps::NEVER;
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
@@ -12,7 +12,7 @@ use crate::vulkan::{Format, Usage};
 
 /// The heaps, and each resource's place.
 #[derive(Debug)]
-pub(in crate::compile) struct Placed {
+pub(in crate::compile) struct PlacedResources {
     pub(in crate::compile) heaps: Vec<Heap>,
     /// For each physical resource its place, if it is transient.
     pub(in crate::compile) placements: Vec<Option<Placement>>,
@@ -27,7 +27,7 @@ pub(in crate::compile) struct Placed {
 }
 
 /// All transient resources that are used, in the order of the first steps of `spans`, then by index.
-pub(in crate::compile) fn by_first_step(adapted: &Adapted, spans: &[[u32; 2]]) -> Vec<PhysicalIndex> {
+pub(in crate::compile) fn by_first_step(adapted: &AdaptedFrame, spans: &[[u32; 2]]) -> Vec<PhysicalIndex> {
     let mut order: Vec<PhysicalIndex> = Vec::with_capacity(spans.len());
     let (mut last, mut is_sorted) = (0, true);
     for (([first, _], resource), at) in spans.iter().zip(&adapted.resources).zip(0_u32..) {
@@ -81,13 +81,13 @@ pub(in crate::compile) struct Times<'t> {
 
 /// Finds a place for each transient resource.
 pub(in crate::compile) fn place(
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     Times { lifetimes, spans, order, waits }: Times<'_>,
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
-) -> Result<Placed, Vec<Diagnostic>> {
-    let mut placed = Placed {
+) -> Result<PlacedResources, Vec<Diagnostic>> {
+    let mut placed = PlacedResources {
         heaps: Vec::new(),
         placements: Vec::with_capacity(adapted.resources.len()),
         transient_bytes: 0,
@@ -155,21 +155,21 @@ pub(in crate::compile) fn place(
             members[placement.heap as usize].blocks.push(block(placement, spans[*resource as usize]));
         }
     }
-    let measured: Vec<Measured<'_>> = members.iter().map(|members| Measured::of(&members.blocks)).collect();
+    let measured: Vec<MeasuredBlocks<'_>> = members.iter().map(|members| MeasuredBlocks::of(&members.blocks)).collect();
     let alive = |resource: &PhysicalIndex| {
         let placement = placed.placements[*resource as usize].as_ref()?;
         Some(block(placement, lifetimes[*resource as usize]))
     };
     let apart = members.len() > 1 || overlaps;
     let all: Vec<Block> = if apart { order.iter().filter_map(alive).collect() } else { Vec::new() };
-    let together = apart.then(|| Measured::of(&all));
+    let together = apart.then(|| MeasuredBlocks::of(&all));
     let together = together.as_ref().or(measured.last());
-    placed.live_peak_bytes = together.map_or(0, Measured::live_peak);
+    placed.live_peak_bytes = together.map_or(0, MeasuredBlocks::live_peak);
     let packings = if options.alias {
         let waits = waits.filter(|_| !overlaps);
         waits
             .and_then(|waits| pack_by_intervals(waits, &members, together?))
-            .unwrap_or_else(|| measured.iter().map(Measured::pack).collect())
+            .unwrap_or_else(|| measured.iter().map(MeasuredBlocks::pack).collect())
     } else {
         members.iter().map(|members| side_by_side(&members.blocks)).collect()
     };
@@ -188,9 +188,9 @@ pub(in crate::compile) fn place(
 
 /// Packings in which memory changes hands only where intervals between barrier calls begin; `None` if this saves no call, or
 /// takes too much memory. `together`: the blocks of all heaps.
-fn pack_by_intervals(waits: &[u32], members: &[Members], together: &Measured<'_>) -> Option<Vec<Packing>> {
+fn pack_by_intervals(waits: &[u32], members: &[Members], together: &MeasuredBlocks<'_>) -> Option<Vec<Packing>> {
     let intervals = Intervals::of(waits, &together.changes, together.live_peak())?;
-    let pack = |members: &Members| Measured::of(&intervals.widen(&members.blocks)).pack();
+    let pack = |members: &Members| MeasuredBlocks::of(&intervals.widen(&members.blocks)).pack();
     let packings: Vec<Packing> = members.iter().map(pack).collect();
     (packings.iter().map(|packing| packing.height).sum::<u64>() <= intervals.most_bytes).then_some(packings)
 }

@@ -2,14 +2,14 @@
 
 use super::crossing::Crossing;
 use super::decide::{Decision, decide};
-use super::layout_changes::{self, WithChanges};
+use super::layout_changes::{self, ChangedLayoutSteps};
 use super::number::QUEUES;
 use super::state::Queues;
 use super::step_uses::uses;
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, Kind, MemorySource, PhysicalIndex};
+use crate::compile::model::{AdaptedFrame, Kind, MemorySource, PhysicalIndex};
 use crate::compile::options::Options;
-use crate::compile::scope::Scoped;
+use crate::compile::scope::ScopedSteps;
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, Queue};
@@ -17,9 +17,9 @@ use crate::vulkan::{Layout, Sharing};
 
 /// The queues, and what follows from them for other stages.
 #[derive(Debug)]
-pub(in crate::compile) struct Assigned {
+pub(in crate::compile) struct QueueAssignment {
     /// The steps, with those that change layouts.
-    pub(in crate::compile) scoped: Scoped,
+    pub(in crate::compile) scoped: ScopedSteps,
     pub(in crate::compile) queues: Queues,
     pub(in crate::compile) notes: Vec<Note>,
     /// Physical resources that are used on other queues than graphics, with their sharing.
@@ -29,24 +29,24 @@ pub(in crate::compile) struct Assigned {
 /// Gives each step its queue, and inserts steps that change layouts.
 pub(in crate::compile) fn assign(
     frame: &Frame,
-    adapted: &Adapted,
-    scoped: Scoped,
+    adapted: &AdaptedFrame,
+    scoped: ScopedSteps,
     device: &Profile,
     options: &Options,
-) -> Assigned {
+) -> QueueAssignment {
     let Decision { queues, notes } = decide(frame, adapted, &scoped.steps, device, options);
     if queues.iter().all(|queue| *queue == Queue::Graphics) {
-        return Assigned { scoped, queues: Queues::default(), notes, sharing: Vec::new() };
+        return QueueAssignment { scoped, queues: Queues::default(), notes, sharing: Vec::new() };
     }
     let (crossings, sharing) = share(adapted, &scoped, device, &queues);
-    let WithChanges { scoped, queues, changes } = layout_changes::insert(adapted, scoped, &queues, &crossings);
-    Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
+    let ChangedLayoutSteps { scoped, queues, changes } = layout_changes::insert(adapted, scoped, &queues, &crossings);
+    QueueAssignment { scoped, queues: Queues::new(queues, crossings, changes, adapted.subresources), notes, sharing }
 }
 
-/// How several queues share each physical resource, and the sharing of those that other queues than graphics use.
+/// How several queues share each physical resource. Only a resource that another queue than graphics uses is shared.
 fn share(
-    adapted: &Adapted,
-    scoped: &Scoped,
+    adapted: &AdaptedFrame,
+    scoped: &ScopedSteps,
     device: &Profile,
     of: &[Queue],
 ) -> (Vec<Option<Crossing>>, Vec<(PhysicalIndex, Sharing)>) {

@@ -1,7 +1,7 @@
 //! Vector clocks: what each queue knows of the others, and the waits between them.
 //!
-//! A step that waits for another one knows all that the other one knew, and that the other one and all before it on its
-//! queue are done. So a wait is left out where an earlier wait of the queue, or another wait of the same step, implies it.
+//! A step that waits for another one learns that the other one, and all before it on its queue, are done. It also learns all that
+//! the other one knew. So a wait is left out where an earlier wait of the queue, or another wait of the same step, implies it.
 //! The rest is the transitive reduction of all waits.
 
 use super::number::{QUEUES, Steps};
@@ -21,12 +21,12 @@ pub(super) struct Clocks {
     /// The steps that are known to be done after a wait for each step.
     signals: Vec<Steps>,
     /// Each step and a wait of it, in the order of steps.
-    waits: Vec<(u32, Awaited)>,
+    waits: Vec<(u32, AwaitedStep)>,
 }
 
 /// A step that another one waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Awaited {
+struct AwaitedStep {
     queue: usize,
     step: u32,
     frames_ago: u32,
@@ -51,9 +51,9 @@ impl Clocks {
 
     /// Lets a step wait. The waits of the steps before it must be known.
     pub(super) fn require(&mut self, step: u32, queue: usize, required: Steps) {
-        let missing: Vec<Awaited> = (0..QUEUES)
+        let missing: Vec<AwaitedStep> = (0..QUEUES)
             .filter(|other| *other != queue && required[*other] > self.now[queue][*other])
-            .map(|other| Awaited { queue: other, step: required[other] - 1, frames_ago: 0 })
+            .map(|other| AwaitedStep { queue: other, step: required[other] - 1, frames_ago: 0 })
             .collect();
         for awaited in &missing {
             join(&mut self.now[queue], &self.signals[awaited.step as usize]);
@@ -68,7 +68,7 @@ impl Clocks {
             return;
         }
         let start = self.waits.partition_point(|(of, _)| *of < step);
-        let mut here: Vec<Awaited> = self.waits.drain(start..).map(|(_, awaited)| awaited).collect();
+        let mut here: Vec<AwaitedStep> = self.waits.drain(start..).map(|(_, awaited)| awaited).collect();
         here.extend(missing);
         here.sort_by_key(|awaited| awaited.queue);
         let signals = &self.signals;
@@ -92,7 +92,7 @@ impl Clocks {
 
     /// The waits of a step.
     pub(super) fn waits(&self, step: u32) -> Vec<Wait> {
-        let wait = |(_, awaited): &(u32, Awaited)| Wait {
+        let wait = |(_, awaited): &(u32, AwaitedStep)| Wait {
             step: StepId(awaited.step),
             frames_ago: awaited.frames_ago,
             stages: Stages::ALL_COMMANDS,
@@ -105,11 +105,11 @@ impl Clocks {
     pub(super) fn require_earlier(&mut self, queues: &[usize], required: &[EarlierStep]) {
         let frames_ago = required.first().map_or(0, |first| first.frames_ago);
         let mut frames = Clocks::new(self.frame);
-        let mut added: Vec<(u32, Awaited)> = Vec::new();
+        let mut added: Vec<(u32, AwaitedStep)> = Vec::new();
         let time = |frame: u32, step: u32| frame * self.frame + step;
         for frame in 0..=frames_ago {
             for (step, queue) in (0..self.frame).zip(queues) {
-                let mut here: Vec<Awaited> = Vec::new();
+                let mut here: Vec<AwaitedStep> = Vec::new();
                 let mut before = Steps::default();
                 for (_, awaited) in of_step(&self.waits, step, |(of, _)| *of) {
                     if let Some(frame) = frame.checked_sub(awaited.frames_ago) {
@@ -122,10 +122,10 @@ impl Clocks {
                     for EarlierStep { queue, of, .. } in of_step(required, step, |it| it.step).iter().copied() {
                         if now[queue] <= of && !here.iter().any(|it| it.queue == queue && it.step >= of) {
                             here.retain(|it| it.queue != queue);
-                            here.push(Awaited { queue, step: of, frames_ago });
+                            here.push(AwaitedStep { queue, step: of, frames_ago });
                         }
                     }
-                    let here: Vec<Awaited> = needed(&here, |it| frames.signals[it.step as usize]).collect();
+                    let here: Vec<AwaitedStep> = needed(&here, |it| frames.signals[it.step as usize]).collect();
                     here.iter().for_each(|it| before[it.queue] = before[it.queue].max(it.step + 1));
                     added.extend(here.into_iter().map(|it| (step, it)));
                 }
@@ -142,8 +142,8 @@ fn join(known: &mut Steps, more: &Steps) {
 }
 
 /// The waits of one step that no other of them implies. There is at most one for each queue and frame.
-fn needed(waits: &[Awaited], signal: impl Fn(&Awaited) -> Steps) -> impl Iterator<Item = Awaited> {
-    let is_implied = |wait: &Awaited| {
+fn needed(waits: &[AwaitedStep], signal: impl Fn(&AwaitedStep) -> Steps) -> impl Iterator<Item = AwaitedStep> {
+    let is_implied = |wait: &AwaitedStep| {
         let mut others = waits.iter().filter(|other| *other != wait);
         // No two imply each other, since each step comes after those that it knows.
         others.any(|other| signal(other)[wait.queue] > wait.step)

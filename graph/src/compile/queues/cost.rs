@@ -11,7 +11,7 @@
 //!   What one run has beside it, the next run of its queue doesn't have.
 
 use super::step_uses::uses_of;
-use crate::compile::model::Adapted;
+use crate::compile::model::AdaptedFrame;
 use crate::compile::scope::Step;
 use crate::plan::Queue;
 
@@ -61,7 +61,7 @@ impl Balance {
 
 impl Work {
     /// `beside`: whether a step is one of the graphics steps that may have others beside them.
-    pub(super) fn new(adapted: &Adapted, steps: &[Step], beside: impl Fn(u32) -> bool, wait: u64) -> Work {
+    pub(super) fn new(adapted: &AdaptedFrame, steps: &[Step], beside: impl Fn(u32) -> bool, wait: u64) -> Work {
         let of: Vec<u64> = steps.iter().map(|step| work(adapted, step)).collect();
         let graphics: Vec<u32> = (0..of.len() as u32).filter(|step| beside(*step) && of[*step as usize] > 0).collect();
         let mut before = Vec::with_capacity(of.len() + 1);
@@ -128,7 +128,7 @@ fn follow_each_other(steps: &mut [(u32, [u32; 2])]) {
 }
 
 /// Bytes that a step reads and writes. An attachment counts once, however many passes of the scope draw into it.
-fn work(adapted: &Adapted, step: &Step) -> u64 {
+fn work(adapted: &AdaptedFrame, step: &Step) -> u64 {
     let attachments = if let Step::Scope(scope) = step { Some(scope.targets()) } else { None };
     let attachments = attachments.into_iter().flatten().map(|target| adapted.bytes(target.resource, target.range));
     let in_memory = uses_of(adapted, step).filter(|used| !used.role.is_attachment() && !used.role.is_input());

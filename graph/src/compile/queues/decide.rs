@@ -6,12 +6,12 @@
 //! wouldn't gain even if none of the others held them back stay first. That is a rule of thumb: a run could still become one with the next.
 
 use super::cost::{Balance, Work};
-use super::eligible::{Eligible, GraphicsOnly};
-use super::notes::{self, Why};
+use super::eligible_queues::{EligibleQueues, GraphicsOnly};
+use super::notes::{self, QueueReason};
 use super::number::QUEUES;
 use super::step_uses::uses;
 use super::windows::Steps;
-use crate::compile::model::{Adapted, MemorySource, PhysicalIndex};
+use crate::compile::model::{AdaptedFrame, MemorySource, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
 use crate::device::Profile;
@@ -36,7 +36,7 @@ pub(super) struct Decision {
 /// Decides which queue each step runs on. Steps that do nothing make no difference.
 pub(super) fn decide(
     frame: &Frame,
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     steps: &[Step],
     device: &Profile,
     options: &Options,
@@ -44,10 +44,11 @@ pub(super) fn decide(
     if !options.queues || !(device.queues.compute || device.queues.transfer) {
         return Decision { queues: Vec::new(), notes: Vec::new() };
     }
-    let eligible = Eligible { frame, adapted, device, options };
+    let eligible = EligibleQueues { frame, adapted, device, options };
     let bound: Vec<Result<[bool; QUEUES], GraphicsOnly>> = steps.iter().map(|step| eligible.of(step)).collect();
     let mut queues = wanted(frame, adapted, steps, &bound);
-    let mut why: Vec<Option<Why>> = bound.iter().map(|bound| bound.err().map(Why::GraphicsOnly)).collect();
+    let mut why: Vec<Option<QueueReason>> =
+        bound.iter().map(|bound| bound.err().map(QueueReason::GraphicsOnly)).collect();
     // Where all steps are drawn, there is nothing to weigh.
     let work = || Work::new(adapted, steps, |step| bound[step as usize].is_err(), device.queues.wait_bytes);
     let work = bound.iter().any(Result::is_ok).then(work);
@@ -59,12 +60,13 @@ pub(super) fn decide(
         let mut stays = vec![false; steps.len()];
         for (at, balance) in balances.iter().enumerate() {
             if let Some(balance) = balance {
-                why[at] = Some(if round == MOST_ROUNDS { Why::Undecided } else { Why::Balance(*balance) });
+                why[at] =
+                    Some(if round == MOST_ROUNDS { QueueReason::Undecided } else { QueueReason::Balance(*balance) });
                 stays[at] = round == MOST_ROUNDS || if hopeless { balance.is_hopeless() } else { !balance.gains() };
             }
         }
         for at in split_users(adapted, steps, &queues, &stays) {
-            (stays[at], why[at]) = (true, Some(Why::Split));
+            (stays[at], why[at]) = (true, Some(QueueReason::Split));
         }
         if !stays.contains(&true) {
             break;
@@ -79,7 +81,7 @@ pub(super) fn decide(
 
 /// The queue that each step would leave graphics for. A transfer of what dispatches use goes to the compute queue: that
 /// saves waits.
-fn wanted(frame: &Frame, adapted: &Adapted, steps: &[Step], bound: &Bound) -> Vec<Queue> {
+fn wanted(frame: &Frame, adapted: &AdaptedFrame, steps: &[Step], bound: &Bound) -> Vec<Queue> {
     let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(|queue| queue as usize);
     let mut dispatched = vec![false; adapted.resources.len()];
     for (step, able) in steps.iter().zip(bound) {
@@ -98,14 +100,14 @@ fn wanted(frame: &Frame, adapted: &Adapted, steps: &[Step], bound: &Bound) -> Ve
     steps.iter().zip(bound).map(choose).collect()
 }
 
-fn is_dispatch(frame: &Frame, adapted: &Adapted, step: &Step) -> bool {
+fn is_dispatch(frame: &Frame, adapted: &AdaptedFrame, step: &Step) -> bool {
     let pass = step.ops().first().and_then(|op| adapted.ops[*op as usize].kind.pass());
     pass.is_some_and(|pass| frame.passes[pass as usize].work.groups().is_some())
 }
 
 /// Imported images and buffers are used on one queue, or on graphics: the state before the frame names the stages of one queue.
 /// The steps that stay for that.
-fn split_users(adapted: &Adapted, steps: &[Step], queues: &[Queue], stays: &[bool]) -> Vec<usize> {
+fn split_users(adapted: &AdaptedFrame, steps: &[Step], queues: &[Queue], stays: &[bool]) -> Vec<usize> {
     let is_imported =
         |resource: PhysicalIndex| matches!(adapted.resources[resource as usize].memory, MemorySource::Imported { .. });
     let mut user: Vec<Option<Queue>> = vec![None; adapted.resources.len()];

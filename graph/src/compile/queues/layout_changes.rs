@@ -7,8 +7,8 @@ use super::crossing::{Crossing, LayoutChange};
 use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::access_chain::stands_beside_reads;
-use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
-use crate::compile::scope::{Scoped, Step};
+use crate::compile::model::{AdaptedFrame, PhysicalIndex, SubresourceIndex};
+use crate::compile::scope::{ScopedSteps, Step};
 use crate::plan::Queue;
 use crate::vulkan::Layout;
 
@@ -31,8 +31,8 @@ struct Candidate {
 }
 
 /// Steps with the queue of each, and steps among them that only change layouts.
-pub(super) struct WithChanges {
-    pub(super) scoped: Scoped,
+pub(super) struct ChangedLayoutSteps {
+    pub(super) scoped: ScopedSteps,
     pub(super) queues: Vec<Queue>,
     /// The step that makes each change, and the change.
     pub(super) changes: Vec<(u32, LayoutChange)>,
@@ -40,11 +40,11 @@ pub(super) struct WithChanges {
 
 /// Inserts steps that change layouts behind writes.
 pub(super) fn insert(
-    adapted: &Adapted,
-    mut scoped: Scoped,
+    adapted: &AdaptedFrame,
+    mut scoped: ScopedSteps,
     queues: &[Queue],
     crossings: &[Option<Crossing>],
-) -> WithChanges {
+) -> ChangedLayoutSteps {
     let mut candidates = candidates(adapted, &scoped.steps, queues, crossings);
     candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
     candidates.sort_by_key(|it| (it.behind, it.change.subresource));
@@ -64,10 +64,15 @@ pub(super) fn insert(
             queues_with.push(*queue);
         }
     }
-    WithChanges { scoped, queues: queues_with, changes }
+    ChangedLayoutSteps { scoped, queues: queues_with, changes }
 }
 
-fn candidates(adapted: &Adapted, steps: &[Step], queues: &[Queue], crossings: &[Option<Crossing>]) -> Vec<Candidate> {
+fn candidates(
+    adapted: &AdaptedFrame,
+    steps: &[Step],
+    queues: &[Queue],
+    crossings: &[Option<Crossing>],
+) -> Vec<Candidate> {
     let mut subresources =
         vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.subresources as usize];
     let mut candidates: Vec<Candidate> = Vec::new();

@@ -3,8 +3,8 @@
 use super::number::QUEUES;
 use super::state::Queues;
 use super::step_uses::uses_of;
-use crate::compile::model::{Adapted, PhysicalIndex};
-use crate::compile::scope::Scoped;
+use crate::compile::model::{AdaptedFrame, PhysicalIndex};
+use crate::compile::scope::ScopedSteps;
 use crate::compile::steps::NEVER;
 
 impl Queues {
@@ -15,8 +15,8 @@ impl Queues {
     /// taken from before every graphics step that they don't wait for, to behind every step that doesn't wait for them.
     pub(in crate::compile) fn memory_spans(
         &self,
-        adapted: &Adapted,
-        scoped: &Scoped,
+        adapted: &AdaptedFrame,
+        scoped: &ScopedSteps,
         lifetimes: &[[u32; 2]],
     ) -> Option<Vec<[u32; 2]>> {
         if self.is_one() {

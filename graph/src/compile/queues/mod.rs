@@ -14,7 +14,7 @@ mod clocks;
 mod cost;
 mod crossing;
 mod decide;
-mod eligible;
+mod eligible_queues;
 mod layout_changes;
 mod memory_spans;
 mod notes;
@@ -23,7 +23,7 @@ mod state;
 mod step_uses;
 mod windows;
 
-pub(super) use assign::{Assigned, assign};
+pub(super) use assign::{QueueAssignment, assign};
 pub(super) use crossing::{Crossing, LayoutChange, OwnershipTransfer, QueueUse, QueueUses};
 pub(super) use number::{QUEUES, Steps};
 pub(super) use state::Queues;

@@ -1,16 +1,16 @@
 //! Why each pass that isn't drawn runs on its queue, in words and figures.
 
 use super::cost::Balance;
-use super::eligible::GraphicsOnly;
+use super::eligible_queues::GraphicsOnly;
 use crate::base::amount::bytes;
-use crate::compile::model::{Adapted, OpKind};
+use crate::compile::model::{AdaptedFrame, OpKind};
 use crate::compile::scope::{Step, op_name, resource_name};
 use crate::frame::Frame;
 use crate::plan::{Note, NoteKind, Queue};
 
 /// Why a step runs on its queue.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Why {
+pub(super) enum QueueReason {
     /// No other queue can run it.
     GraphicsOnly(GraphicsOnly),
     /// What it would save, and what its waits would cost.
@@ -21,13 +21,13 @@ pub(super) enum Why {
     Undecided,
 }
 
-impl Why {
+impl QueueReason {
     const fn kind(self) -> NoteKind {
         match self {
-            Why::GraphicsOnly(_) => NoteKind::GraphicsOnly,
-            Why::Balance(_) => NoteKind::QueueWeighed,
-            Why::Split => NoteKind::SharedWithQueue,
-            Why::Undecided => NoteKind::QueueUndecided,
+            QueueReason::GraphicsOnly(_) => NoteKind::GraphicsOnly,
+            QueueReason::Balance(_) => NoteKind::QueueWeighed,
+            QueueReason::Split => NoteKind::SharedWithQueue,
+            QueueReason::Undecided => NoteKind::QueueUndecided,
         }
     }
 }
@@ -35,10 +35,10 @@ impl Why {
 /// The notes of all passes that are steps of their own.
 pub(super) fn notes(
     frame: &Frame,
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     steps: &[Step],
     queues: &[Queue],
-    why: &[Option<Why>],
+    why: &[Option<QueueReason>],
 ) -> Vec<Note> {
     let mut notes = Vec::new();
     for ((step, queue), why) in steps.iter().zip(queues).zip(why) {
@@ -54,17 +54,17 @@ pub(super) fn notes(
     notes
 }
 
-fn words<'f>(queue: Queue, why: Why, name: impl Fn(u32) -> Option<&'f str>) -> Option<String> {
+fn words<'f>(queue: Queue, why: QueueReason, name: impl Fn(u32) -> Option<&'f str>) -> Option<String> {
     let stays = |why: &str| Some(format!("stays on the graphics queue: {why}"));
     let balance = match why {
-        Why::GraphicsOnly(why) => return why.why().and_then(stays),
-        Why::Split => return stays("it uses something that is handed in and that another queue uses, too"),
-        Why::Undecided => {
+        QueueReason::GraphicsOnly(why) => return why.why().and_then(stays),
+        QueueReason::Split => return stays("it uses something that is handed in and that another queue uses, too"),
+        QueueReason::Undecided => {
             return stays(
                 "what can run beside what was not found out in as many rounds as are tried, so nothing leaves it",
             );
         }
-        Why::Balance(balance) => balance,
+        QueueReason::Balance(balance) => balance,
     };
     let Balance { steps, waits, cost, saved, alone } = balance;
     let most = if balance.is_hopeless() { alone } else { saved };
@@ -99,7 +99,7 @@ fn words<'f>(queue: Queue, why: Why, name: impl Fn(u32) -> Option<&'f str>) -> O
 }
 
 /// The name of a step in notes.
-fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option<&'f str> {
+fn first_name<'f>(frame: &'f Frame, adapted: &'f AdaptedFrame, step: &Step) -> Option<&'f str> {
     let named = step.ops().iter().find_map(|op| op_name(frame, adapted, *op));
     let transferred = || {
         let used = adapted.uses(*step.ops().first()?).first()?;

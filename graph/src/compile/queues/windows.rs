@@ -2,7 +2,7 @@
 
 use super::step_uses::uses_of;
 use crate::compile::access_chain::AccessChain;
-use crate::compile::model::{Adapted, Use};
+use crate::compile::model::{AdaptedFrame, Use};
 use crate::compile::scope::Step;
 use crate::plan::Queue;
 use crate::vulkan::Sharing;
@@ -20,7 +20,7 @@ struct Reach {
 /// Steps in the order of submission with the queue that each is to run on.
 #[derive(Clone, Copy)]
 pub(super) struct Steps<'a> {
-    pub(super) adapted: &'a Adapted,
+    pub(super) adapted: &'a AdaptedFrame,
     pub(super) steps: &'a [Step],
     pub(super) queues: &'a [Queue],
     /// How transient images are shared.

@@ -4,15 +4,15 @@
 //! Images that a shader reads stay upright: it looks texels up where the upright picture has them. So an output that passes
 //! also read becomes two images where it is drawn anew, or it is drawn upright and rotated by one more draw.
 
-mod separate;
-mod together;
+mod separate_outputs;
+mod turn_search;
 
 use super::cull;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource};
 use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
-use together::{Hindrance, Together, becomes, degrees};
+use turn_search::{Hindrance, TurnSearch, becomes, degrees};
 
 /// The frame with turned images; `None`: nothing is turned.
 pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
@@ -64,7 +64,7 @@ impl Turner {
             let message = format!("`{}` is handed in {}, and {because}", declared.name, degrees(output.rotation));
             return self.errors.push(Diagnostic::new(output.span, message).label(at, "needs it upright"));
         }
-        if let Some(split) = separate::where_drawn_anew(&self.frame, &self.live, image) {
+        if let Some(split) = separate_outputs::where_drawn_anew(&self.frame, &self.live, image) {
             match self.together(&split, image, output.rotation, true) {
                 Ok(together) => {
                     self.frame = split;
@@ -81,7 +81,7 @@ impl Turner {
     fn by_a_draw(&mut self, image: ImageIndex, output: &Output, (because, at): (String, Span)) {
         let name = self.frame.images[image.0 as usize].name.clone();
         let why = format!("`{name}` leaves the frame {}, and {because}", degrees(output.rotation));
-        let last = separate::draw_upright(&mut self.frame, &self.live, image, why, at);
+        let last = separate_outputs::draw_upright(&mut self.frame, &self.live, image, why, at);
         self.live.push(last);
         self.turn(&BTreeSet::from([image]), output.rotation);
     }
@@ -112,7 +112,7 @@ impl Turner {
         rotation: Rotation,
         is_output: bool,
     ) -> Result<BTreeSet<ImageIndex>, Hindrance> {
-        Together { frame, live: &self.live, rotation, start: image, is_output }.find()
+        TurnSearch { frame, live: &self.live, rotation, start: image, is_output }.find()
     }
 
     fn turn(&mut self, images: &BTreeSet<ImageIndex>, rotation: Rotation) {

@@ -1,6 +1,6 @@
 //! The accesses of all operations to subresources, listed once because scheduling walks them often.
 
-use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex, Use};
+use crate::compile::model::{AdaptedFrame, PhysicalIndex, SubresourceIndex, Use};
 use crate::vulkan::Layout;
 
 /// An access of an operation to a subresource.
@@ -31,7 +31,7 @@ pub(super) struct Accesses {
 }
 
 impl Accesses {
-    pub(super) fn of(adapted: &Adapted) -> Accesses {
+    pub(super) fn of(adapted: &AdaptedFrame) -> Accesses {
         let has_effects = adapted.ops.iter().any(|op| op.side_effect);
         if adapted.is_uncut() && !has_effects {
             return Accesses::of_uses(adapted);
@@ -60,7 +60,7 @@ impl Accesses {
     }
 
     /// Those of operations each of whose uses is one access, as they mostly are.
-    fn of_uses(adapted: &Adapted) -> Accesses {
+    fn of_uses(adapted: &AdaptedFrame) -> Accesses {
         let access = |used: &Use| {
             let Use { subresource, resource, writes, layout, .. } = *used;
             Access { subresource, resource, writes, layout, is_effect: false }

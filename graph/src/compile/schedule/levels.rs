@@ -40,8 +40,8 @@ pub(super) fn by_level(runs: &Runs, levels: Levels, memory: &Memory) -> (Vec<u32
     // Each run's least level makes way for the key by which it is sorted.
     let Levels { least: mut keys, top, lifetimes } = levels;
     let mut downwards = Walk::new(runs);
-    let known = |resource| Known { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
-    let mut known: Vec<Known> = (0..runs.resources() as u32).map(known).collect();
+    let known = |resource| ResourceLevels { bytes: memory.bytes(resource), first: lifetimes.first(resource), end: 0 };
+    let mut known: Vec<ResourceLevels> = (0..runs.resources() as u32).map(known).collect();
     for (run, key) in (0..runs.len()).zip(&mut keys).rev() {
         let lowest = *key;
         let accesses = runs.accesses(run);
@@ -50,7 +50,7 @@ pub(super) fn by_level(runs: &Runs, levels: Levels, memory: &Memory) -> (Vec<u32
         let mut least = 0;
         for access in accesses {
             least = least.max(downwards.behind(access));
-            let Known { bytes, first, end } = known[access.resource as usize];
+            let ResourceLevels { bytes, first, end } = known[access.resource as usize];
             begun = begun.saturating_add(if first == run { bytes } else { 0 });
             ended = ended.saturating_add(if end <= lowest + 1 { bytes } else { 0 });
         }
@@ -85,7 +85,7 @@ pub(super) fn by_level(runs: &Runs, levels: Levels, memory: &Memory) -> (Vec<u32
 
 /// A resource while the runs are walked from the last to the first.
 #[derive(Debug, Clone, Copy)]
-struct Known {
+struct ResourceLevels {
     bytes: u64,
     /// The first run that uses it.
     first: u32,

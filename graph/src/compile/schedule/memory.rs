@@ -1,7 +1,7 @@
 //! How much memory an order keeps alive, and an order that keeps little.
 
 use super::runs::Runs;
-use crate::compile::model::{Adapted, Kind, PhysicalIndex};
+use crate::compile::model::{AdaptedFrame, Kind, PhysicalIndex};
 
 /// Bytes of each resource in shared memory, counted in texels: the device's alignment and padding are not known here.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ impl Lifetimes {
 }
 
 impl Memory {
-    pub(super) fn of(adapted: &Adapted) -> Memory {
+    pub(super) fn of(adapted: &AdaptedFrame) -> Memory {
         let mut total = Some(0_u64);
         let mut bytes: Vec<u64> = Vec::with_capacity(adapted.resources.len() + 1);
         for (resource, index) in adapted.resources.iter().zip(0..) {

@@ -1,8 +1,8 @@
 //! `schedule`: the order in which operations run.
 //!
 //! An operation depends on an earlier one if both use a subresource and at least one of them writes it, or if both have
-//! effects that nothing shows. Each order that keeps every operation behind those that it depends on is valid, and gives the
-//! same picture. The default order is scored by these, the most important first:
+//! effects that nothing shows. An order is valid if it keeps every operation behind all that it depends on. All valid
+//! orders give the same picture. The default order is scored by these, the most important first:
 //!
 //! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is valid. Sharing a
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
@@ -18,20 +18,20 @@
 
 mod accesses;
 mod dependencies;
-mod greedy;
+mod greedy_order;
 mod levels;
 mod memory;
 mod runs;
 
-use super::model::Adapted;
+use super::model::AdaptedFrame;
 use super::options::Order;
 use dependencies::Dependencies;
-use greedy::Greedy;
+use greedy_order::GreedyOrder;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
 
-/// Finds the order of execution: indices into [`Adapted::ops`].
-pub(super) fn schedule(adapted: &Adapted, order: Order) -> Vec<u32> {
+/// Finds the order of execution: indices into [`AdaptedFrame::ops`].
+pub(super) fn schedule(adapted: &AdaptedFrame, order: Order) -> Vec<u32> {
     match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
@@ -51,7 +51,7 @@ pub(super) fn schedule(adapted: &Adapted, order: Order) -> Vec<u32> {
 }
 
 /// The runs in the order that scores best; `None`: as they are.
-fn scored(adapted: &Adapted, runs: &Runs) -> Option<Vec<u32>> {
+fn scored(adapted: &AdaptedFrame, runs: &Runs) -> Option<Vec<u32>> {
     let levels = levels::levels(runs)?;
     let memory = Memory::of(adapted);
     let (order, in_file) = levels::by_level(runs, levels, &memory);
@@ -64,9 +64,9 @@ fn scored(adapted: &Adapted, runs: &Runs) -> Option<Vec<u32>> {
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
-fn small(adapted: &Adapted, runs: &Runs) -> Vec<u32> {
+fn small(adapted: &AdaptedFrame, runs: &Runs) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
     let scored = scored(adapted, runs).unwrap_or_else(|| file.clone());
     let memory = Memory::of(adapted);
-    Greedy::new(adapted, runs, &memory, Dependencies::between(runs)).best(vec![file, scored])
+    GreedyOrder::new(adapted, runs, &memory, Dependencies::between(runs)).best(vec![file, scored])
 }

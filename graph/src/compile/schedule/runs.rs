@@ -2,7 +2,7 @@
 
 use super::accesses::{Access, Accesses};
 use crate::compile::access_chain::AccessChain;
-use crate::compile::model::{Adapted, InitialContents, PhysicalIndex, Role, Use};
+use crate::compile::model::{AdaptedFrame, InitialContents, PhysicalIndex, Role, Use};
 
 /// Operations in an order that is valid, in runs: draws into the same attachments, or one operation.
 #[derive(Debug)]
@@ -17,12 +17,12 @@ pub(super) struct Runs {
 
 impl Runs {
     /// Each operation by itself, in the order of the frame.
-    pub(super) fn of_one(adapted: &Adapted) -> Runs {
+    pub(super) fn of_one(adapted: &AdaptedFrame) -> Runs {
         Runs { ops: Vec::new(), starts: Vec::new(), accesses: Accesses::of(adapted) }
     }
 
     /// Draws that may share a scope in one run.
-    pub(super) fn gather(adapted: &Adapted) -> Runs {
+    pub(super) fn gather(adapted: &AdaptedFrame) -> Runs {
         if !adapted.ops.iter().any(|op| op.kind.draws()) {
             return Runs::of_one(adapted);
         }
@@ -129,7 +129,7 @@ struct Run {
 }
 
 struct Gatherer<'a> {
-    adapted: &'a Adapted,
+    adapted: &'a AdaptedFrame,
     accesses: &'a Accesses,
     runs: Vec<Run>,
     run_of: Vec<u32>,
@@ -187,7 +187,7 @@ fn rearmost(runs: &mut [Run], one: u32, other: u32) -> u32 {
 }
 
 /// The run whose last write an operation draws on top of.
-fn candidate(adapted: &Adapted, chains: &[AccessChain<Option<u32>>], op: u32) -> Option<u32> {
+fn candidate(adapted: &AdaptedFrame, chains: &[AccessChain<Option<u32>>], op: u32) -> Option<u32> {
     if !adapted.ops[op as usize].kind.draws() {
         return None;
     }
@@ -206,7 +206,7 @@ fn candidate(adapted: &Adapted, chains: &[AccessChain<Option<u32>>], op: u32) ->
 }
 
 /// Whether two draws have the same colour attachments, and depth and stencil attachments where both have them.
-fn meet(adapted: &Adapted, one: u32, other: u32) -> bool {
+fn meet(adapted: &AdaptedFrame, one: u32, other: u32) -> bool {
     let all = |op, role| {
         let uses = adapted.uses(op).iter().filter(move |used| used.role == role);
         uses.map(|used| (used.resource, adapted.range(used)))

@@ -4,8 +4,8 @@ use super::can_join::Refusal;
 use super::gain::Gain;
 use super::local;
 use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
-use super::trace::{Trace, Ways};
-use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
+use super::trace::{ScopeUse, Trace};
+use crate::compile::model::{AdaptedFrame, OpKind, PhysicalIndex, Role, Use};
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, NoteKind};
@@ -13,7 +13,7 @@ use crate::plan::{Note, NoteKind};
 pub(super) struct Builder<'a> {
     frame: &'a Frame,
     device: &'a Profile,
-    adapted: &'a Adapted,
+    adapted: &'a AdaptedFrame,
     pub(super) steps: Vec<Step>,
     pub(super) gains: Vec<Option<Gain>>,
     /// For each subresource what is known of it.
@@ -24,7 +24,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub(super) fn new(frame: &'a Frame, adapted: &'a Adapted, device: &'a Profile) -> Builder<'a> {
+    pub(super) fn new(frame: &'a Frame, adapted: &'a AdaptedFrame, device: &'a Profile) -> Builder<'a> {
         Builder {
             frame,
             device,
@@ -70,7 +70,7 @@ impl<'a> Builder<'a> {
             adapted.for_each_subresource(used, |subresource| {
                 let trace = &mut traces[subresource as usize];
                 if trace.used != Some(at) {
-                    trace.ways = Ways::default();
+                    trace.ways = ScopeUse::default();
                 }
                 trace.ways.add(used);
                 trace.used = trace.used.max(Some(at));
@@ -232,7 +232,7 @@ impl<'a> Builder<'a> {
 }
 
 /// Whether the program records what an operation draws.
-fn is_custom(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
+fn is_custom(frame: &Frame, adapted: &AdaptedFrame, op: u32) -> bool {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
     frame.passes[pass as usize].is_custom()
 }

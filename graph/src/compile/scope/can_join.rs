@@ -1,7 +1,7 @@
 //! Whether a pass can join the rendering scope before it.
 
 use super::step::{Scope, Target, colors_of, plane_of};
-use crate::compile::model::{Adapted, InitialContents, PhysicalIndex, Role, Use};
+use crate::compile::model::{AdaptedFrame, InitialContents, PhysicalIndex, Role, Use};
 use crate::frame::TargetShape;
 use crate::vulkan::{Aspects, Subresources};
 
@@ -27,7 +27,7 @@ impl Scope {
     /// pass and scope must be the same.
     pub(super) fn can_join(
         &self,
-        adapted: &Adapted,
+        adapted: &AdaptedFrame,
         uses: &[Use],
         most_colors: usize,
         fixed: bool,
@@ -105,7 +105,7 @@ impl Scope {
     }
 
     /// Targets of its folded resolves.
-    pub(super) fn resolve_targets<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = PhysicalIndex> + 'a {
+    pub(super) fn resolve_targets<'a>(&'a self, adapted: &'a AdaptedFrame) -> impl Iterator<Item = PhysicalIndex> + 'a {
         self.folded_resolves().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.resource)
     }
 
@@ -115,18 +115,18 @@ impl Scope {
     }
 
     /// Whether a use is about exactly one of the attachments.
-    pub(super) fn attaches(&self, adapted: &Adapted, used: &Use) -> bool {
+    pub(super) fn attaches(&self, adapted: &AdaptedFrame, used: &Use) -> bool {
         let target = Target::of(adapted, used);
         self.targets().any(|ours| ours == target)
     }
 
     /// Whether a use is about some of what is attached.
-    pub(super) fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
+    pub(super) fn overlaps(&self, adapted: &AdaptedFrame, used: &Use) -> bool {
         let range = adapted.range(used);
         self.targets().any(|ours| ours.resource == used.resource && ours.range.overlaps(range))
     }
 
-    fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
+    fn same_area(&self, adapted: &AdaptedFrame, uses: &[Use]) -> bool {
         let first = self.targets().next();
         first.is_none_or(|first| {
             let attached = uses.iter().filter(|used| used.role.is_attachment());
@@ -136,7 +136,7 @@ impl Scope {
 }
 
 /// Properties that the attachments of one scope have in common, as the device makes them.
-fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
+fn shape(adapted: &AdaptedFrame, target: Target) -> Option<TargetShape> {
     let image = adapted.resources[target.resource as usize].image()?;
     let (allocated, eyes) = (adapted.allocated(target.resource), adapted.eyes(target.resource));
     let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);

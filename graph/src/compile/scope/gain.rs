@@ -1,7 +1,7 @@
 //! The gain of passes that share a rendering scope. Its bytes are counted for the Plan: sizes may have changed by then.
 
 use super::step::{Scope, Target, op_name, resource_name};
-use crate::compile::model::{Adapted, Use};
+use crate::compile::model::{AdaptedFrame, Use};
 use crate::frame::Frame;
 use crate::plan::Reason;
 
@@ -19,18 +19,18 @@ pub(super) enum Gain {
 }
 
 impl Gain {
-    /// Of an operation with these uses that joins `scope`.
-    pub(super) fn shared(adapted: &Adapted, scope: &Scope, uses: &[Use]) -> Gain {
+    /// The gain of an operation with these uses that joins `scope`.
+    pub(super) fn shared(adapted: &AdaptedFrame, scope: &Scope, uses: &[Use]) -> Gain {
         let attached = |used: &&Use| used.role.is_attachment() && scope.attaches(adapted, used);
         let attachments = uses.iter().filter(attached).map(|used| Target::of(adapted, used)).collect();
         Gain::Shared { before: scope.ops.last().copied(), attachments }
     }
 
-    pub(super) fn read_locally(adapted: &Adapted, used: &Use) -> Gain {
+    pub(super) fn read_locally(adapted: &AdaptedFrame, used: &Use) -> Gain {
         Gain::ReadLocally(Target::of(adapted, used))
     }
 
-    pub(super) fn reason(&self, frame: &Frame, adapted: &Adapted) -> Reason {
+    pub(super) fn reason(&self, frame: &Frame, adapted: &AdaptedFrame) -> Reason {
         let name = |target: &Target| resource_name(frame, adapted, target.resource).clone();
         let bytes = |target: &Target| adapted.bytes(target.resource, target.range);
         match self {

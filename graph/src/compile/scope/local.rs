@@ -3,12 +3,12 @@
 //! Colour attachments with one sample can be read so. The passes of such a scope draw into different ones of its attachments.
 
 use super::step::{Scope, Target};
-use crate::compile::model::{Adapted, OpKind, Role, Use};
-use crate::frame::{Frame, Sampled};
+use crate::compile::model::{AdaptedFrame, OpKind, Role, Use};
+use crate::frame::{Frame, SampledImage};
 use crate::vulkan::{AccessKind, Stages};
 
 /// The entry of a use that samples only the texel at the fragment's own position.
-pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
+pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &AdaptedFrame, op: u32, used: &Use) -> Option<&'f SampledImage> {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return None };
     if !used.role.is_sampled() {
         return None;
@@ -17,13 +17,13 @@ pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: 
 }
 
 /// Whether an operation samples an image only at its own pixel.
-pub(super) fn has_own_pixel_reads(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
+pub(super) fn has_own_pixel_reads(frame: &Frame, adapted: &AdaptedFrame, op: u32) -> bool {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
     frame.passes[pass as usize].sampled.iter().any(|sampled| sampled.own_pixel)
 }
 
 /// Whether a use can be a local read in a scope with these colour attachments.
-pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, attached: &[Target]) -> bool {
+pub(super) fn possible(frame: &Frame, adapted: &AdaptedFrame, op: u32, used: &Use, attached: &[Target]) -> bool {
     let target = Target::of(adapted, used);
     let once = || {
         let same = |other: &&Use| other.role.is_sampled() && Target::of(adapted, other) == target;
@@ -34,7 +34,7 @@ pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, at
 }
 
 /// Why a use can't be a local read on any device.
-pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
+pub(super) fn obstacle(adapted: &AdaptedFrame, sampled: &SampledImage, used: &Use) -> Option<&'static str> {
     let image = adapted.resources[used.resource as usize].image()?;
     if image.format.is_depth() {
         Some("only colour is read from its scope")
@@ -62,7 +62,7 @@ pub(super) fn read_locally(uses: &mut [Use], local: &[u32]) {
 
 impl Scope {
     /// Whether the colour attachments of a pass fit into the scope, next to those that it has.
-    pub(super) fn colors_fit(&self, adapted: &Adapted, uses: &[Use], most: usize) -> bool {
+    pub(super) fn colors_fit(&self, adapted: &AdaptedFrame, uses: &[Use], most: usize) -> bool {
         let colors = uses.iter().filter(|used| used.role.is_color());
         let mut new = 0;
         for used in colors {

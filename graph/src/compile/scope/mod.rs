@@ -8,7 +8,7 @@ mod local;
 mod step;
 mod trace;
 
-use super::model::Adapted;
+use super::model::AdaptedFrame;
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, Reason};
@@ -19,15 +19,15 @@ pub(super) use step::{Scope, Step, Target, op_name, resource_name};
 
 /// Steps in execution order.
 #[derive(Debug)]
-pub(super) struct Scoped {
+pub(super) struct ScopedSteps {
     pub(super) steps: Vec<Step>,
     /// The gain of a pass that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
     gains: Vec<Option<Gain>>,
 }
 
-impl Scoped {
+impl ScopedSteps {
     /// Why operation number `op` shares its scope with the one before it.
-    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<Box<Reason>> {
+    pub(super) fn merged(&self, frame: &Frame, adapted: &AdaptedFrame, op: u32) -> Option<Box<Reason>> {
         Some(Box::new(self.gains.get(op as usize)?.as_ref()?.reason(frame, adapted)))
     }
 }
@@ -36,14 +36,14 @@ impl Scoped {
 /// decided.
 pub(super) fn scope(
     frame: &Frame,
-    mut adapted: Adapted,
+    mut adapted: AdaptedFrame,
     order: &[u32],
     device: &Profile,
-) -> (Scoped, Adapted, Vec<Note>) {
+) -> (ScopedSteps, AdaptedFrame, Vec<Note>) {
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
-        return (Scoped { steps, gains: Vec::new() }, adapted, Vec::new());
+        return (ScopedSteps { steps, gains: Vec::new() }, adapted, Vec::new());
     }
     let mut builder = Builder::new(frame, &adapted, device);
     for op in order {
@@ -51,5 +51,5 @@ pub(super) fn scope(
     }
     let Builder { steps, gains, notes, local, .. } = builder;
     local::read_locally(&mut adapted.uses, &local);
-    (Scoped { steps, gains }, adapted, notes)
+    (ScopedSteps { steps, gains }, adapted, notes)
 }

@@ -1,6 +1,6 @@
 //! Steps, rendering scopes and their attachments.
 
-use crate::compile::model::{Adapted, OpKind, PhysicalIndex, Role, Use};
+use crate::compile::model::{AdaptedFrame, OpKind, PhysicalIndex, Role, Use};
 use crate::frame::{Frame, Resource};
 use crate::vulkan::Subresources;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    pub(crate) fn of(adapted: &Adapted, used: &Use) -> Target {
+    pub(crate) fn of(adapted: &AdaptedFrame, used: &Use) -> Target {
         Target { resource: used.resource, range: adapted.range(used) }
     }
 }
@@ -60,7 +60,7 @@ impl Step {
 }
 
 /// The name of a physical image or buffer.
-pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n Adapted, resource: PhysicalIndex) -> &'n Arc<str> {
+pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n AdaptedFrame, resource: PhysicalIndex) -> &'n Arc<str> {
     let resource = &adapted.resources[resource as usize];
     resource.renamed.as_ref().unwrap_or(match resource.of {
         Resource::Image(image) => &frame.images[image.0 as usize].name,
@@ -69,17 +69,17 @@ pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n Adapted, resource
 }
 
 /// The colour attachments of an operation with these uses.
-pub(super) fn colors_of(adapted: &Adapted, uses: &[Use]) -> Vec<Target> {
+pub(super) fn colors_of(adapted: &AdaptedFrame, uses: &[Use]) -> Vec<Target> {
     uses.iter().filter(|used| used.role.is_color()).map(|used| Target::of(adapted, used)).collect()
 }
 
 /// Its depth or its stencil attachment.
-pub(super) fn plane_of(adapted: &Adapted, uses: &[Use], role: Role) -> Option<Target> {
+pub(super) fn plane_of(adapted: &AdaptedFrame, uses: &[Use], role: Role) -> Option<Target> {
     uses.iter().find(|used| used.role == role).map(|used| Target::of(adapted, used))
 }
 
 /// The name of the pass that an operation is in the Plan.
-pub(crate) fn op_name<'f>(frame: &'f Frame, adapted: &'f Adapted, op: u32) -> Option<&'f Arc<str>> {
+pub(crate) fn op_name<'f>(frame: &'f Frame, adapted: &'f AdaptedFrame, op: u32) -> Option<&'f Arc<str>> {
     match &adapted.ops[op as usize].kind {
         OpKind::DepthOnly { draw, .. } | OpKind::ResolveDraw { draw, .. } => Some(&draw.name),
         kind => kind.pass().map(|pass| &frame.passes[pass as usize].name),

@@ -13,12 +13,12 @@ pub(super) struct Trace {
     /// The last scope that wrote it as an attachment.
     pub(super) drawn: Option<usize>,
     /// In what ways the last step that used it did.
-    pub(super) ways: Ways,
+    pub(super) ways: ScopeUse,
 }
 
 /// Ways in which the passes of one scope use a subresource.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Ways {
+pub(super) struct ScopeUse {
     attached: bool,
     sampled: bool,
     stored: bool,
@@ -26,10 +26,10 @@ pub(super) struct Ways {
     shaded: bool,
 }
 
-impl Ways {
+impl ScopeUse {
     /// Whether a use can't be in one scope with these.
     pub(super) fn clash(self, used: &Use) -> bool {
-        let Ways { attached, sampled, stored, shaded } = self;
+        let ScopeUse { attached, sampled, stored, shaded } = self;
         let others = if used.role.is_sampled() { stored } else { sampled };
         match used.role.is_attachment() {
             true => sampled || stored,

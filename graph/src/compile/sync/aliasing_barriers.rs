@@ -4,7 +4,7 @@
 //! named by a memory barrier, in a call before that of the image barrier (docs/synchronization.md). Such a barrier covers
 //! *all* memory: it serves every later image barrier that comes after it, directly or through others in between.
 
-use super::batches::Batched;
+use super::batches::BarrierAtStep;
 use super::subresource::SubresourceBarrier;
 use crate::compile::model::PhysicalIndex;
 use crate::compile::queues::{QUEUES, Queues};
@@ -53,7 +53,7 @@ impl Source {
 }
 
 /// A memory barrier that the walk through the frame has passed.
-struct Passed {
+struct PassedBarrier {
     source: Source,
     /// When, counted over two frames.
     time: usize,
@@ -62,7 +62,7 @@ struct Passed {
 }
 
 /// An aliased write with the step before which it must be available, and the stages that wait for it there.
-struct Due<'a> {
+struct DueWrite<'a> {
     at: u32,
     write: &'a AliasedWrite,
     waits: Stages,
@@ -76,7 +76,7 @@ pub(super) fn memory_barriers(
     queues: &Queues,
     aliased: &[AliasedWrite],
     barriers: &[SubresourceBarrier],
-    batched: &[Batched],
+    batched: &[BarrierAtStep],
     steps: usize,
 ) -> Vec<(u32, AliasingBarrier)> {
     if aliased.is_empty() {
@@ -87,16 +87,16 @@ pub(super) fn memory_barriers(
     let mut due = Vec::with_capacity(aliased.len());
     for write in aliased {
         let number = write.barrier as usize;
-        due.push(Due { at: at[number], write, waits: barriers[number].src_stages.and_earlier() });
+        due.push(DueWrite { at: at[number], write, waits: barriers[number].src_stages.and_earlier() });
     }
     due.sort_by_key(|due| (due.at, due.write.resources));
     let mut memory: Vec<Option<AliasingBarrier>> = vec![None; steps];
-    let mut passed: [Vec<Passed>; QUEUES] = Default::default();
+    let mut passed: [Vec<PassedBarrier>; QUEUES] = Default::default();
     for time in 0..2 * steps {
         let (step, second_frame) = (time % steps, time >= steps);
         let passed = &mut passed[queues.queue_number(step as u32)];
         let here = of_step(&due, step as u32, |due| due.at);
-        let is_now = |due: &&Due<'_>| due.write.this_frame != second_frame && !done(passed, due);
+        let is_now = |due: &&DueWrite<'_>| due.write.this_frame != second_frame && !done(passed, due);
         let now: Vec<&AliasedWrite> = here.iter().filter(is_now).map(|due| due.write).collect();
         add(&mut memory[step], &now);
         let images = of_step(batched, step as u32, |it| it.at).iter().map(|it| &barriers[it.barrier as usize]);
@@ -106,7 +106,7 @@ pub(super) fn memory_barriers(
 }
 
 /// Whether a barrier since the write serves already. All writes are in the first frame that is walked.
-fn done(passed: &[Passed], Due { write, waits, .. }: &Due<'_>) -> bool {
+fn done(passed: &[PassedBarrier], DueWrite { write, waits, .. }: &DueWrite<'_>) -> bool {
     passed.iter().any(|barrier| {
         barrier.time > write.written as usize && barrier.source.covers(write.source) && waits.intersects(barrier.reach)
     })
@@ -127,7 +127,7 @@ fn add(barrier: &mut Option<AliasingBarrier>, writes: &[&AliasedWrite]) {
 
 /// Passes the barriers of one step: its memory barrier, then its image barriers, which don't order each other.
 fn pass<'p>(
-    passed: &mut Vec<Passed>,
+    passed: &mut Vec<PassedBarrier>,
     time: usize,
     memory: Option<&AliasingBarrier>,
     images: impl Iterator<Item = &'p SubresourceBarrier>,
@@ -138,14 +138,14 @@ fn pass<'p>(
         // A later barrier of at least the same source and reach serves all that an earlier one could, so few are kept.
         let reach = memory.dst_stages.and_later();
         passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
-        passed.push(Passed { source, time, reach });
+        passed.push(PassedBarrier { source, time, reach });
     }
     let scopes: Vec<(Stages, Stages)> = images.map(|it| (it.src_stages, it.dst_stages)).collect();
     lead_on(passed, &scopes);
 }
 
 /// Extends execution dependency chains by the barriers of one call.
-fn lead_on(passed: &mut [Passed], scopes: &[(Stages, Stages)]) {
+fn lead_on(passed: &mut [PassedBarrier], scopes: &[(Stages, Stages)]) {
     for barrier in passed {
         let follows = |(src, _): &&(Stages, Stages)| src.and_earlier().intersects(barrier.reach);
         let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | dst.and_later());

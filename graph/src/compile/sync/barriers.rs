@@ -1,12 +1,12 @@
 //! `barriers`: all barriers of the Plan, in calls.
 
 use super::aliasing_barriers::{self, AliasingBarrier};
-use super::batches::{self, Batched};
+use super::batches::{self, BarrierAtStep};
 use super::subresource::SubresourceBarrier;
 use super::timeline::AccessTimeline;
 use super::{initial_barriers, redundant};
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::{Adapted, MemorySource};
+use crate::compile::model::{AdaptedFrame, MemorySource};
 use crate::compile::queues::Queues;
 
 /// All barriers and waits.
@@ -14,7 +14,7 @@ use crate::compile::queues::Queues;
 pub(in crate::compile) struct Barriers {
     pub(in crate::compile) barriers: Vec<SubresourceBarrier>,
     /// Where they stand, in the order of steps.
-    pub(in crate::compile) batched: Vec<Batched>,
+    pub(in crate::compile) batched: Vec<BarrierAtStep>,
     /// The memory barriers between owners of memory, each with its step, in the order of steps.
     pub(in crate::compile) aliasing: Vec<(u32, AliasingBarrier)>,
     /// The queues, with all waits.
@@ -25,7 +25,7 @@ pub(in crate::compile) struct Barriers {
 
 /// Completes `barriers`, which are those of the timeline, and puts them into calls. `steps`: the frame's own. `poison`: images are poisoned.
 pub(in crate::compile) fn barriers(
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     timeline: &AccessTimeline,
     barriers: Vec<SubresourceBarrier>,
     edges: &[AliasEdge],
@@ -40,7 +40,7 @@ pub(in crate::compile) fn barriers(
     if adapted.buffers > 0 || adapted.resources.iter().any(|it| matches!(it.memory, MemorySource::Persistent { .. })) {
         redundant::take_out(adapted, timeline, poison, &mut initial, &mut batched);
     }
-    let initial_barriers::Initial { barriers, queues, aliased } = initial;
+    let initial_barriers::CompleteBarriers { barriers, queues, aliased } = initial;
     let has_final_states =
         batched.last().is_some_and(|last| last.at == steps) || steps == 0 || !queues.waits(steps).is_empty();
     let steps = steps + u32::from(has_final_states);

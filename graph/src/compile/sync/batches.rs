@@ -14,21 +14,21 @@ use crate::compile::steps::NEVER;
 
 /// A barrier with the step that it stands before.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::compile) struct Batched {
+pub(in crate::compile) struct BarrierAtStep {
     pub(in crate::compile) at: u32,
     /// Index of the barrier.
     pub(in crate::compile) barrier: u32,
 }
 
 /// Puts barriers, in the order of the steps that need them, into calls, in the order of steps.
-pub(super) fn batch(queues: &Queues, barriers: &[SubresourceBarrier]) -> Vec<Batched> {
+pub(super) fn batch(queues: &Queues, barriers: &[SubresourceBarrier]) -> Vec<BarrierAtStep> {
     let mut batched = Vec::with_capacity(barriers.len());
     let mut calls = [None; QUEUES];
     for (barrier, number) in barriers.iter().zip(0_u32..).filter(|(barrier, _)| barrier.step != NEVER) {
         let call = &mut calls[queues.queue_number(barrier.step)];
         let at = call.filter(|at| *at >= earliest(queues, number, barrier)).unwrap_or(barrier.step);
         *call = Some(at);
-        batched.push(Batched { at, barrier: number });
+        batched.push(BarrierAtStep { at, barrier: number });
     }
     // The calls of one queue are in order.
     if !queues.is_one() {
@@ -60,9 +60,9 @@ pub(super) fn gather_buffers(
     queues: &Queues,
     resources: &[PhysicalResource],
     barriers: &[SubresourceBarrier],
-    batched: &mut [Batched],
+    batched: &mut [BarrierAtStep],
 ) {
-    let of_buffer = |it: &Batched| resources[barriers[it.barrier as usize].resource as usize].image().is_none();
+    let of_buffer = |it: &BarrierAtStep| resources[barriers[it.barrier as usize].resource as usize].image().is_none();
     if !batched.iter().any(of_buffer) {
         return;
     }

@@ -7,14 +7,14 @@
 use super::subresource::SubresourceState;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, MemorySource, PhysicalIndex, PhysicalResource};
+use crate::compile::model::{AdaptedFrame, MemorySource, PhysicalIndex, PhysicalResource};
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, Layout, Stages, State};
 use std::ops::Range;
 
 /// The states around the frame of each physical resource, `None` if it lives within the frame. The accesses that final
 /// states take are added to the timeline, in the step behind all others.
-pub(super) fn states(adapted: &Adapted, timeline: &mut AccessTimeline, final_step: u32) -> Vec<Option<States>> {
+pub(super) fn states(adapted: &AdaptedFrame, timeline: &mut AccessTimeline, final_step: u32) -> Vec<Option<States>> {
     let mut states: Vec<Option<States>> = vec![None; adapted.resources.len()];
     if adapted.resources.iter().all(PhysicalResource::is_transient) {
         return states;
@@ -49,7 +49,7 @@ pub(super) fn states(adapted: &Adapted, timeline: &mut AccessTimeline, final_ste
 
 /// A history ring, or one resource that comes and goes.
 struct Ring<'a> {
-    adapted: &'a Adapted,
+    adapted: &'a AdaptedFrame,
     timeline: &'a mut AccessTimeline,
     resources: Range<PhysicalIndex>,
     /// The state in which an import is found.

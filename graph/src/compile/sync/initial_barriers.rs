@@ -10,13 +10,13 @@ use super::subresource::SubresourceBarrier;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
 use crate::compile::memory::AliasEdge;
-use crate::compile::model::{Adapted, Kind, PhysicalIndex, SubresourceIndex};
+use crate::compile::model::{AdaptedFrame, Kind, PhysicalIndex, SubresourceIndex};
 use crate::compile::queues::{QUEUES, QueueUse, Queues};
 use crate::compile::steps::NEVER;
 use std::ops::Range;
 
 /// All barriers and waits.
-pub(super) struct Initial {
+pub(super) struct CompleteBarriers {
     pub(super) barriers: Vec<SubresourceBarrier>,
     pub(super) queues: Queues,
     /// Writes that memory barriers have to name.
@@ -25,14 +25,14 @@ pub(super) struct Initial {
 
 /// Completes `barriers`, which are those of the timeline.
 pub(super) fn complete(
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     timeline: &AccessTimeline,
     barriers: Vec<SubresourceBarrier>,
     aliasing: &[AliasEdge],
-) -> Initial {
-    let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
+) -> CompleteBarriers {
+    let initial = CompleteBarriers { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
     let plain = adapted.buffers == 0 && adapted.is_uncut();
-    let mut completing = Completing { adapted, timeline, plain, initial, accesses: Vec::new() };
+    let mut completing = BarrierCompletion { adapted, timeline, plain, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -49,17 +49,17 @@ pub(super) fn complete(
     initial
 }
 
-struct Completing<'c> {
-    adapted: &'c Adapted,
+struct BarrierCompletion<'c> {
+    adapted: &'c AdaptedFrame,
     timeline: &'c AccessTimeline,
     /// Whether each resource is an image of one subresource. Most are: then few of them are looked at.
     plain: bool,
-    initial: Initial,
+    initial: CompleteBarriers,
     /// The last accesses of the previous owner of memory.
     accesses: Vec<LastAccess>,
 }
 
-impl Completing<'_> {
+impl BarrierCompletion<'_> {
     fn subresources(&self, resource: PhysicalIndex) -> Range<SubresourceIndex> {
         // Each then has the number of its subresource.
         if self.plain { resource..resource + 1 } else { self.adapted.resources[resource as usize].subresources() }
@@ -86,7 +86,7 @@ impl Completing<'_> {
         for subresource in self.subresources(resource) {
             let number = self.timeline.subresources[subresource as usize].first_barrier;
             let (frames_ago, used) = self.last_uses(resource, subresource - first_subresource);
-            let Initial { barriers, queues, .. } = &mut self.initial;
+            let CompleteBarriers { barriers, queues, .. } = &mut self.initial;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
             let queue = queues.queue_number(barrier.step);
             let own = used[queue];
@@ -139,10 +139,10 @@ impl Completing<'_> {
         resource == from || !self.plain && self.adapted.resources[*resource as usize].image().is_none()
     }
 
-    /// As [`Completing::follow`], for two subresources on one queue: mostly there are no others.
+    /// As [`BarrierCompletion::follow`], for two subresources on one queue: mostly there are no others.
     fn follow_one(&mut self, edge: &AliasEdge, before: SubresourceIndex, subresource: SubresourceIndex) {
         let covers = self.covers(edge);
-        let Completing { timeline, initial: Initial { barriers, aliased, .. }, .. } = self;
+        let BarrierCompletion { timeline, initial: CompleteBarriers { barriers, aliased, .. }, .. } = self;
         let number = timeline.subresources[subresource as usize].first_barrier;
         if let Some(access) = LastAccess::of_state(&timeline.subresources[before as usize], 0)
             && let Some(barrier) = barriers.get_mut(number as usize)
@@ -155,7 +155,8 @@ impl Completing<'_> {
     /// previous owner.
     fn follow(&mut self, edge: &AliasEdge, before: Range<SubresourceIndex>, subresources: Range<SubresourceIndex>) {
         let covers = self.covers(edge);
-        let Completing { timeline, initial: Initial { barriers, queues, aliased }, accesses, .. } = self;
+        let BarrierCompletion { timeline, initial: CompleteBarriers { barriers, queues, aliased }, accesses, .. } =
+            self;
         find_last_accesses(timeline, edge.from, before, accesses);
         for subresource in &timeline.subresources[subresources.start as usize..subresources.end as usize] {
             let number = subresource.first_barrier;
@@ -250,7 +251,7 @@ fn find(barrier: &mut SubresourceBarrier, States { before, after }: &States, is_
 ///
 /// Without one, a barrier wouldn't come after the semaphore. So it names the stages that it holds up, which the wait holds up
 /// too. A buffer takes no barrier beside the wait.
-fn follow_waits(adapted: &Adapted, Initial { barriers, queues, .. }: &mut Initial) {
+fn follow_waits(adapted: &AdaptedFrame, CompleteBarriers { barriers, queues, .. }: &mut CompleteBarriers) {
     for (barrier, number) in barriers.iter_mut().zip(0..) {
         if barrier.src_stages.is_empty() && queues.is_held(number) {
             match adapted.resources[barrier.resource as usize].kind {

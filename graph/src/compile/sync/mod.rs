@@ -10,7 +10,7 @@
 mod aliasing_barriers;
 mod barriers;
 mod batches;
-mod crossed;
+mod crossed_subresource;
 mod final_states;
 mod initial_barriers;
 mod last_accesses;
@@ -20,7 +20,7 @@ mod timeline;
 mod walk;
 
 pub(super) use barriers::{Barriers, barriers};
-pub(super) use batches::{Batched, waits};
+pub(super) use batches::{BarrierAtStep, waits};
 pub(super) use subresource::SubresourceBarrier;
 pub(super) use timeline::{AccessTimeline, States};
 pub(super) use walk::timeline;

@@ -5,23 +5,23 @@
 //!   frames in between may form an execution dependency chain from those reads to that write. The write before those reads must be
 //!   visible to the new access too: by the barrier that made it visible to them. That of a buffer serves all buffers of its call.
 
-use super::batches::Batched;
-use super::initial_barriers::Initial;
+use super::batches::BarrierAtStep;
+use super::initial_barriers::CompleteBarriers;
 use super::subresource::SubresourceBarrier;
 use super::timeline::AccessTimeline;
 use crate::compile::history_ring;
-use crate::compile::model::{Adapted, MemorySource, PhysicalIndex};
+use crate::compile::model::{AdaptedFrame, MemorySource, PhysicalIndex};
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Stages};
 
 /// Takes redundant barriers out of the calls. With `poison`, barriers stay where an image gives up what it held: there it is poisoned.
 pub(super) fn take_out(
-    adapted: &Adapted,
+    adapted: &AdaptedFrame,
     timeline: &AccessTimeline,
     poison: bool,
-    initial: &mut Initial,
-    batched: &mut Vec<Batched>,
+    initial: &mut CompleteBarriers,
+    batched: &mut Vec<BarrierAtStep>,
 ) {
     // Barriers that make others redundant. They stay.
     let mut needed: Vec<u32> = Vec::new();
@@ -65,29 +65,30 @@ struct Reads {
 
 /// The barriers of all calls.
 struct Calls<'c> {
-    adapted: &'c Adapted,
+    adapted: &'c AdaptedFrame,
     timeline: &'c AccessTimeline,
-    initial: &'c Initial,
-    batched: &'c [Batched],
+    initial: &'c CompleteBarriers,
+    batched: &'c [BarrierAtStep],
 }
 
 impl Calls<'_> {
-    fn barrier(&self, it: &Batched) -> &SubresourceBarrier {
+    fn barrier(&self, it: &BarrierAtStep) -> &SubresourceBarrier {
         &self.initial.barriers[it.barrier as usize]
     }
 
     /// Other barriers that make this one redundant, if there are such.
-    fn make_redundant(&self, it: Batched) -> Option<Vec<u32>> {
+    fn make_redundant(&self, it: BarrierAtStep) -> Option<Vec<u32>> {
         let barrier = self.barrier(&it);
         let by_reads = || barrier.src_accesses.is_empty().then(|| self.lead_on(it, barrier)).flatten();
         self.cover(it, barrier).or_else(by_reads)
     }
 
     /// The barriers of a call whose memory barrier, without this barrier, says all that it says.
-    fn cover(&self, it: Batched, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
+    fn cover(&self, it: BarrierAtStep, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
         let queues = &self.initial.queues;
-        let comes_before =
-            |call: &[Batched]| call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at);
+        let comes_before = |call: &[BarrierAtStep]| {
+            call[0].at <= it.at && queues.queue_number(call[0].at) == queues.queue_number(it.at)
+        };
         let mut calls = self.batched.chunk_by(|one, other| one.at == other.at).filter(|call| comes_before(call));
         calls.find_map(|call| {
             let others = call.iter().filter(|other| other.barrier != it.barrier);
@@ -116,7 +117,7 @@ impl Calls<'_> {
 
     /// Barriers that form a chain from the reads that this one waits for to the access behind it, if there are such: with those that
     /// make the write before the reads visible.
-    fn lead_on(&self, it: Batched, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
+    fn lead_on(&self, it: BarrierAtStep, barrier: &SubresourceBarrier) -> Option<Vec<u32>> {
         let reads = self.earlier_reads(barrier);
         let known = reads.iter().fold(Stages::empty(), |all, reads| all | reads.stages);
         let behind_write = reads.last().and_then(|reads| reads.behind_write);
@@ -178,18 +179,24 @@ impl Calls<'_> {
     }
 
     /// Barriers that form a chain from reads in `stage` to the stages before which the barrier `it` stands, if there are such.
-    fn following(&self, it: Batched, reads: &Reads, stage: Stages) -> Option<Vec<u32>> {
+    fn following(&self, it: BarrierAtStep, reads: &Reads, stage: Stages) -> Option<Vec<u32>> {
         let links = self.links(it, reads, stage, |_| true)?;
         enough(links, |links| self.links(it, reads, stage, |other| links.contains(&other)).is_some())
     }
 
     /// Those of some barriers that lead on from reads in `stage`, if they lead to the stages before which the barrier `it` stands.
-    fn links(&self, it: Batched, reads: &Reads, stage: Stages, is_among: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
+    fn links(
+        &self,
+        it: BarrierAtStep,
+        reads: &Reads,
+        stage: Stages,
+        is_among: impl Fn(u32) -> bool,
+    ) -> Option<Vec<u32>> {
         let queues = &self.initial.queues;
         let mut reach = Stages::empty();
         let mut links = Vec::new();
         for frames_ago in (0..=reads.frames_ago).rev() {
-            let comes_between = |other: &&Batched| {
+            let comes_between = |other: &&BarrierAtStep| {
                 other.barrier != it.barrier
                     && is_among(other.barrier)
                     && queues.queue_number(other.at) == queues.queue_number(it.at)
@@ -197,11 +204,11 @@ impl Calls<'_> {
                     && (frames_ago > 0 || other.at < it.at)
             };
             for call in self.batched.chunk_by(|one, other| one.at == other.at) {
-                let waits = |other: &&Batched| {
+                let waits = |other: &&BarrierAtStep| {
                     let from = self.barrier(other).src_stages.and_earlier();
                     from.contains(stage) || from.intersects(reach)
                 };
-                let of_call: Vec<&Batched> = call.iter().filter(comes_between).filter(waits).collect();
+                let of_call: Vec<&BarrierAtStep> = call.iter().filter(comes_between).filter(waits).collect();
                 links.extend(of_call.iter().map(|other| other.barrier));
                 reach = of_call.iter().fold(reach, |reach, other| reach | self.barrier(other).dst_stages.and_later());
             }
@@ -212,7 +219,8 @@ impl Calls<'_> {
     }
 }
 
-/// Of more barriers than this all stay that a proof could rest on. To try each takes their square.
+/// At most this many barriers are tried one by one, which takes their square. If there are more, all stay that a proof could
+/// rest on.
 const MOST_TRIED: usize = 32;
 
 /// Those of some barriers that are enough for a proof. It can do without none of them if they were few. `None`: all of them aren't enough.

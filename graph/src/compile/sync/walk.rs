@@ -3,17 +3,17 @@
 use super::final_states;
 use super::subresource::{SubresourceAccess, SubresourceState};
 use super::timeline::AccessTimeline;
-use crate::compile::model::{Adapted, Role, SubresourceIndex, Use};
+use crate::compile::model::{AdaptedFrame, Role, SubresourceIndex, Use};
 use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
-use crate::compile::scope::{Scoped, Step, Target};
+use crate::compile::scope::{ScopedSteps, Step, Target};
 use crate::vulkan::{AccessKind, Accesses, Layout, LoadOp, Stages};
 
 /// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
 /// behind all others.
 pub(in crate::compile) fn timeline(
-    adapted: &Adapted,
-    scoped: &Scoped,
+    adapted: &AdaptedFrame,
+    scoped: &ScopedSteps,
     load_store: &LoadStoreOps,
     queues: Queues,
 ) -> AccessTimeline {
@@ -40,7 +40,7 @@ pub(in crate::compile) fn timeline(
 }
 
 struct Walk<'w> {
-    adapted: &'w Adapted,
+    adapted: &'w AdaptedFrame,
     timeline: AccessTimeline,
     /// Accesses of the current step.
     accesses: Vec<SubresourceAccess>,

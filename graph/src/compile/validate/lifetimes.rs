@@ -2,7 +2,7 @@
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
-use crate::vulkan::states::{Subject, When, contradiction};
+use crate::vulkan::states::{StateTime, Subject, contradiction};
 use crate::vulkan::{Layout, State};
 
 /// Most frames that history goes back: as many as the checker of the Plan can follow around.
@@ -25,8 +25,8 @@ fn mistake(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnosti
             initial.problem(of.format).map(|what| wrong(format!("starts as {what}")))
         }
         Lifetime::Imported { before, after } => {
-            let after = after.and_then(|after| check_state(&after, span, of, When::After));
-            check_state(before, span, of, When::Before).or(after)
+            let after = after.and_then(|after| check_state(&after, span, of, StateTime::After));
+            check_state(before, span, of, StateTime::Before).or(after)
         }
         Lifetime::File(file) => file_problem(file, of).map(wrong),
     }
@@ -57,7 +57,7 @@ pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)>
 }
 
 /// The mistake in a state in which an image or buffer comes or goes, if there is one.
-pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: When) -> Option<Diagnostic> {
+pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: StateTime) -> Option<Diagnostic> {
     if let Some((message, help)) = contradiction(state, of, when) {
         return Some(Diagnostic::new(span, message).help(help));
     }

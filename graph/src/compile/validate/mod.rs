@@ -6,7 +6,7 @@ mod pass;
 
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, check};
-use crate::vulkan::states::{Subject, When};
+use crate::vulkan::states::{StateTime, Subject};
 use pass::{Check, wrong_clear};
 
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
@@ -141,7 +141,9 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.
         let subject = Subject { samples: 1, ..subject };
-        errors.extend(output.after.and_then(|after| lifetimes::check_state(&after, output.span, subject, When::After)));
+        errors.extend(
+            output.after.and_then(|after| lifetimes::check_state(&after, output.span, subject, StateTime::After)),
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
 use crate::base::Span;
-use crate::frame::tracked::Parts;
+use crate::frame::tracked_parts::Parts;
 use crate::frame::{Access, Pass, Resource};
 use crate::vulkan::Subresources;
 
@@ -28,7 +28,7 @@ pub(crate) struct Contents<'p> {
 
 /// Contents that are needed, and that nothing has written.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Unwritten {
+pub(crate) struct MissingContents {
     /// The image or buffer.
     pub(crate) of: Resource,
     /// The part that is needed, with planes named.
@@ -74,7 +74,7 @@ impl<'p> Contents<'p> {
     /// Follows one pass, and returns what it needs and nothing has written. Later passes alone can read its writes, so these are noted
     /// once all its reads are known.
     #[inline]
-    pub(crate) fn pass(&mut self, pass: &Pass, number: u32) -> Vec<Unwritten> {
+    pub(crate) fn pass(&mut self, pass: &Pass, number: u32) -> Vec<MissingContents> {
         let (parts, mut found) = (self.parts, Vec::new());
         parts.for_each_access(pass, |access, part, reads, writes| {
             if reads {
@@ -112,25 +112,25 @@ impl<'p> Contents<'p> {
     }
 
     /// What a pass reads of earlier frames and no pass of this frame writes; after all passes.
-    pub(crate) fn earlier(&mut self, pass: &Pass) -> Vec<Unwritten> {
+    pub(crate) fn earlier(&mut self, pass: &Pass) -> Vec<MissingContents> {
         let mut found = Vec::new();
         for access in pass.accesses().filter(|access| access.frames_ago() > 0) {
             access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
                 let unwritten = self.unwritten(access.resource(), effect.range, access.span());
-                found.extend(unwritten.map(|it| Unwritten { demand: Demand::Earlier, ..it }));
+                found.extend(unwritten.map(|it| MissingContents { demand: Demand::Earlier, ..it }));
             });
         }
         found
     }
 
     /// What of an output, named at `span`, no pass writes; after all passes.
-    pub(crate) fn output(&mut self, of: Resource, span: Span) -> Option<Unwritten> {
-        self.unwritten(of, Subresources::WHOLE, span).map(|it| Unwritten { demand: Demand::Output, ..it })
+    pub(crate) fn output(&mut self, of: Resource, span: Span) -> Option<MissingContents> {
+        self.unwritten(of, Subresources::WHOLE, span).map(|it| MissingContents { demand: Demand::Output, ..it })
     }
 
     /// Finds what an access of `pass` needs of the part number `part` and beside it.
     #[cold]
-    fn unwritten_by(&mut self, pass: &Pass, access: &Access<'_>, part: u32, found: &mut Vec<Unwritten>) {
+    fn unwritten_by(&mut self, pass: &Pass, access: &Access<'_>, part: u32, found: &mut Vec<MissingContents>) {
         let (parts, of) = (self.parts, access.resource());
         let demand = match access {
             Access::Color(_) => Demand::Color,
@@ -140,13 +140,13 @@ impl<'p> Contents<'p> {
         access.for_each_effect(pass, parts.image(of), |effect| {
             if effect.reads && parts.cover(of, parts.part(of, effect.range)).contains(&part) {
                 let unwritten = self.unwritten(of, effect.range, access.span());
-                found.extend(unwritten.map(|it| Unwritten { demand, writes: effect.writes, ..it }));
+                found.extend(unwritten.map(|it| MissingContents { demand, writes: effect.writes, ..it }));
             }
         });
     }
 
     /// What of a part of an image, or of a buffer, is unwritten, if anything is; from now on it counts as written.
-    fn unwritten(&mut self, of: Resource, range: Subresources, span: Span) -> Option<Unwritten> {
+    fn unwritten(&mut self, of: Resource, range: Subresources, span: Span) -> Option<MissingContents> {
         let needed = self.parts.part(of, range);
         let is_blank = self.writers[self.parts.of(of)].iter().all(|writer| *writer == NOTHING);
         let mut covered = self.parts.cover(of, needed);
@@ -155,6 +155,6 @@ impl<'p> Contents<'p> {
         let missing = covered.into_iter().map(|part| self.parts.range(of, part));
         let missing = missing.min_by_key(|range| (range.base_mip, range.aspects.bits(), range.base_layer))?;
         let missing = Subresources { mips: 1, layers: 1, ..missing };
-        Some(Unwritten { of, needed, missing, is_blank, demand: Demand::Read, writes: false, span })
+        Some(MissingContents { of, needed, missing, is_blank, demand: Demand::Read, writes: false, span })
     }
 }

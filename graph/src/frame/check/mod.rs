@@ -11,7 +11,7 @@ use super::{Buffer, BufferIndex, Frame, Image, ImageIndex};
 use crate::base::Span;
 
 /// What a pass is checked with: images and buffers, as far as they are known, and the places of mistakes.
-pub(crate) trait Checked {
+pub(crate) trait CheckContext {
     /// Whether it comes from a file. A program may do some things that no file may.
     const OF_FILE: bool;
 
@@ -49,7 +49,7 @@ pub(crate) enum Property {
 }
 
 /// A program's frame stands in no file.
-impl Checked for Frame {
+impl CheckContext for Frame {
     const OF_FILE: bool = false;
 
     fn image(&self, index: ImageIndex) -> Option<&Image> {

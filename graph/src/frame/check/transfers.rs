@@ -1,12 +1,12 @@
 //! Copies, blits and fills: both sides fit together.
 
-use super::{Checked, Place, Property};
+use super::{CheckContext, Place, Property};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Resource, TransferUse, Work};
 use crate::vulkan::{Aspects, Filter, Shape, Subresources};
 
 /// Reports what is wrong with the transfers of a pass. The parts that it names lie within their images.
-pub(crate) fn check(checked: &impl Checked, pass: &Pass, errors: &mut Vec<Diagnostic>) {
+pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     let mut check = Check { checked, errors };
     match (&pass.work, &pass.transfers[..]) {
         (Work::Copy, [source, target]) if !source.write && target.write => check.copy([source, target]),
@@ -31,7 +31,7 @@ pub(crate) fn check(checked: &impl Checked, pass: &Pass, errors: &mut Vec<Diagno
 }
 
 /// Why a blit mixes in texels that nobody wrote, if it does: a linear filter looks beyond the part of its source that a frame uses.
-pub(crate) fn looks_beyond(checked: &impl Checked, pass: &Pass) -> Option<String> {
+pub(crate) fn looks_beyond(checked: &impl CheckContext, pass: &Pass) -> Option<String> {
     let (Work::Blit { filter: Filter::Linear }, Some([from, _])) = (&pass.work, pass.moved_images()) else {
         return None;
     };
@@ -76,7 +76,7 @@ struct Check<'c, C> {
     errors: &'c mut Vec<Diagnostic>,
 }
 
-impl<'c, C: Checked> Check<'c, C> {
+impl<'c, C: CheckContext> Check<'c, C> {
     fn wrong(&mut self, at: Span, message: impl Into<String>) {
         self.errors.push(Diagnostic::new(at, message));
     }

@@ -1,11 +1,11 @@
 //! `changes`: a file sets, removes and inserts entries.
 
-use super::change_log::{ChangeLog, Changed, Removed};
+use super::change_log::{ChangeLog, ChangedEntry, RemovedEntry};
 use super::changes::{InsertFields, KINDS, RemoveFields, SetFields};
 use super::draft::{self, Draft};
 use super::entry::Entry;
 use crate::base::{Diagnostic, suggestion};
-use crate::frame::change::{Action, Kind, Where};
+use crate::frame::change::{Action, InsertPlace, Kind};
 use crate::ron::{Leaf, Name, Reader, Shape};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -83,7 +83,7 @@ impl<'t> Change<'_, 't> {
             self.reader.report(wrong.label(stands, format!("`{}` stands here", name.text)));
         }
         let by = self.leaf.span();
-        self.change_log.changed.push(Changed { entry, name: Name { text: name.text.clone(), span: stands }, by });
+        self.change_log.changed.push(ChangedEntry { entry, name: Name { text: name.text.clone(), span: stands }, by });
         let fields = given.iter().map(|(field, _)| field.text().into()).collect();
         let without = taken.into_iter().map(|(field, _)| field.into()).collect();
         self.change_log.did(by, Action::Set { of: kind, name: name.text, fields, without });
@@ -156,9 +156,9 @@ impl<'t> Change<'_, 't> {
         let by = self.leaf.span();
         if let Some(outputs) = self.draft.outputs_written.filter(|_| kind == Kind::Output) {
             let (entry, span) = (outputs.span(), outputs.start());
-            self.change_log.changed.push(Changed { entry, name: Name { text: "outputs".into(), span }, by });
+            self.change_log.changed.push(ChangedEntry { entry, name: Name { text: "outputs".into(), span }, by });
         }
-        self.change_log.remove(Removed { kind, name: name.clone(), by, texts });
+        self.change_log.remove(RemovedEntry { kind, name: name.clone(), by, texts });
         self.change_log.did(by, Action::Remove { of: kind, name: name.text });
         Some(())
     }
@@ -193,18 +193,23 @@ impl<'t> Change<'_, 't> {
     }
 
     /// Where passes are inserted.
-    fn place(&mut self, before: Option<Leaf<'t>>, after: Option<Leaf<'t>>, at: Option<Leaf<'t>>) -> Option<Where> {
+    fn place(
+        &mut self,
+        before: Option<Leaf<'t>>,
+        after: Option<Leaf<'t>>,
+        at: Option<Leaf<'t>>,
+    ) -> Option<InsertPlace> {
         match (before, after, at) {
-            (Some(before), None, None) => self.pass(before).map(Where::Before),
-            (None, Some(after), None) => self.pass(after).map(Where::After),
+            (Some(before), None, None) => self.pass(before).map(InsertPlace::Before),
+            (None, Some(after), None) => self.pass(after).map(InsertPlace::After),
             (None, None, Some(at)) => {
                 if let Shape::Text = at.shape() {
-                    return self.anchor(at).map(Where::At);
+                    return self.anchor(at).map(InsertPlace::At);
                 }
                 let forms = "a place is `at: \"anchor\"`, `at: Start` or `at: End`";
                 let (word, rest) = self.reader.word(at, "a place", &["Start", "End"], forms)?;
                 self.reader.bare(word, rest)?;
-                Some(if word == "Start" { Where::Start } else { Where::End })
+                Some(if word == "Start" { InsertPlace::Start } else { InsertPlace::End })
             }
             _ => {
                 let help = "write `before: \"pass\"`, `after: \"pass\"`, `at: \"anchor\"`, `at: Start` or `at: End`";

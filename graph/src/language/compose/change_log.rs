@@ -1,6 +1,6 @@
 //! The change log: changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
 
-use crate::base::{Diagnostic, Label, MistakeKind, Sought, Span};
+use crate::base::{Diagnostic, Label, MistakeKind, NameKind, Span};
 use crate::frame::change::{Action, Change, Kind};
 use crate::language::model::RemovedPass;
 use crate::ron::{Name, Tree};
@@ -13,16 +13,16 @@ pub(crate) struct ChangeLog {
     /// All changes, in the order in which they were made.
     pub(crate) changes: Vec<Change>,
     /// The entries that were changed.
-    pub(crate) changed: Vec<Changed>,
+    pub(crate) changed: Vec<ChangedEntry>,
     /// The entries that were removed.
-    removed: Vec<Removed>,
+    removed: Vec<RemovedEntry>,
     /// The last removal of a thing, by kind and name.
     last_removed: HashMap<(Kind, Arc<str>), usize>,
 }
 
 /// An entry that another file changes.
 #[derive(Debug, Clone)]
-pub(crate) struct Changed {
+pub(crate) struct ChangedEntry {
     /// The entry.
     pub(crate) entry: Span,
     /// Its name.
@@ -33,7 +33,7 @@ pub(crate) struct Changed {
 
 /// An entry that is no longer there.
 #[derive(Debug, Clone)]
-pub(crate) struct Removed {
+pub(crate) struct RemovedEntry {
     pub(crate) kind: Kind,
     pub(crate) name: Name,
     /// Where it is removed.
@@ -49,12 +49,12 @@ impl ChangeLog {
     }
 
     /// The removal of a thing of that name.
-    pub(crate) fn removed(&self, kind: Kind, name: &str) -> Option<&Removed> {
+    pub(crate) fn removed(&self, kind: Kind, name: &str) -> Option<&RemovedEntry> {
         self.last_removed.get(&(kind, name.into())).map(|at| &self.removed[*at])
     }
 
     /// Notes a removal.
-    pub(crate) fn remove(&mut self, removed: Removed) {
+    pub(crate) fn remove(&mut self, removed: RemovedEntry) {
         self.last_removed.insert((removed.kind, removed.name.text.clone()), self.removed.len());
         self.removed.push(removed);
     }
@@ -89,12 +89,12 @@ impl ChangeLog {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
         let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
-        // Of the changes of one entry no more are looked at than the mistake has places.
+        // The first change of the entry at each place of the mistake is enough.
         let in_entries = error.labels.iter().map(|label| places.entries(&self.changed, label.span));
         let mut in_entries = in_entries.map(|changes| changes.iter().find(|at| !is_in(self.changed[**at].by)));
         let in_entry = in_entries.find_map(|at| at.copied());
         let by_change = |at: usize| {
-            let Changed { name, .. } = &self.changed[at];
+            let ChangedEntry { name, .. } = &self.changed[at];
             Label::new(name.span, format!("`{}` stands here", name.text))
         };
         let by_entry = |at: usize| Label::new(self.changed[at].by, "changed here");
@@ -114,9 +114,9 @@ struct ChangeIndex {
 }
 
 impl ChangeIndex {
-    fn of(changed: &[Changed]) -> ChangeIndex {
+    fn of(changed: &[ChangedEntry]) -> ChangeIndex {
         let mut places = ChangeIndex { by: BTreeMap::new(), entries: BTreeMap::new() };
-        for (at, Changed { entry, by, .. }) in changed.iter().enumerate() {
+        for (at, ChangedEntry { entry, by, .. }) in changed.iter().enumerate() {
             places.by.entry((by.file(), by.start)).or_default().push(at);
             places.entries.entry((entry.file(), entry.start)).or_default().push(at);
         }
@@ -124,12 +124,12 @@ impl ChangeIndex {
     }
 
     /// The changes that `place` stands in.
-    fn changes(&self, changed: &[Changed], place: Span) -> impl Iterator<Item = usize> {
+    fn changes(&self, changed: &[ChangedEntry], place: Span) -> impl Iterator<Item = usize> {
         last(&self.by, place).iter().copied().filter(move |at| holds(changed[*at].by, place))
     }
 
     /// The changes of the entry that `place` stands in.
-    fn entries(&self, changed: &[Changed], place: Span) -> &[usize] {
+    fn entries(&self, changed: &[ChangedEntry], place: Span) -> &[usize] {
         let changes = last(&self.entries, place);
         let inside = changes.first().is_some_and(|at| holds(changed[*at].entry, place));
         if inside { changes } else { &[] }
@@ -146,15 +146,15 @@ fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[u
 fn missed(kind: MistakeKind) -> &'static [Kind] {
     match kind {
         MistakeKind::UnknownName(sought) => match sought {
-            Sought::Setting => &[Kind::Setting],
-            Sought::Preset => &[Kind::Preset],
-            Sought::View => &[Kind::View],
-            Sought::Image => &[Kind::Image, Kind::Texture],
-            Sought::Buffer => &[Kind::Buffer],
-            Sought::ImageOrBuffer => &[Kind::Image, Kind::Texture, Kind::Buffer],
-            Sought::Pass => &[Kind::Pass],
-            Sought::Value => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
-            Sought::Other => &[],
+            NameKind::Setting => &[Kind::Setting],
+            NameKind::Preset => &[Kind::Preset],
+            NameKind::View => &[Kind::View],
+            NameKind::Image => &[Kind::Image, Kind::Texture],
+            NameKind::Buffer => &[Kind::Buffer],
+            NameKind::ImageOrBuffer => &[Kind::Image, Kind::Texture, Kind::Buffer],
+            NameKind::Pass => &[Kind::Pass],
+            NameKind::Value => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
+            NameKind::Other => &[],
         },
         MistakeKind::Other => &[],
     }

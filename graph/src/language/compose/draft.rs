@@ -1,12 +1,12 @@
 //! A pipeline while files add to it and change it: lists of entries, each still where it was written.
 
 use super::change_log::ChangeLog;
-use super::entry::{Called, Entry};
+use super::entry::{Entry, PlacedName};
 use super::layers::Role;
 use super::order::Order;
 use super::tables::{self, Section, Sections};
 use crate::base::Diagnostic;
-use crate::frame::change::{Action, Kind, Where};
+use crate::frame::change::{Action, InsertPlace, Kind};
 use crate::ron::{Leaf, Name, Reader, Shape};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -65,7 +65,7 @@ impl<'t> List<'t> {
         self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
     }
 
-    /// Adds an entry. Of several entries of one name the first is found.
+    /// Adds an entry. If several have one name, the first is found.
     pub(crate) fn add(&mut self, entry: Entry<'t>) {
         if let Some(name) = entry.name {
             self.index.entry(name.text).or_insert(self.entries.len());
@@ -114,7 +114,7 @@ impl<'t> Draft<'t> {
         {
             self.passes_written.get_or_insert(leaf);
             for entry in entries {
-                self.passes.insert(&Where::End, Entry::of(entry));
+                self.passes.insert(&InsertPlace::End, Entry::of(entry));
             }
         }
         if let Some(leaf) = sections.get(&tables::OUTPUTS)
@@ -137,11 +137,11 @@ pub(crate) fn output(leaf: Leaf<'_>) -> Entry<'_> {
         Shape::Text => Some(leaf),
         _ => leaf.field("image").or_else(|| leaf.field("buffer")),
     };
-    Entry { leaf, name: named.and_then(Called::of), fields: None }
+    Entry { leaf, name: named.and_then(PlacedName::of), fields: None }
 }
 
 /// The mistake that a file adds an entry of a name that is taken.
-fn again(kind: Kind, name: Called<'_>, first: Called<'_>) -> Diagnostic {
+fn again(kind: Kind, name: PlacedName<'_>, first: PlacedName<'_>) -> Diagnostic {
     let Name { text, span } = name.name();
     let what = kind.word();
     let wrong = Diagnostic::new(span, format!("`{text}` is the name of more than one {what}"));

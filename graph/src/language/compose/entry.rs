@@ -1,6 +1,6 @@
 //! An entry of a list while files change it: a setting, an image, a pass.
 
-use super::keyed::Keyed;
+use super::keyed_fields::KeyedFields;
 use crate::base::Span;
 use crate::ron::{Leaf, Name, Shape};
 use std::borrow::Cow;
@@ -9,14 +9,14 @@ use std::borrow::Cow;
 pub(crate) struct Entry<'t> {
     pub(crate) leaf: Leaf<'t>,
     /// Its name; `None` if that can't be read, which will be reported.
-    pub(crate) name: Option<Called<'t>>,
+    pub(crate) name: Option<PlacedName<'t>>,
     /// Its fields, once it was changed.
-    pub(crate) fields: Option<Keyed<'t, Value<'t>>>,
+    pub(crate) fields: Option<KeyedFields<'t, Value<'t>>>,
 }
 
 /// A name with its place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Called<'t> {
+pub(crate) struct PlacedName<'t> {
     pub(crate) text: &'t str,
     pub(crate) span: Span,
 }
@@ -26,15 +26,15 @@ pub(crate) enum Value<'t> {
     /// As it was written.
     Plain(Leaf<'t>),
     /// `{…}` with entries of several files; `of` is the first file's.
-    Map { of: Leaf<'t>, entries: Keyed<'t, Leaf<'t>> },
+    Map { of: Leaf<'t>, entries: KeyedFields<'t, Leaf<'t>> },
     /// `Word(…)` with fields of several files; `of` is the first file's.
-    Parts { of: Leaf<'t>, fields: Keyed<'t, Leaf<'t>> },
+    Parts { of: Leaf<'t>, fields: KeyedFields<'t, Leaf<'t>> },
 }
 
-impl<'t> Called<'t> {
+impl<'t> PlacedName<'t> {
     /// The name in quotes at `leaf`.
-    pub(crate) fn of(leaf: Leaf<'t>) -> Option<Called<'t>> {
-        Some(Called { text: leaf.plain()?, span: leaf.span() })
+    pub(crate) fn of(leaf: Leaf<'t>) -> Option<PlacedName<'t>> {
+        Some(PlacedName { text: leaf.plain()?, span: leaf.span() })
     }
 
     pub(crate) fn name(self) -> Name {
@@ -45,12 +45,12 @@ impl<'t> Called<'t> {
 impl<'t> Entry<'t> {
     /// An entry whose name stands in the field `name`.
     pub(crate) fn of(leaf: Leaf<'t>) -> Entry<'t> {
-        Entry { leaf, name: leaf.field("name").and_then(Called::of), fields: None }
+        Entry { leaf, name: leaf.field("name").and_then(PlacedName::of), fields: None }
     }
 
-    pub(crate) fn fields(&mut self) -> &mut Keyed<'t, Value<'t>> {
+    pub(crate) fn fields(&mut self) -> &mut KeyedFields<'t, Value<'t>> {
         let written = || self.leaf.fields().into_iter().flatten().map(|(name, value)| (name, Value::Plain(value)));
-        self.fields.get_or_insert_with(|| Keyed::new(written(), field))
+        self.fields.get_or_insert_with(|| KeyedFields::new(written(), field))
     }
 
     /// Gives a field a value. The entries of a map come beside those that are there, or in place of those with the same
@@ -68,7 +68,7 @@ impl<'t> Entry<'t> {
         if let Value::Plain(of) = *there
             && let Some(entries) = of.entries()
         {
-            *there = Value::Map { of, entries: Keyed::new(entries, Leaf::words) };
+            *there = Value::Map { of, entries: KeyedFields::new(entries, Leaf::words) };
         }
         match there {
             Value::Map { entries, .. } => new.for_each(|(key, value)| entries.put(key, value, Leaf::words)),
@@ -83,7 +83,7 @@ impl<'t> Entry<'t> {
         if let Value::Plain(of) = *there
             && let (Shape::Word(_, Some(_)), Some(fields)) = (of.shape(), of.fields())
         {
-            *there = Value::Parts { of, fields: Keyed::new(fields, field) };
+            *there = Value::Parts { of, fields: KeyedFields::new(fields, field) };
         }
         let Value::Parts { fields, .. } = there else { return false };
         fields.put(name, value, field);

@@ -10,36 +10,41 @@
 
 use super::change_log::ChangeLog;
 use super::draft::Draft;
-use super::files::Found;
-use super::includes::Wanted;
+use super::files::FoundFile;
+use super::includes::WantedFiles;
 use super::layers::{self, Layer, Layers, Role, Turn};
 use super::loader::{self, Loader};
 use super::tables::{self, Sections};
-use super::{apply, build, unset};
+use super::{apply, build, removed_settings};
 use crate::ron::{Reader, Tree};
 
 /// A pipeline that was put together.
-pub(crate) struct Composed {
+pub(crate) struct ComposedPipeline {
     pub(crate) tree: Tree,
-    pub(crate) wanted: Vec<Wanted>,
+    pub(crate) wanted: Vec<WantedFiles>,
     pub(crate) change_log: ChangeLog,
 }
 
 /// Reads the files that the pipeline's own file is put together with, and then `further` extensions. `None` if a mistake
 /// that was reported leaves nothing to go on with.
-pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, further: Vec<Found>) -> Option<Composed> {
+pub(crate) fn read(
+    reader: &mut Reader,
+    loader: &mut Loader<'_>,
+    own: Layer,
+    further: Vec<FoundFile>,
+) -> Option<ComposedPipeline> {
     if !own.is_pipeline(reader) {
         return None;
     }
     if own.is_all() && further.is_empty() {
-        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), change_log: ChangeLog::default() });
+        return Some(ComposedPipeline { tree: own.into_tree(), wanted: Vec::new(), change_log: ChangeLog::default() });
     }
     let layers = layers::read(reader, loader, own, further)?;
     compose(reader, &layers)
 }
 
 /// Puts layers together, in the order of their turns.
-fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
+fn compose(reader: &mut Reader, layers: &Layers) -> Option<ComposedPipeline> {
     let sections: Vec<Option<Sections<'_>>> = layers.list.iter().map(|layer| layer.sections(reader)).collect();
     let sections: Vec<Sections<'_>> = sections.into_iter().collect::<Option<_>>()?;
     let base = layers.list.iter().find(|layer| layer.role == Role::Whole)?.tree.root();
@@ -53,7 +58,7 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
         }
         if *adds {
             let paths = loader::paths(reader, sections.get(&tables::INCLUDE), "`include`");
-            wanted.push(Wanted { from: layer.relative.clone(), paths });
+            wanted.push(WantedFiles { from: layer.relative.clone(), paths });
             draft.add(reader, sections, layer.role, &mut change_log);
         }
         if let Some(list) = sections.get(&tables::CHANGES).filter(|_| *changes) {
@@ -61,6 +66,6 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
         }
     }
     let removed = std::mem::take(&mut draft.removed_settings);
-    unset::everywhere(&mut draft, &removed);
-    Some(Composed { tree: build::tree(&draft, base), wanted, change_log })
+    removed_settings::everywhere(&mut draft, &removed);
+    Some(ComposedPipeline { tree: build::tree(&draft, base), wanted, change_log })
 }

@@ -11,11 +11,11 @@ pub const LARGEST_FILE: usize = 16 << 20;
 
 /// Provides the files that a pipeline names. An implementation decides which files may be read.
 pub trait Files {
-    /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` the path as it stands there.
+    /// Reads a file. `from` is the [`FoundFile::relative`] of the file that names it, and `path` the path as it stands there.
     ///
     /// # Errors
     /// Why it can't be read.
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread>;
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure>;
 
     /// Looks at a picture's file: its path is counted from the pipeline's own folder.
     ///
@@ -29,7 +29,7 @@ pub trait Files {
 
 /// Why a file can't be read. Not yet escaped.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Unread {
+pub struct ReadFailure {
     /// A sentence without final stop.
     pub why: String,
     /// The help.
@@ -40,15 +40,15 @@ pub struct Unread {
     pub of_machine: bool,
 }
 
-impl From<String> for Unread {
-    fn from(why: String) -> Unread {
-        Unread { why, help: None, choice: None, of_machine: false }
+impl From<String> for ReadFailure {
+    fn from(why: String) -> ReadFailure {
+        ReadFailure { why, help: None, choice: None, of_machine: false }
     }
 }
 
 /// A file that was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Found {
+pub struct FoundFile {
     /// The path that diagnostics show.
     pub shown: String,
     /// The path that stands in Plans.
@@ -62,7 +62,7 @@ pub struct Found {
 pub struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         Err(format!("`{path}` can't be read: this pipeline was given as a text by itself").into())
     }
 }

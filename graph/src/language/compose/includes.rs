@@ -8,7 +8,7 @@ use std::collections::HashSet;
 
 /// Files that a file wants included.
 #[derive(Debug)]
-pub(crate) struct Wanted {
+pub(crate) struct WantedFiles {
     /// The path of the file that names them.
     pub(crate) from: FilePath,
     /// Their paths, and where each is named.
@@ -16,7 +16,7 @@ pub(crate) struct Wanted {
 }
 
 /// The reader of included files.
-pub(crate) struct Included<'l, 'a> {
+pub(crate) struct IncludeReader<'l, 'a> {
     loader: &'l mut Loader<'a>,
     known: HashSet<FilePath>,
     /// Files that are being read, and where each is named.
@@ -26,17 +26,17 @@ pub(crate) struct Included<'l, 'a> {
 }
 
 /// Reads the files that the files of a pipeline include, and the files that those include.
-pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, wanted: Vec<Wanted>) -> Vec<Tree> {
+pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, wanted: Vec<WantedFiles>) -> Vec<Tree> {
     let known = wanted.iter().map(|wanted| wanted.from.clone()).collect();
-    let mut included = Included { loader, known, path: Vec::new(), trees: Vec::new() };
-    for Wanted { from, paths } in wanted {
+    let mut included = IncludeReader { loader, known, path: Vec::new(), trees: Vec::new() };
+    for WantedFiles { from, paths } in wanted {
         included.path = vec![(from, Span::NONE)];
         included.files(reader, &paths);
     }
     included.trees
 }
 
-impl Included<'_, '_> {
+impl IncludeReader<'_, '_> {
     fn files(&mut self, reader: &mut Reader, paths: &[(String, Span)]) {
         for (path, span) in paths {
             self.file(reader, path, *span);

@@ -1,6 +1,6 @@
 //! The files that a pipeline is put together of, in the order in which they apply.
 
-use super::files::Found;
+use super::files::FoundFile;
 use super::loader::{self, Loader};
 use super::tables::{self, EXTENDING, EXTENSION, PIPELINE, Sections};
 use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
@@ -105,7 +105,12 @@ impl Layer {
 
 /// Follows `extends` and `extensions` from the pipeline's own file on. `further` extensions come last. `None` if that
 /// leads nowhere, which was reported.
-pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, further: Vec<Found>) -> Option<Layers> {
+pub(crate) fn read(
+    reader: &mut Reader,
+    loader: &mut Loader<'_>,
+    own: Layer,
+    further: Vec<FoundFile>,
+) -> Option<Layers> {
     let pipelines = pipelines(reader, loader, own)?;
     let mut layers = Layers::default();
     let mut whole = true;
@@ -165,7 +170,7 @@ fn pipelines(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer) -> Option
             loader::circle(reader, &path, first, span, ("extend", "extended"));
             return None;
         }
-        let Found { relative, .. } = &found;
+        let FoundFile { relative, .. } = &found;
         let relative = relative.clone();
         let tree = loader.tree(reader, found, span, "extended here")?;
         if !loader::version(reader, tree.root()) {
@@ -189,7 +194,7 @@ fn extension(
     layer(reader, loader, found, span)
 }
 
-fn layer(reader: &mut Reader, loader: &mut Loader<'_>, found: Found, span: Span) -> Option<Layer> {
+fn layer(reader: &mut Reader, loader: &mut Loader<'_>, found: FoundFile, span: Span) -> Option<Layer> {
     let relative = found.relative.clone();
     let tree = loader.tree(reader, found, span, "applied here")?;
     let role = Role::Extension;

@@ -1,6 +1,6 @@
 //! The texts of files that others name.
 
-use super::files::{Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread, no_pipeline};
+use super::files::{Files, FoundFile, LANGUAGE_VERSION, LARGEST_FILE, ReadFailure, no_pipeline};
 use super::origins::Origins;
 use crate::base::{Diagnostic, FilePath, Sources, Span, text_of};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
@@ -36,7 +36,7 @@ impl<'a> Loader<'a> {
     }
 
     /// The file that the file `from` names `path`, at `span`.
-    pub(crate) fn find(&mut self, reader: &mut Reader, from: &FilePath, path: &str, span: Span) -> Option<Found> {
+    pub(crate) fn find(&mut self, reader: &mut Reader, from: &FilePath, path: &str, span: Span) -> Option<FoundFile> {
         self.named += 1;
         if self.named > MOST_NAMED {
             // One answer stands for all that follow.
@@ -47,7 +47,7 @@ impl<'a> Loader<'a> {
             return None;
         }
         let found = self.files.read(from, path);
-        let wrong = |Unread { why, help, choice, of_machine }| Diagnostic {
+        let wrong = |ReadFailure { why, help, choice, of_machine }| Diagnostic {
             help,
             choice,
             of_machine,
@@ -57,8 +57,14 @@ impl<'a> Loader<'a> {
     }
 
     /// The tree of a file that was named at `span`; `words` name the purpose: "included here".
-    pub(crate) fn tree(&mut self, reader: &mut Reader, found: Found, span: Span, words: &'static str) -> Option<Tree> {
-        let Found { shown, relative, bytes } = found;
+    pub(crate) fn tree(
+        &mut self,
+        reader: &mut Reader,
+        found: FoundFile,
+        span: Span,
+        words: &'static str,
+    ) -> Option<Tree> {
+        let FoundFile { shown, relative, bytes } = found;
         self.read += 1;
         if self.read > MOST_FILES {
             // One answer stands for all that follow.

@@ -1,7 +1,7 @@
 //! Passes in their order while files insert others between them.
 
-use super::entry::{Called, Entry};
-use crate::frame::change::Where;
+use super::entry::{Entry, PlacedName};
+use crate::frame::change::InsertPlace;
 use std::collections::HashMap;
 
 /// Passes, uses of fragments and anchors.
@@ -27,17 +27,17 @@ struct Item<'t> {
 
 impl<'t> Order<'t> {
     /// Adds a pass, a use or an anchor behind all items at a place. `false`: there is no such place.
-    pub(crate) fn insert(&mut self, place: &Where, entry: Entry<'t>) -> bool {
+    pub(crate) fn insert(&mut self, place: &InsertPlace, entry: Entry<'t>) -> bool {
         let at = match place {
-            Where::Start | Where::End => None,
-            Where::Before(name) | Where::After(name) => self.names.get(&**name).copied(),
-            Where::At(name) => self.anchors.get(&**name).copied(),
+            InsertPlace::Start | InsertPlace::End => None,
+            InsertPlace::Before(name) | InsertPlace::After(name) => self.names.get(&**name).copied(),
+            InsertPlace::At(name) => self.anchors.get(&**name).copied(),
         };
         let number = self.items.len();
         let list = match (place, at) {
-            (Where::Start, _) => &mut self.start,
-            (Where::End, _) => &mut self.top,
-            (Where::Before(_), Some(at)) => &mut self.items[at].before,
+            (InsertPlace::Start, _) => &mut self.start,
+            (InsertPlace::End, _) => &mut self.top,
+            (InsertPlace::Before(_), Some(at)) => &mut self.items[at].before,
             (_, Some(at)) => &mut self.items[at].after,
             (_, None) => return false,
         };
@@ -45,7 +45,7 @@ impl<'t> Order<'t> {
         if let Some(name) = entry.name {
             self.names.entry(name.text).or_insert(number);
         }
-        if let Some(anchor) = entry.leaf.field("anchor").and_then(Called::of) {
+        if let Some(anchor) = entry.leaf.field("anchor").and_then(PlacedName::of) {
             self.anchors.entry(anchor.text).or_insert(number);
         }
         self.items.push(Item { entry, before: Vec::new(), after: Vec::new(), removed: false });
@@ -81,21 +81,24 @@ impl<'t> Order<'t> {
 
     /// All entries that are left, in order.
     pub(crate) fn all(&self) -> Vec<&Entry<'t>> {
-        enum Next {
+        enum NextRead {
             Around(usize),
             Itself(usize),
         }
         let mut all = Vec::with_capacity(self.items.len());
         // A stack: the next item is the last.
-        let mut next: Vec<Next> = self.start.iter().chain(&self.top).rev().map(|item| Next::Around(*item)).collect();
+        let mut next: Vec<NextRead> =
+            self.start.iter().chain(&self.top).rev().map(|item| NextRead::Around(*item)).collect();
         while let Some(item) = next.pop() {
             match item {
-                Next::Itself(item) => all.extend(Some(&self.items[item].entry).filter(|_| !self.items[item].removed)),
-                Next::Around(number) => {
+                NextRead::Itself(item) => {
+                    all.extend(Some(&self.items[item].entry).filter(|_| !self.items[item].removed))
+                }
+                NextRead::Around(number) => {
                     let item = &self.items[number];
-                    next.extend(item.after.iter().rev().map(|after| Next::Around(*after)));
-                    next.push(Next::Itself(number));
-                    next.extend(item.before.iter().rev().map(|before| Next::Around(*before)));
+                    next.extend(item.after.iter().rev().map(|after| NextRead::Around(*after)));
+                    next.push(NextRead::Itself(number));
+                    next.extend(item.before.iter().rev().map(|before| NextRead::Around(*before)));
                 }
             }
         }

@@ -1,12 +1,12 @@
 //! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
 
-use super::files::{Files, Found, LARGEST_FILE, Unread};
+use super::files::{Files, FoundFile, LARGEST_FILE, ReadFailure};
 use crate::base::{FilePath, NoFile, OutsideChoice, Root, for_shell, nearest};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Path and text of files that are shipped with the program.
-pub type Shipped = &'static [(&'static str, &'static str)];
+pub type ShippedFiles = &'static [(&'static str, &'static str)];
 
 /// The help for a file that lies outside the root.
 pub(crate) const WITHIN_ROOT: &str = "give a folder that holds both";
@@ -19,7 +19,7 @@ pub(crate) const WITHIN_ROOT: &str = "give a folder that holds both";
 pub struct PipelineFiles {
     /// `None`: the pipeline is itself shipped, and the user's own files are those that are shipped.
     root: Option<Root>,
-    shipped: Shipped,
+    shipped: ShippedFiles,
     /// Files that were read, and the first path that led to each: a second path leads to the same file.
     paths: HashMap<PathBuf, FilePath>,
 }
@@ -27,20 +27,20 @@ pub struct PipelineFiles {
 impl PipelineFiles {
     /// The files of the pipeline called `name` in the folder of `root`.
     #[must_use]
-    pub fn beside(root: Root, name: &str, shipped: Shipped) -> PipelineFiles {
+    pub fn beside(root: Root, name: &str, shipped: ShippedFiles) -> PipelineFiles {
         let paths = root.locate(name).map(|own| (own, name.into())).into_iter().collect();
         PipelineFiles { root: Some(root), shipped, paths }
     }
 
     /// The files of a shipped pipeline to which files in the folder of `root` are applied.
     #[must_use]
-    pub fn of_shipped(root: Root, shipped: Shipped) -> PipelineFiles {
+    pub fn of_shipped(root: Root, shipped: ShippedFiles) -> PipelineFiles {
         PipelineFiles { root: Some(root), shipped, paths: HashMap::new() }
     }
 
     /// The files of a pipeline that is itself shipped.
     #[must_use]
-    pub fn shipped(shipped: Shipped) -> PipelineFiles {
+    pub fn shipped(shipped: ShippedFiles) -> PipelineFiles {
         PipelineFiles { root: None, shipped, paths: HashMap::new() }
     }
 
@@ -63,7 +63,7 @@ impl PipelineFiles {
     }
 
     /// The file at `relative`, if there is one on disk.
-    fn on_disk(&mut self, root: &Root, relative: FilePath) -> Result<Found, NoFile> {
+    fn on_disk(&mut self, root: &Root, relative: FilePath) -> Result<FoundFile, NoFile> {
         let found = root.locate(relative.path())?;
         let bytes = root.read(&found, LARGEST_FILE)?;
         let relative = self.paths.entry(found).or_insert(relative).clone();
@@ -71,17 +71,17 @@ impl PipelineFiles {
             here if here == Path::new(".") => relative.path().to_owned(),
             folder => folder.join(relative.path()).to_string_lossy().into_owned(),
         };
-        Ok(Found { shown, relative, bytes })
+        Ok(FoundFile { shown, relative, bytes })
     }
 
     /// The shipped file at `path`.
-    fn carried(&self, path: &str) -> Option<Found> {
+    fn carried(&self, path: &str) -> Option<FoundFile> {
         let (path, text) = self.shipped.iter().find(|(shipped, _)| *shipped == path)?;
         let relative = match self.root {
             Some(_) => FilePath::Shipped((*path).into()),
             None => FilePath::Own((*path).into()),
         };
-        Some(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
+        Some(FoundFile { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
     }
 
     fn near(&self, path: &str) -> Option<String> {
@@ -91,13 +91,13 @@ impl PipelineFiles {
 }
 
 impl Files for PipelineFiles {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
-        let unread = |problem: NoFile| Unread::from(format!("`{path}` {problem}"));
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
+        let unread = |problem: NoFile| ReadFailure::from(format!("`{path}` {problem}"));
         let beside = from.beside(path).map_err(unread)?;
         let root = match (&beside, &self.root) {
             (FilePath::Own(_), Some(root)) => root.clone(),
             (beside, _) => {
-                return self.carried(beside.path()).ok_or_else(|| Unread {
+                return self.carried(beside.path()).ok_or_else(|| ReadFailure {
                     why: format!("there is no file `{path}` among those that are shipped"),
                     help: self.near(path),
                     choice: None,
@@ -110,14 +110,14 @@ impl Files for PipelineFiles {
             Ok(found) => Ok(found),
             Err(NoFile::Missing) => {
                 let shipped = FilePath::Shipped("".into()).beside(path).map_err(unread)?;
-                self.carried(shipped.path()).ok_or_else(|| Unread {
+                self.carried(shipped.path()).ok_or_else(|| ReadFailure {
                     why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
                     help: self.near(path),
                     choice: None,
                     of_machine: false,
                 })
             }
-            Err(outside @ NoFile::Outside { .. }) => Err(Unread {
+            Err(outside @ NoFile::Outside { .. }) => Err(ReadFailure {
                 why: format!("`{path}` {outside}, from which nothing may be read"),
                 help: Some(WITHIN_ROOT.to_owned()),
                 choice: Some(OutsideChoice::Root),
@@ -126,7 +126,7 @@ impl Files for PipelineFiles {
             Err(refused) if refused.is_of_machine() => {
                 let rights = matches!(refused, NoFile::Denied { .. });
                 let allow = || format!("chmod u+r {}", for_shell(&root.folder().join(&named)));
-                Err(Unread { help: rights.then(allow), of_machine: true, ..unread(refused) })
+                Err(ReadFailure { help: rights.then(allow), of_machine: true, ..unread(refused) })
             }
             Err(other) => Err(unread(other)),
         }

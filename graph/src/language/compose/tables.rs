@@ -3,7 +3,7 @@
 use super::changes;
 use crate::fields;
 use crate::language::entries::{body, fragments, outputs, precision, presets, resolves, settings, textures, views};
-use crate::ron::{Field, Form, Leaf, Plain, Reader, Row, Table, slots};
+use crate::ron::{Field, Form, Leaf, PlainForm, Reader, Row, Table, slots};
 
 /// A field of a pipeline, of a pipeline that extends another, or of an extension.
 #[derive(Debug, Clone, Copy)]
@@ -14,13 +14,13 @@ pub(crate) struct Section {
 }
 
 /// Paths of files.
-const INCLUDES: Form = Form::List(&Form::Plain(Plain::Text));
+const INCLUDES: Form = Form::List(&Form::Plain(PlainForm::Text));
 
 /// The version of a file.
-pub(crate) const VERSION: Form = Form::Plain(Plain::Whole);
+pub(crate) const VERSION: Form = Form::Plain(PlainForm::Whole);
 
-pub(crate) const ABOUT: Section = Section { name: "about", form: Form::Plain(Plain::Text) };
-const EXTENDS: Section = Section { name: "extends", form: Form::Plain(Plain::Text) };
+pub(crate) const ABOUT: Section = Section { name: "about", form: Form::Plain(PlainForm::Text) };
+const EXTENDS: Section = Section { name: "extends", form: Form::Plain(PlainForm::Text) };
 const EXTENSIONS: Section = Section { name: "extensions", form: INCLUDES };
 pub(crate) const INCLUDE: Section = Section { name: "include", form: INCLUDES };
 pub(crate) const SETTINGS: Section = Section { name: "settings", form: settings::SETTINGS };

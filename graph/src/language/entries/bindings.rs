@@ -2,14 +2,14 @@
 
 use super::condition::{self, Condition};
 use super::firsts::Firsts;
-use super::parts::{self, Either, Selected};
+use super::parts::{self, AnyPart, PartSelection};
 use super::targets;
 use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::model::{Face, LeftOut, Param, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
-use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
+use crate::language::model::{Face, LeftOutSample, Param, Sample, Storage, StorageAccess, Uniform};
+use crate::language::scope::{Context, FieldContents, FieldValue, FieldValueTuple, combined};
+use crate::ron::{FieldTable, Form, Leaf, Name, Reader, Shape, Spanned, Word, WordContents, Words, names};
 use crate::shader::element_name;
 use crate::vulkan::{AddressMode, Filter};
 use std::sync::Arc;
@@ -68,16 +68,21 @@ static FACES: Words = Words {
     what: "a face of an image",
     or: &[parts::EYE_IMAGE],
     all: &[
-        Word::new("Samples", &[Takes::Values(&[parts::EYE_IMAGE])], &["Samples(\"image\")"], "Each sample by itself."),
+        Word::new(
+            "Samples",
+            &[WordContents::Values(&[parts::EYE_IMAGE])],
+            &["Samples(\"image\")"],
+            "Each sample by itself.",
+        ),
         Word::new(
             "Resolved",
-            &[Takes::Values(&[parts::EYE_IMAGE])],
+            &[WordContents::Values(&[parts::EYE_IMAGE])],
             &["Resolved(\"image\")"],
             "One value a texel. Where the image has several samples its `resolve` says what becomes of them.",
         ),
         Word::new(
             "DepthOnly",
-            &[Takes::Values(&[parts::EYE_IMAGE])],
+            &[WordContents::Values(&[parts::EYE_IMAGE])],
             &["DepthOnly(\"image\")"],
             "One value of depth a texel. Where the image has several samples, whatever drew it is drawn again with one, and \
              nothing but its depth: that of the middle of each texel.",
@@ -150,7 +155,7 @@ const ACCESSES: [(&str, StorageAccess); 3] =
 
 impl Context<'_> {
     /// Images by the shader's names, and those that conditions leave out.
-    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<(Vec<Sample>, Vec<LeftOut>)>> {
+    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<(Vec<Sample>, Vec<LeftOutSample>)>> {
         let all = self.elements(leaf, "`sample`", "a sampled image", |context, binding, value| {
             let fields = match value.shape() {
                 Shape::Parentheses => context.reader.read(value, "a sampled image")?,
@@ -171,7 +176,7 @@ impl Context<'_> {
                     None => sample.map(Ok),
                     // An image that has no value because it is left out is no mistake.
                     Some(off) if evaluator.reader.errors.len() == before => {
-                        Some(Err(LeftOut { binding: binding.clone(), sample, off }))
+                        Some(Err(LeftOutSample { binding: binding.clone(), sample, off }))
                     }
                     Some(_) => None,
                 }
@@ -192,7 +197,7 @@ impl Context<'_> {
     fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<FieldValue<Sample>> {
         let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
         let SampleFields { filter, mip_filter, address, compare, own_pixel, .. } = fields;
-        let selected = Selected { mip, mips, layer, layers, plane, previous };
+        let selected = PartSelection { mip, mips, layer, layers, plane, previous };
         let image = face(self.reader, image).map(|(name, face)| (self.selected_image(name, selected), face));
         let filter = self.sampler_word(filter, "a filter", &FILTERS);
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
@@ -214,7 +219,7 @@ impl Context<'_> {
     }
 
     /// A filter or address mode, if the field is there: `None` if the word is not known.
-    fn sampler_word<T: Copy + Kept>(
+    fn sampler_word<T: Copy + FieldContents>(
         &mut self,
         leaf: Option<Leaf<'_>>,
         what: &'static str,
@@ -233,11 +238,11 @@ impl Context<'_> {
             };
             let fields: StorageFields<'_> = context.reader.read(value, "a storage image or buffer")?;
             let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
-            let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
+            let selected = PartSelection { mip, layer, layers, previous, ..PartSelection::default() };
             let part = context.part_of_either(value, image, buffer, selected);
             let access = values::optional_choice(context.reader, access, "an access", &ACCESSES);
             let (part, access) = (part?, access?);
-            let of_image = matches!(part, Either::Image(_));
+            let of_image = matches!(part, AnyPart::Image(_));
             if let (Some(previous), Some(access)) = (previous, access)
                 && access.value != StorageAccess::Read
             {

@@ -10,12 +10,12 @@ use super::repeat::{MOST_THINGS, Repeat};
 use super::textures::{Pictures, TextureFields};
 use super::uses::{UseEntry, UseFields};
 use super::views::ViewEntries;
-use crate::base::{Diagnostic, Sought};
+use crate::base::{Diagnostic, NameKind};
 use crate::fields;
 use crate::frame::ViewIndex;
 use crate::language::model::{Buffer, Image, Pass};
 use crate::language::scope::{Context, FieldValue, Parameter, Scope, Symbols, fixed};
-use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
+use crate::ron::{FieldTable, Form, Leaf, Name, Names, PlainForm, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ fields! {
     /// ```
     struct AnchorFields<'src> {
         /// Its name.
-        anchor: Leaf<'src> => Form::Plain(Plain::Name),
+        anchor: Leaf<'src> => Form::Plain(PlainForm::Name),
     }
 }
 
@@ -104,11 +104,11 @@ impl<'t> Tables<'t> {
         settings: bool,
         lists: Lists<'t>,
     ) -> Tables<'t> {
-        let mut image_names = Names::new(Sought::Image);
+        let mut image_names = Names::new(NameKind::Image);
         let textures: Vec<Option<TextureFields<'t>>> =
             entries(reader, lists.textures, "`textures`", "texture", &mut image_names);
         let images: Vec<Option<ImageFields<'t>>> = entries(reader, lists.images, "`images`", "image", &mut image_names);
-        let mut buffer_names = Names::new(Sought::Buffer);
+        let mut buffer_names = Names::new(NameKind::Buffer);
         let buffers: Vec<Option<BufferFields<'t>>> =
             entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffer_names);
         let is_list = |repeat: Option<Option<Leaf<'_>>>| repeat.flatten().is_some();
@@ -158,7 +158,7 @@ impl<'t> Tables<'t> {
         });
         let buffers = buffers.collect();
         // Passes and uses have their names in common.
-        let mut names = Names::new(Sought::Pass);
+        let mut names = Names::new(NameKind::Pass);
         names.reserve(self.items.len());
         let mut anchors = HashMap::new();
         let items = self.items.iter().map(|leaf| {

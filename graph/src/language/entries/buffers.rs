@@ -6,8 +6,8 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
 use crate::language::scope::{Context, FieldValue, Parameter, ParameterKind, combined};
-use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
-use crate::vulkan::access::Of;
+use crate::ron::{Form, Leaf, PlainForm, Shape, Spanned, Word, WordContents, Words};
+use crate::vulkan::access::StateSubject;
 
 /// Most bytes that a buffer may have: 1 TiB.
 pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
@@ -19,7 +19,7 @@ fields! {
     /// ```
     pub(crate) struct BufferFields<'src> as "Buffer" {
         /// Its name, unique among images and buffers.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view whose values of settings it takes; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
         /// The name of an index, and how often the entry is repeated.
@@ -38,20 +38,20 @@ static BYTES: Words = Words {
     all: &[
         Word::new(
             "Times",
-            &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), Form::Whole(1, LARGEST_BUFFER)])],
+            &[WordContents::Values(&[Form::Whole(1, LARGEST_BUFFER), Form::Whole(1, LARGEST_BUFFER)])],
             &["Times(16, \"setting\")"],
             "The bytes of one element, times the number of elements; rounded up to a multiple of 4.",
         ),
         Word::new(
             "PerTexel",
-            &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), parts::WHOLE_IMAGE])],
+            &[WordContents::Values(&[Form::Whole(1, LARGEST_BUFFER), parts::WHOLE_IMAGE])],
             &["PerTexel(4, \"image\")"],
             "This many bytes for each texel of an image's first mip level, layers and depth included; rounded up to a \
                     multiple of 4.",
         ),
         Word::new(
             "Like",
-            &[Takes::Values(&[parts::WHOLE_BUFFER])],
+            &[WordContents::Values(&[parts::WHOLE_BUFFER])],
             &["Like(\"buffer\")"],
             "As many as another buffer has.",
         ),
@@ -64,8 +64,9 @@ impl Context<'_> {
         let name = self.reader.name(fields.name, "a buffer");
         let bytes = self.bytes(fields.bytes);
         let transient = Spanned { value: Lifetime::Transient, span: fields.name.span() };
-        let lifetime =
-            fields.lifetime.map_or(Some(FieldValue::Constant(transient)), |leaf| self.lifetime(leaf, Of::Buffer));
+        let lifetime = fields
+            .lifetime
+            .map_or(Some(FieldValue::Constant(transient)), |leaf| self.lifetime(leaf, StateSubject::Buffer));
         let (name, bytes) = (name?, bytes?.at(fields.bytes));
         Some(combined((bytes, lifetime?), move |(bytes, lifetime)| Buffer {
             name: name.clone(),

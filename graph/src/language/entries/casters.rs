@@ -5,7 +5,7 @@ use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres, Share};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, combined};
-use crate::ron::{Described, Leaf, Spanned, Table, names};
+use crate::ron::{FieldTable, Leaf, Spanned, Table, names};
 
 /// The form of `Casters`.
 pub(crate) const FORM: &str = "Casters(list: Opaque, cascade: 0, of: 1)";

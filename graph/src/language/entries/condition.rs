@@ -1,7 +1,7 @@
 //! `when`: a condition that switches an entry off.
 
-use crate::expression::{Value, Wanted};
-use crate::language::model::{Decided, Decisions, Off, SettingKind};
+use crate::expression::{Value, WantedTypes};
+use crate::language::model::{Decided, Decisions, OffReason, SettingKind};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, Quoted, within_view};
 use crate::ron::{Form, Leaf, Shape};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ pub(crate) const CONDITION: Form = Form::Expression("a condition");
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Condition {
     /// Why it doesn't hold; `None`: it holds.
-    pub(crate) off: Option<Off>,
+    pub(crate) off: Option<OffReason>,
     /// The settings and facts that decided it.
     pub(crate) by: Decisions,
 }
@@ -26,7 +26,7 @@ impl Context<'_> {
         Some(FieldValue::computed(move |evaluator| {
             let Condition { off, by } = condition.evaluate(evaluator)?;
             let view = evaluator.scope.view;
-            let off = off.map(|Off { span, because }| Off { span, because: within_view(view, &because) });
+            let off = off.map(|OffReason { span, because }| OffReason { span, because: within_view(view, &because) });
             Some(Condition { off, by })
         }))
     }
@@ -39,13 +39,13 @@ impl Context<'_> {
         };
         let span = leaf.span();
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
-        Some(match self.quoted(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))? {
+        Some(match self.quoted(leaf, fits, WantedTypes::BOOL, ("`true` or `false`", None))? {
             Quoted::Parameter(parameter, at) => {
                 let unknown: Arc<str> = format!("`{}` is false", parameter.name.text).into();
                 FieldValue::computed(move |evaluator| evaluator.parameter(at, span)).map(
                     move |Decided { value, because, by, .. }| {
                         let because = || because.as_ref().unwrap_or(&unknown).to_string();
-                        let off = (value != Value::Bool(true)).then(|| Off { span, because: because() });
+                        let off = (value != Value::Bool(true)).then(|| OffReason { span, because: because() });
                         Condition { off, by }
                     },
                 )
@@ -55,7 +55,7 @@ impl Context<'_> {
                 let off = outcome.failed.as_ref().map(|failed| {
                     let because = outcome.because();
                     let unknown = || format!("`{}` does not hold", failed.text);
-                    Off { span, because: if because.is_empty() { unknown() } else { because } }
+                    OffReason { span, because: if because.is_empty() { unknown() } else { because } }
                 });
                 Some(Condition { off, by: Decisions::new(outcome.decided) })
             }),

@@ -4,7 +4,7 @@ use super::values::{MANY, at};
 use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
 use crate::language::scope::{Context, FieldValue, all, combined};
-use crate::ron::{Form, Leaf, Takes, Word, Words};
+use crate::ron::{Form, Leaf, Word, WordContents, Words};
 use std::fmt::Display;
 
 /// The form of `groups`: a number of workgroups.
@@ -17,27 +17,35 @@ static GROUPS: Words = Words {
     all: &[
         Word::new(
             "Count",
-            &[Takes::Values(&[GROUP]), Takes::Values(&[GROUP, GROUP]), Takes::Values(&[GROUP, GROUP, GROUP])],
+            &[
+                WordContents::Values(&[GROUP]),
+                WordContents::Values(&[GROUP, GROUP]),
+                WordContents::Values(&[GROUP, GROUP, GROUP]),
+            ],
             &["Count(8, 8, 1)"],
             "This many workgroups in x, y and z; numbers that are left out are 1.",
         ),
         Word::new(
             "Invocations",
-            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY]), Takes::Values(&[MANY, MANY, MANY])],
+            &[
+                WordContents::Values(&[MANY]),
+                WordContents::Values(&[MANY, MANY]),
+                WordContents::Values(&[MANY, MANY, MANY]),
+            ],
             &["Invocations(1000, 1, 1)"],
             "Enough workgroups for this many invocations in x, y and z, by the shader's own workgroup size.",
         ),
         Word::new(
             "Texels",
-            &[Takes::Values(&[parts::IMAGE]), Takes::Fields(parts::part)],
+            &[WordContents::Values(&[parts::IMAGE]), WordContents::Fields(parts::part)],
             &["Texels(\"image\")"],
             "Enough workgroups for one invocation for each texel of an image or a part of it, layers or depth in z.",
         ),
         Word::new(
             "Indirect",
             &[
-                Takes::Values(&[parts::BUFFER]),
-                Takes::Values(&[parts::BUFFER, Form::Whole(0, buffers::LARGEST_BUFFER)]),
+                WordContents::Values(&[parts::BUFFER]),
+                WordContents::Values(&[parts::BUFFER, Form::Whole(0, buffers::LARGEST_BUFFER)]),
             ],
             &["Indirect(\"buffer\")"],
             "As many as a buffer says, from this byte on: a `VkDispatchIndirectCommand`.",

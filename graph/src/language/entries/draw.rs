@@ -6,7 +6,7 @@ use super::values::MANY;
 use crate::frame::{Draw, DrawList};
 use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
+use crate::ron::{Form, Leaf, Name, PlainForm, Reader, Word, WordContents, Words, names};
 use std::fmt::Display;
 
 /// The form of `draw`.
@@ -19,32 +19,32 @@ static DRAWS: Words = Words {
     all: &[
         Word::new(
             "Objects",
-            &[Takes::Values(&[Form::Choice("a draw list", || names(&DrawList::NAMED))])],
+            &[WordContents::Values(&[Form::Choice("a draw list", || names(&DrawList::NAMED))])],
             &["Objects(Opaque)", "Objects(Masked)", "Objects(Transparent)"],
             "The scene's opaque objects, those that alpha cuts holes into, or those that let light through.",
         ),
         Word::new(
             "Casters",
-            &[Takes::Fields(casters::fields)],
+            &[WordContents::Fields(casters::fields)],
             &[casters::FORM],
             "Objects that cast the sun's shadow, as the sun sees them: depth for a shadow map.",
         ),
         Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
         Word::new(
             "FullScreen",
-            &[Takes::Values(&[Form::Plain(Plain::Outside)])],
+            &[WordContents::Values(&[Form::Plain(PlainForm::Outside)])],
             &["FullScreen(\"shader\")"],
             "Every pixel, by this shader.",
         ),
         Word::new(
             "Vertices",
-            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY])],
+            &[WordContents::Values(&[MANY]), WordContents::Values(&[MANY, MANY])],
             &["Vertices(3, 100)"],
             "This many vertices, or indices, of triangles, in this many instances; one instance if one number stands there.",
         ),
         Word::new(
             "Indirect",
-            &[Takes::Values(&[parts::BUFFER])],
+            &[WordContents::Values(&[parts::BUFFER])],
             &["Indirect(\"buffer\")"],
             "As many as a buffer says: a `VkDrawIndirectCommand`, with `index` a `VkDrawIndexedIndirectCommand`.",
         ),

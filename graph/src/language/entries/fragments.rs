@@ -6,7 +6,7 @@ use super::parameters::{self, ParameterFields};
 use super::textures::{self, Pictures};
 use crate::fields;
 use crate::language::scope::Parameter;
-use crate::ron::{Described, Form, Leaf, Names, Plain, Reader};
+use crate::ron::{FieldTable, Form, Leaf, Names, PlainForm, Reader};
 
 fields! {
     /// A fragment: images, buffers and passes that belong together.
@@ -17,9 +17,9 @@ fields! {
     /// ```
     struct FragmentFields<'src> as "Fragment" {
         /// Its name, by which it is used.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// A description for people.
-        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        about: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
         /// The arguments that each use of the fragment gives.
         parameters: Option<Leaf<'src>> => Form::List(&Form::Fields(ParameterFields::<'static>::table)),
         /// The textures, as in a pipeline.

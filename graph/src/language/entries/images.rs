@@ -4,14 +4,14 @@ use super::repeat::REPEAT;
 use super::values::{optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
 use crate::base::{Diagnostic, Span};
-use crate::expression::Wanted;
+use crate::expression::WantedTypes;
 use crate::frame::{SAMPLE_COUNTS, ViewIndex};
 use crate::language::model::{
     Decided, Decisions, Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind,
 };
-use crate::language::scope::{Context, FieldValue, Kept, Parameter, combined, within_view};
-use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
-use crate::vulkan::access::Of;
+use crate::language::scope::{Context, FieldContents, FieldValue, Parameter, combined, within_view};
+use crate::ron::{FieldTable, Form, Leaf, Name, PlainForm, Shape, Spanned, Word, WordContents, Words};
+use crate::vulkan::access::StateSubject;
 use crate::{fields, vulkan};
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ fields! {
     /// ```
     pub(crate) struct ImageFields<'src> as "Image" {
         /// Its name, unique among images and buffers.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view that it is for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
         /// The name of an index, and how often the entry is repeated.
@@ -74,7 +74,7 @@ static FORMATS: Words = Words {
     all: &[
         Word::new(
             "Color",
-            &[Takes::Nothing, Takes::Fields(ColorFormatFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(ColorFormatFields::<'static>::table)],
             &["Color(hdr: true)"],
             "Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`, unless the pipeline's `color` says otherwise.",
         ),
@@ -86,7 +86,7 @@ static FORMATS: Words = Words {
         Word::alone("Output", "The format of a picture that leaves the frame: `R8G8B8A8_SRGB`."),
         Word::new(
             "Like",
-            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &[WordContents::Values(&[parts::WHOLE_IMAGE])],
             &["Like(\"image\")"],
             "The format of another image.",
         ),
@@ -99,7 +99,7 @@ static SAMPLES: Words = Words {
     or: &[Form::Listed(&SAMPLE_COUNTS), Form::Expression("a whole number")],
     all: &[Word::new(
         "Like",
-        &[Takes::Values(&[parts::WHOLE_IMAGE])],
+        &[WordContents::Values(&[parts::WHOLE_IMAGE])],
         &["Like(\"image\")"],
         "As many as another image has.",
     )],
@@ -113,7 +113,7 @@ static MIPS: Words = Words {
         Word::alone("Full", "Down to a single texel."),
         Word::new(
             "Like",
-            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &[WordContents::Values(&[parts::WHOLE_IMAGE])],
             &["Like(\"image\")"],
             "As many as another image has.",
         ),
@@ -126,7 +126,7 @@ static LAYERS: Words = Words {
     or: &[Form::Whole(1, MOST_LAYERS)],
     all: &[Word::new(
         "Like",
-        &[Takes::Values(&[parts::WHOLE_IMAGE])],
+        &[WordContents::Values(&[parts::WHOLE_IMAGE])],
         &["Like(\"image\")"],
         "As many as another image has.",
     )],
@@ -138,7 +138,12 @@ static SHAPES: Words = Words {
     or: &[],
     all: &[
         Word::alone("D2", "Two-dimensional, or an array of such layers."),
-        Word::new("D3", &[Takes::Values(&[sizes::EXTENT])], &["D3(64)"], "Three-dimensional, this many texels deep."),
+        Word::new(
+            "D3",
+            &[WordContents::Values(&[sizes::EXTENT])],
+            &["D3(64)"],
+            "Three-dimensional, this many texels deep.",
+        ),
         Word::alone("Cube", "Six square layers that may be sampled as a cube, or several times six."),
     ],
 };
@@ -156,7 +161,7 @@ impl Context<'_> {
         let layers = or(fields.layers, span, Layers::Default, |leaf| self.layers(leaf));
         let shape = or(fields.shape, span, ImageShape::D2, |leaf| self.shape(leaf));
         let transient = FieldValue::Constant(Spanned { value: Lifetime::Transient, span });
-        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, Of::Image));
+        let lifetime = fields.lifetime.map_or(Some(transient), |leaf| self.lifetime(leaf, StateSubject::Image));
         let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (format, size) = (in_field(fields.format, format?), in_field(fields.size, size?));
         let (name, how_many) = (name?, (samples?, mips?, layers?));
@@ -226,7 +231,7 @@ impl Context<'_> {
         let count = match leaf.shape() {
             Shape::Text => {
                 let words = ("a whole number", Some("a whole number"));
-                let (count, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+                let (count, setting) = self.value(leaf, SettingKind::is_whole, WantedTypes::INTEGER, words)?;
                 let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| known(*count).is_none());
                 if let Some(odd) = setting.and_then(odd) {
                     let message = format!("this setting allows {odd}, which is no sample count");
@@ -293,7 +298,7 @@ impl Context<'_> {
 }
 
 /// The value of a field of an image that may be absent; its place is then the image's name.
-fn or<'src, T: Kept>(
+fn or<'src, T: FieldContents>(
     leaf: Option<Leaf<'src>>,
     name: Span,
     absent: T,
@@ -306,6 +311,6 @@ fn or<'src, T: Kept>(
 }
 
 /// The value of a field of an image, as it is told outside of its entry.
-fn in_field<T: Kept>(leaf: Leaf<'_>, value: FieldValue<Decided<T>>) -> FieldValue<Decided<T>> {
+fn in_field<T: FieldContents>(leaf: Leaf<'_>, value: FieldValue<Decided<T>>) -> FieldValue<Decided<T>> {
     value.at(leaf).within_view()
 }

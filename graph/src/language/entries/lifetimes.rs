@@ -6,8 +6,8 @@ use super::values::{self, at, optional};
 use crate::fields;
 use crate::language::model::{Lifetime, State};
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words};
-use crate::vulkan::access::{Of, StateWord};
+use crate::ron::{FieldTable, Form, Leaf, Reader, Shape, Spanned, Word, WordContents, Words};
+use crate::vulkan::access::{StateSubject, StateWord};
 use crate::vulkan::layout::LAYOUTS;
 use crate::vulkan::{self, AccessKind, Accesses, Layout, Stages};
 use bitflags::Flags;
@@ -68,25 +68,25 @@ static LIFETIMES: Words = Words {
         Word::alone("Transient", "Within the frame."),
         Word::new(
             "Persistent",
-            &[Takes::Nothing, Takes::Fields(PersistentFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(PersistentFields::<'static>::table)],
             &["Persistent", "Persistent(initial: 1.0)"],
             "One image or buffer for all frames: a read before the first write finds what the frame before left.",
         ),
         Word::new(
             "History",
-            &[Takes::Nothing, Takes::Fields(HistoryFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(HistoryFields::<'static>::table)],
             &["History", "History(frames: 2, initial: 0)"],
             "Each frame writes it anew; `previous: 1` reads what the frame before left.",
         ),
         Word::new(
             "Imported",
-            &[Takes::Fields(ImportedFields::<'static>::table)],
+            &[WordContents::Fields(ImportedFields::<'static>::table)],
             &["Imported(before: Undefined, after: Sampled)"],
             "The program hands it in for each frame, and gets it back.",
         ),
         Word::new(
             "Like",
-            &[Takes::Values(&[parts::WHOLE_RESOURCE])],
+            &[WordContents::Values(&[parts::WHOLE_RESOURCE])],
             &["Like(\"name\")"],
             "The lifetime of another image or buffer.",
         ),
@@ -129,7 +129,7 @@ fn flag_names<F: Flags>() -> Vec<&'static str> {
 
 impl Context<'_> {
     /// A lifetime.
-    pub(crate) fn lifetime(&mut self, leaf: Leaf<'_>, of: Of) -> Option<FieldValue<Spanned<Lifetime>>> {
+    pub(crate) fn lifetime(&mut self, leaf: Leaf<'_>, of: StateSubject) -> Option<FieldValue<Spanned<Lifetime>>> {
         let (word, rest) = self.reader.one_of(leaf, &LIFETIMES)?;
         let lifetime = match word {
             "Transient" => self.reader.bare(word, rest).map(|()| FieldValue::Constant(Lifetime::Transient))?,
@@ -168,19 +168,21 @@ fn layouts() -> impl Iterator<Item = (&'static str, Layout)> {
 }
 
 /// A state, by purpose or in Vulkan's words.
-pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Option<Spanned<State>> {
+pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubject) -> Option<Spanned<State>> {
     if let Shape::Parentheses = leaf.shape() {
         let fields: StateFields<'_> = reader.read(leaf, "a state")?;
         let stages = flags::<Stages>(reader, fields.stages, "`stages`", "a pipeline stage");
         let accesses = flags::<Accesses>(reader, fields.accesses, "`accesses`", "an access");
         let layout = match (fields.layout, of) {
-            (Some(layout), Of::Buffer) => {
+            (Some(layout), StateSubject::Buffer) => {
                 reader.wrong(layout, "a buffer has no layout", "");
                 None
             }
-            (Some(layout), Of::Image) => reader.choice(layout, "an image layout", &layouts().collect::<Vec<_>>()),
-            (None, Of::Buffer) => Some(Layout::Undefined),
-            (None, Of::Image) => {
+            (Some(layout), StateSubject::Image) => {
+                reader.choice(layout, "an image layout", &layouts().collect::<Vec<_>>())
+            }
+            (None, StateSubject::Buffer) => Some(Layout::Undefined),
+            (None, StateSubject::Image) => {
                 reader.wrong(leaf, "the state of an image has a layout", "add `layout: …`");
                 None
             }
@@ -192,12 +194,12 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Opti
     let fits = |(word, _): &(StateWord, AccessKind)| word.of.contains(&of);
     let known: Vec<&'static str> = words().map(|(word, _)| word.word).collect();
     let fitting: Vec<String> = words().filter(fits).map(|(word, _)| format!("`{}`", word.word)).collect();
-    let layout = if of == Of::Image { ", layout: …" } else { "" };
+    let layout = if of == StateSubject::Image { ", layout: …" } else { "" };
     let forms = format!("write {} or `(stages: […], accesses: […]{layout})`", fitting.join(", "));
     let (word, rest) = reader.word(leaf, "a state", &known, &forms)?;
     reader.bare(word, rest)?;
     let Some((_, kind)) = words().filter(fits).find(|(fitting, _)| fitting.word == word) else {
-        let whose = if of == Of::Image { "an image" } else { "a buffer" };
+        let whose = if of == StateSubject::Image { "an image" } else { "a buffer" };
         reader.wrong(leaf, format!("{whose} can't be in the state `{word}`"), &forms);
         return None;
     };

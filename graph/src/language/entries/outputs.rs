@@ -7,9 +7,9 @@ use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Output, ResourceRef};
 use crate::language::scope::{Context, Evaluator, FieldValue};
-use crate::ron::{Described, Form, Leaf, Shape, names};
+use crate::ron::{FieldTable, Form, Leaf, Shape, names};
 use crate::vulkan::Encoding;
-use crate::vulkan::access::Of;
+use crate::vulkan::access::StateSubject;
 use std::collections::HashMap;
 
 fields! {
@@ -62,8 +62,10 @@ impl Context<'_> {
         };
         let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
         let (resource, of) = match (fields.image, fields.buffer) {
-            (Some(image), None) => (self.image(image).map(|image| image.map(ResourceRef::from)), Of::Image),
-            (None, Some(buffer)) => (self.buffer(buffer).map(|buffer| buffer.map(ResourceRef::from)), Of::Buffer),
+            (Some(image), None) => (self.image(image).map(|image| image.map(ResourceRef::from)), StateSubject::Image),
+            (None, Some(buffer)) => {
+                (self.buffer(buffer).map(|buffer| buffer.map(ResourceRef::from)), StateSubject::Buffer)
+            }
             _ => {
                 let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
                 self.reader.wrong(leaf, "an output is one image or one buffer", help);
@@ -72,7 +74,7 @@ impl Context<'_> {
         };
         let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
         let encoding = match (fields.encoding, of) {
-            (Some(leaf), Of::Buffer) => {
+            (Some(leaf), StateSubject::Buffer) => {
                 self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
                 None
             }

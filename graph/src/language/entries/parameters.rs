@@ -6,7 +6,7 @@ use super::values::optional;
 use crate::fields;
 use crate::language::model::SettingKind;
 use crate::language::scope::{Parameter, ParameterKind};
-use crate::ron::{Described, Form, Leaf, Plain, Reader, Shape, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, Leaf, PlainForm, Reader, Shape, Word, WordContents, Words};
 use crate::vulkan::Format;
 use std::sync::Arc;
 
@@ -17,11 +17,11 @@ fields! {
     /// ```
     pub(crate) struct ParameterFields<'src> as "Parameter" {
         /// Its name, as in `with` and in expressions.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The kind of its values. A parameter without `default` has to be given.
         value: Leaf<'src> => Form::Words(&KINDS),
         /// A description for people.
-        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        about: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
     }
 }
 
@@ -35,31 +35,31 @@ static KINDS: Words = Words {
         Word::alone("Buffer", "A buffer."),
         Word::new(
             "Bool",
-            &[Takes::Nothing, Takes::Fields(ParameterBoolFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(ParameterBoolFields::<'static>::table)],
             &["Bool"],
             "`true` or `false`.",
         ),
         Word::new(
             "Integer",
-            &[Takes::Nothing, Takes::Fields(ParameterIntegerFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(ParameterIntegerFields::<'static>::table)],
             &["Integer", "Integer(default: 1, min: 0, max: 9)"],
             "A whole number.",
         ),
         Word::new(
             "Number",
-            &[Takes::Nothing, Takes::Fields(ParameterNumberFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(ParameterNumberFields::<'static>::table)],
             &["Number"],
             "A number.",
         ),
         Word::new(
             "OneOf",
-            &[Takes::Fields(ParameterOneOfFields::<'static>::table)],
+            &[WordContents::Fields(ParameterOneOfFields::<'static>::table)],
             &["OneOf(of: [1, 2, 4])"],
             "One of several whole numbers, or of several texts.",
         ),
         Word::new(
             "Format",
-            &[Takes::Nothing, Takes::Fields(ParameterFormatFields::<'static>::table)],
+            &[WordContents::Nothing, WordContents::Fields(ParameterFormatFields::<'static>::table)],
             &["Format", "Format(default: R8_UNORM)"],
             "A format of Vulkan's.",
         ),
@@ -71,7 +71,7 @@ fields! {
     #[derive(Default)]
     struct ParameterBoolFields<'src> {
         /// The value if none is given.
-        default: Option<Leaf<'src>> => Form::Plain(Plain::Truth),
+        default: Option<Leaf<'src>> => Form::Plain(PlainForm::Truth),
     }
 }
 
@@ -103,13 +103,13 @@ fields! {
     #[derive(Default)]
     struct ParameterNumberFields<'src> {
         /// The value if none is given.
-        default: Option<Leaf<'src>> => Form::Plain(Plain::Number),
+        default: Option<Leaf<'src>> => Form::Plain(PlainForm::Number),
         /// The least value; any if left out.
-        min: Option<Leaf<'src>> => Form::Plain(Plain::Number),
+        min: Option<Leaf<'src>> => Form::Plain(PlainForm::Number),
         /// The greatest value; any if left out.
-        max: Option<Leaf<'src>> => Form::Plain(Plain::Number),
+        max: Option<Leaf<'src>> => Form::Plain(PlainForm::Number),
         /// The distance between allowed values, from `min` on.
-        step: Option<Leaf<'src>> => Form::Plain(Plain::Number),
+        step: Option<Leaf<'src>> => Form::Plain(PlainForm::Number),
     }
 }
 
@@ -118,13 +118,13 @@ fields! {
     #[derive(Default)]
     struct ParameterIntegerFields<'src> {
         /// The value if none is given.
-        default: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
+        default: Option<Leaf<'src>> => Form::Plain(PlainForm::Whole),
         /// The least value; any if left out.
-        min: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
+        min: Option<Leaf<'src>> => Form::Plain(PlainForm::Whole),
         /// The greatest value; any if left out.
-        max: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
+        max: Option<Leaf<'src>> => Form::Plain(PlainForm::Whole),
         /// The distance between allowed values, from `min` on; 1 if left out.
-        step: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
+        step: Option<Leaf<'src>> => Form::Plain(PlainForm::Whole),
     }
 }
 

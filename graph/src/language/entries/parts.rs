@@ -4,8 +4,8 @@ use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
 use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
-use crate::language::scope::{Context, FieldValue, FieldValueTuple, Kept, combined};
-use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
+use crate::language::scope::{Context, FieldContents, FieldValue, FieldValueTuple, combined};
+use crate::ron::{FieldTable, Form, Leaf, Shape, Spanned, Table, Word, WordContents, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
 /// An image or buffer can be read at most this many frames back.
@@ -57,7 +57,7 @@ static EYES: Words = Words {
     or: &[WHOLE_IMAGE],
     all: &[Word::new(
         "Eye",
-        &[Takes::Values(&[EYE, WHOLE_IMAGE])],
+        &[WordContents::Values(&[EYE, WHOLE_IMAGE])],
         &["Eye(Left, \"image\")", "Eye(Right, \"image\")"],
         "The image of one eye, where each eye has an image of its own.",
     )],
@@ -104,7 +104,7 @@ pub(crate) const PREVIOUS: Form = Form::Whole(1, MOST_FRAMES);
 
 /// The fields of a part besides the image's name.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Selected<'src> {
+pub(crate) struct PartSelection<'src> {
     pub(crate) mip: Option<Leaf<'src>>,
     pub(crate) mips: Option<Leaf<'src>>,
     pub(crate) layer: Option<Leaf<'src>>,
@@ -116,17 +116,17 @@ pub(crate) struct Selected<'src> {
 const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Aspects::STENCIL)];
 
 /// A part of an image, or of a buffer.
-pub(crate) enum Either {
+pub(crate) enum AnyPart {
     Image(FieldValue<ImagePart>),
     Buffer(FieldValue<BufferPart>),
 }
 
-impl Either {
+impl AnyPart {
     /// The part, of an image or a buffer.
     pub(crate) fn part(self) -> FieldValue<Part> {
         match self {
-            Either::Image(part) => part.map(Part::Image),
-            Either::Buffer(part) => part.map(Part::Buffer),
+            AnyPart::Image(part) => part.map(Part::Image),
+            AnyPart::Buffer(part) => part.map(Part::Buffer),
         }
     }
 }
@@ -139,8 +139,8 @@ impl Context<'_> {
                 Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span })),
                 Resource::Buffer(index) => Part::Buffer(BufferPart::whole(BufferRef { index, span })),
             })),
-            Shape::Word(..) => Some(self.selected_image(leaf, Selected::default())?.map(Part::Image)),
-            Shape::Parentheses => self.part_by_fields(leaf).map(Either::part),
+            Shape::Word(..) => Some(self.selected_image(leaf, PartSelection::default())?.map(Part::Image)),
+            Shape::Parentheses => self.part_by_fields(leaf).map(AnyPart::part),
             _ => {
                 self.reader.expected(
                     leaf,
@@ -151,10 +151,10 @@ impl Context<'_> {
         }
     }
 
-    fn part_by_fields(&mut self, leaf: Leaf<'_>) -> Option<Either> {
+    fn part_by_fields(&mut self, leaf: Leaf<'_>) -> Option<AnyPart> {
         let fields: PartFields<'_> = self.reader.read(leaf, "a part of an image or buffer")?;
         let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
-        let selected = Selected { mip, mips, layer, layers, plane, previous };
+        let selected = PartSelection { mip, mips, layer, layers, plane, previous };
         self.part_of_either(leaf, image, buffer, selected)
     }
 
@@ -164,16 +164,16 @@ impl Context<'_> {
         whole: Leaf<'_>,
         image: Option<Leaf<'_>>,
         buffer: Option<Leaf<'_>>,
-        selected: Selected<'_>,
-    ) -> Option<Either> {
+        selected: PartSelection<'_>,
+    ) -> Option<AnyPart> {
         match (image, buffer) {
-            (Some(image), None) => self.selected_image(image, selected).map(Either::Image),
+            (Some(image), None) => self.selected_image(image, selected).map(AnyPart::Image),
             (None, Some(buffer)) => {
-                let Selected { mip, mips, layer, layers, plane, previous } = selected;
+                let PartSelection { mip, mips, layer, layers, plane, previous } = selected;
                 for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
                     self.reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
                 }
-                self.named_buffer(buffer, previous).map(Either::Buffer)
+                self.named_buffer(buffer, previous).map(AnyPart::Buffer)
             }
             (Some(_), Some(buffer)) => {
                 self.reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
@@ -194,22 +194,22 @@ impl Context<'_> {
     pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ImagePart>> {
         if let Shape::Parentheses = leaf.shape() {
             return match self.part_by_fields(leaf)? {
-                Either::Image(part) => Some(part),
-                Either::Buffer(_) => {
+                AnyPart::Image(part) => Some(part),
+                AnyPart::Buffer(_) => {
                     self.reader.wrong(leaf, "an image is needed here", "");
                     None
                 }
             };
         }
-        self.selected_image(leaf, Selected::default())
+        self.selected_image(leaf, PartSelection::default())
     }
 
     /// `"name"` or `(buffer: "name", previous: 1)`.
     pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<BufferPart>> {
         if let Shape::Parentheses = leaf.shape() {
             return match self.part_by_fields(leaf)? {
-                Either::Buffer(part) => Some(part),
-                Either::Image(_) => {
+                AnyPart::Buffer(part) => Some(part),
+                AnyPart::Image(_) => {
                     self.reader.wrong(leaf, "a buffer is needed here", "");
                     None
                 }
@@ -225,7 +225,11 @@ impl Context<'_> {
     }
 
     /// The part of the image that `name` names.
-    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<FieldValue<ImagePart>> {
+    pub(crate) fn selected_image(
+        &mut self,
+        name: Leaf<'_>,
+        selected: PartSelection<'_>,
+    ) -> Option<FieldValue<ImagePart>> {
         let image = match name.shape() {
             Shape::Word(..) => self.eyes_image(name),
             _ => self.image(name).map(|image| (image, None)),
@@ -278,7 +282,7 @@ impl Context<'_> {
     }
 
     /// The value that `make` makes of the image in `Like("image")`.
-    pub(crate) fn like<T: Kept>(
+    pub(crate) fn like<T: FieldContents>(
         &mut self,
         leaf: Leaf<'_>,
         rest: Option<Leaf<'_>>,

@@ -5,7 +5,7 @@ use super::repeat::REPEAT;
 use super::stand_ins::OTHERWISE;
 use super::{bindings, dispatch, draw, parts, targets, transfer, views};
 use crate::fields;
-use crate::ron::{Leaf, Plain};
+use crate::ron::{Leaf, PlainForm};
 
 fields! {
     /// A pass: one draw, dispatch, copy, blit or fill, or commands of the program's own.
@@ -15,7 +15,7 @@ fields! {
     /// ```
     pub(crate) struct PassFields<'src> as "Pass" {
         /// Its name, unique among passes and uses.
-        pub(crate) name: Leaf<'src> => Form::Plain(Plain::Name),
+        pub(crate) name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view that it draws for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
         /// The name of an index, and how often the entry is repeated.
@@ -23,7 +23,7 @@ fields! {
         /// It draws.
         pub(crate) draw: Option<Leaf<'src>> => draw::DRAW,
         /// It runs a compute shader, `NAME.comp`.
-        pub(crate) dispatch: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        pub(crate) dispatch: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
         /// It copies bits as they are: texels to texels, bytes to bytes, or rows of texels without gaps to or from a buffer.
         pub(crate) copy: Option<Leaf<'src>> => transfer::COPY,
         /// It copies an image and scales it.
@@ -32,9 +32,9 @@ fields! {
         pub(crate) fill: Option<Leaf<'src>> => transfer::FILL,
         /// It runs commands that the embedding program records under this name: with `color` or `depth` within a rendering
         /// scope, where its shader is the one of this name if there is one; else outside.
-        pub(crate) custom: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        pub(crate) custom: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
         /// The shader of the draw.
-        pub(crate) shader: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        pub(crate) shader: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
         /// The number of workgroups of the dispatch.
         pub(crate) groups: Option<Leaf<'src>> => dispatch::WORKGROUPS,
         /// Images that its shaders sample, by the shader's names.

@@ -3,12 +3,12 @@
 use super::condition::Condition;
 use super::firsts::Firsts;
 use super::pass_fields::PassFields;
-use super::stand_ins::{Of, stand_ins_make_sense};
+use super::stand_ins::{OtherwiseOwner, stand_ins_make_sense};
 use super::values::optional;
 use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::model::{Color, Depth, Pass, PassDecisions};
-use crate::language::scope::{Context, FieldValue, FieldValueTuple, IfRead, reported};
+use crate::language::scope::{Context, FieldValue, FieldValueTuple, ReadableValue, reported};
 use crate::ron::{Name, Reader};
 use std::fmt::{Display, Formatter};
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Context<'_> {
             (parts.off, parts.decided, parts.otherwise) = (off, decided, stand_ins);
             bindings_differ(evaluator.reader, &pass);
             if let Some(Some(otherwise)) = &otherwise {
-                stand_ins_make_sense(evaluator.reader, otherwise, Of::Pass, &pass);
+                stand_ins_make_sense(evaluator.reader, otherwise, OtherwiseOwner::Pass, &pass);
             }
             Some(pass)
         })
@@ -73,9 +73,16 @@ impl Context<'_> {
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
-        let bindings = (IfRead(sample), IfRead(storage), IfRead(uniform), IfRead(params));
-        let targets = (IfRead(color), IfRead(depth), IfRead(alpha_to_coverage), IfRead(covers));
-        let parts = (IfRead(work), bindings, (IfRead(vertex), IfRead(index)), targets, IfRead(side_effect));
+        let bindings = (ReadableValue(sample), ReadableValue(storage), ReadableValue(uniform), ReadableValue(params));
+        let targets =
+            (ReadableValue(color), ReadableValue(depth), ReadableValue(alpha_to_coverage), ReadableValue(covers));
+        let parts = (
+            ReadableValue(work),
+            bindings,
+            (ReadableValue(vertex), ReadableValue(index)),
+            targets,
+            ReadableValue(side_effect),
+        );
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
             let (sample, storage, uniform, params) = bindings;
             let (color, depth, alpha_to_coverage, covers) = targets;

@@ -3,11 +3,11 @@
 use super::list::entries;
 use super::settings;
 use super::values::optional;
-use crate::base::{Diagnostic, Label, Sought, Span, suggestion};
+use crate::base::{Diagnostic, Label, NameKind, Span, suggestion};
 use crate::expression::Value;
 use crate::fields;
 use crate::language::model::{Choice, Preset, Setting, SettingKind};
-use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
+use crate::ron::{FieldTable, Form, Leaf, Name, Names, PlainForm, Reader};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -18,9 +18,9 @@ fields! {
     /// ```
     pub(crate) struct PresetFields<'src> as "Preset" {
         /// Its name, as in `--preset NAME`.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// A description for people.
-        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        about: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
         /// The chosen values; other settings keep their values.
         set: Leaf<'src> => SET,
     }
@@ -39,7 +39,7 @@ pub(crate) fn presets(
     settings: &[Option<Setting>],
 ) -> Vec<Option<Preset>> {
     let list: Vec<Option<PresetFields<'_>>> =
-        entries(reader, list, "`presets`", "preset", &mut Names::new(Sought::Preset));
+        entries(reader, list, "`presets`", "preset", &mut Names::new(NameKind::Preset));
     let read = |fields: Option<PresetFields<'_>>| {
         let fields = fields?;
         let name = reader.name(fields.name, "a preset");
@@ -83,7 +83,7 @@ fn unknown_setting(name: &Name, settings: &[Option<Setting>], given: &HashSet<&s
     let help = suggestion(&name.text, all.clone().filter(|name| !given.contains(name)))
         .or_else(|| suggestion(&name.text, all))
         .or_else(|| Some("this pipeline has no settings".to_owned()));
-    Diagnostic { help, ..Diagnostic::unknown_name(Sought::Setting, &name.text).at(name.span) }
+    Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Setting, &name.text).at(name.span) }
 }
 
 /// A value that `setting` allows.

@@ -4,13 +4,13 @@ use super::diagnosed::Diagnosed;
 use crate::base::Span;
 use crate::language::model::Decided;
 use crate::language::scope::{Context, FieldValue};
-use crate::ron::{Form, Leaf, Name, Plain, Reader};
+use crate::ron::{Form, Leaf, Name, PlainForm, Reader};
 
 /// A pipeline has at most this many images, buffers, passes and uses of fragments, made and discarded ones together.
 pub(crate) const MOST_THINGS: u32 = 1_000_000;
 
 /// How `repeat` is written.
-pub(crate) const REPEAT: Form = Form::Tuple(&[Form::Plain(Plain::Name), Form::Whole(0, MOST_THINGS as i64)]);
+pub(crate) const REPEAT: Form = Form::Tuple(&[Form::Plain(PlainForm::Name), Form::Whole(0, MOST_THINGS as i64)]);
 
 /// How often an entry is repeated.
 pub(crate) enum Repeat {

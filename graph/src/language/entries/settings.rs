@@ -1,10 +1,10 @@
 //! `settings`: values that a user may choose.
 
 use super::list::entries;
-use crate::base::Sought;
+use crate::base::NameKind;
 use crate::fields;
 use crate::language::model::{Setting, SettingKind};
-use crate::ron::{Described, Form, Leaf, Names, Plain, Reader, Shape, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, Leaf, Names, PlainForm, Reader, Shape, Word, WordContents, Words};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -15,17 +15,17 @@ fields! {
     /// ```
     pub(crate) struct SettingFields<'src> as "Setting" {
         /// Its name, as in `--set NAME=VALUE` and in expressions.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The allowed values, and the value without a choice.
         value: Leaf<'src> => Form::Words(&KINDS),
         /// A description for people.
-        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        about: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
     }
 }
 
 /// A value that a user chooses.
 pub(crate) const VALUE: Form =
-    Form::Either(&[Form::Plain(Plain::Truth), Form::Plain(Plain::Number), Form::Plain(Plain::Text)]);
+    Form::Either(&[Form::Plain(PlainForm::Truth), Form::Plain(PlainForm::Number), Form::Plain(PlainForm::Text)]);
 
 /// The kinds of setting.
 static KINDS: Words = Words {
@@ -35,25 +35,25 @@ static KINDS: Words = Words {
     all: &[
         Word::new(
             "Bool",
-            &[Takes::Fields(BoolFields::<'static>::table)],
+            &[WordContents::Fields(BoolFields::<'static>::table)],
             &["Bool(default: true)"],
             "`true` or `false`.",
         ),
         Word::new(
             "OneOf",
-            &[Takes::Fields(OneOfFields::<'static>::table)],
+            &[WordContents::Fields(OneOfFields::<'static>::table)],
             &["OneOf(default: 4, of: [1, 2, 4])", "OneOf(default: \"low\", of: [\"low\", \"high\"])"],
             "One of several whole numbers, or of several texts.",
         ),
         Word::new(
             "Number",
-            &[Takes::Fields(NumberFields::<'static>::table)],
+            &[WordContents::Fields(NumberFields::<'static>::table)],
             &["Number(default: 1.0, min: 0.0, max: 2.0)"],
             "A number.",
         ),
         Word::new(
             "Integer",
-            &[Takes::Fields(IntegerFields::<'static>::table)],
+            &[WordContents::Fields(IntegerFields::<'static>::table)],
             &["Integer(default: 1, min: 0, max: 9)"],
             "A whole number.",
         ),
@@ -64,7 +64,7 @@ fields! {
     /// A choice between true and false.
     struct BoolFields<'src> {
         /// The value without a choice.
-        default: Leaf<'src> => Form::Plain(Plain::Truth),
+        default: Leaf<'src> => Form::Plain(PlainForm::Truth),
     }
 }
 
@@ -79,19 +79,19 @@ fields! {
 }
 
 /// An element of a list of values: a whole number or a text.
-pub(crate) const LISTED: Form = Form::Either(&[Form::Plain(Plain::Whole), Form::Plain(Plain::Text)]);
+pub(crate) const LISTED: Form = Form::Either(&[Form::Plain(PlainForm::Whole), Form::Plain(PlainForm::Text)]);
 
 fields! {
     /// A choice from a range of numbers.
     struct NumberFields<'src> {
         /// The value without a choice.
-        default: Leaf<'src> => Form::Plain(Plain::Number),
+        default: Leaf<'src> => Form::Plain(PlainForm::Number),
         /// The least value.
-        min: Leaf<'src> => Form::Plain(Plain::Number),
+        min: Leaf<'src> => Form::Plain(PlainForm::Number),
         /// The greatest value.
-        max: Leaf<'src> => Form::Plain(Plain::Number),
+        max: Leaf<'src> => Form::Plain(PlainForm::Number),
         /// The distance between allowed values, from `min` on; any distance if left out.
-        step: Option<Leaf<'src>> => Form::Plain(Plain::Number),
+        step: Option<Leaf<'src>> => Form::Plain(PlainForm::Number),
     }
 }
 
@@ -99,13 +99,13 @@ fields! {
     /// A choice from a range of whole numbers.
     struct IntegerFields<'src> {
         /// The value without a choice.
-        default: Leaf<'src> => Form::Plain(Plain::Whole),
+        default: Leaf<'src> => Form::Plain(PlainForm::Whole),
         /// The least value.
-        min: Leaf<'src> => Form::Plain(Plain::Whole),
+        min: Leaf<'src> => Form::Plain(PlainForm::Whole),
         /// The greatest value.
-        max: Leaf<'src> => Form::Plain(Plain::Whole),
+        max: Leaf<'src> => Form::Plain(PlainForm::Whole),
         /// The distance between allowed values, from `min` on; 1 if left out.
-        step: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
+        step: Option<Leaf<'src>> => Form::Plain(PlainForm::Whole),
     }
 }
 
@@ -114,7 +114,7 @@ pub(crate) const SETTINGS: Form = Form::List(&Form::Fields(SettingFields::<'stat
 
 /// A list of settings and their names; `None` where one couldn't be read.
 pub(crate) fn list(reader: &mut Reader, list: Option<Leaf<'_>>) -> (Names, Vec<Option<Setting>>) {
-    let mut names = Names::new(Sought::Setting);
+    let mut names = Names::new(NameKind::Setting);
     let listed: Vec<Option<SettingFields<'_>>> = entries(reader, list, "`settings`", "setting", &mut names);
     let read = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| setting(reader, fields));
     (names, listed.iter().map(read).collect())

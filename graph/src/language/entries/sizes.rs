@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, shown_number};
 use crate::fields;
 use crate::language::model::{Decided, LARGEST_SIZE, Size};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, all, combined, within_view};
-use crate::ron::{Described, Form, Leaf, Shape, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, Leaf, Shape, Word, WordContents, Words};
 
 fields! {
     /// A factor that may change from frame to frame.
@@ -31,23 +31,28 @@ static SIZES: Words = Words {
         Word::alone("Output", "The view's; without views the frame's."),
         Word::new(
             "Scaled",
-            &[Takes::Values(&[Form::Number]), Takes::Values(&[Form::Number, parts::WHOLE_IMAGE])],
+            &[WordContents::Values(&[Form::Number]), WordContents::Values(&[Form::Number, parts::WHOLE_IMAGE])],
             &["Scaled(0.5)", "Scaled(0.5, \"image\")"],
             "The view's or another image's, times a number above 0; rounded down, at least 1.",
         ),
         Word::new(
             "Dynamic",
-            &[Takes::Fields(DynamicFields::<'static>::table)],
+            &[WordContents::Fields(DynamicFields::<'static>::table)],
             &["Dynamic(by: 0.5, up_to: 1.0)"],
             "As `Scaled`, but the factor may be another one in each frame: the image has room for the greatest.",
         ),
         Word::new(
             "Fixed",
-            &[Takes::Values(&[EXTENT, EXTENT])],
+            &[WordContents::Values(&[EXTENT, EXTENT])],
             &["Fixed(640, 480)"],
             "This many texels wide and high.",
         ),
-        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "The size of another image."),
+        Word::new(
+            "Like",
+            &[WordContents::Values(&[parts::WHOLE_IMAGE])],
+            &["Like(\"image\")"],
+            "The size of another image.",
+        ),
     ],
 };
 

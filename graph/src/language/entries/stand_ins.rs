@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, Span};
 use crate::fields;
 use crate::language::model::{Forward, Pass, StandIn};
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, Leaf, Reader, Shape, Word, WordContents, Words};
 use std::collections::HashMap;
 
 /// The form of `otherwise`: one stand-in or a list of them.
@@ -20,13 +20,13 @@ static STAND_INS: Words = Words {
     all: &[
         Word::new(
             "Forward",
-            &[Takes::Fields(ForwardFields::<'static>::table)],
+            &[WordContents::Fields(ForwardFields::<'static>::table)],
             &["Forward(from: \"image\", to: \"image\")"],
             "One image gets what another holds.",
         ),
         Word::new(
             "Clear",
-            &[Takes::Fields(ClearFields::<'static>::table)],
+            &[WordContents::Fields(ClearFields::<'static>::table)],
             &["Clear(image: \"image\", value: 0)"],
             "An image gets a value.",
         ),
@@ -54,7 +54,7 @@ fields! {
 }
 
 /// The stand-ins of a pass or use, as a file says them.
-pub(crate) struct Otherwise {
+pub(crate) struct StandInList {
     pub(crate) span: Span,
     pub(crate) stand_ins: Vec<FieldValue<StandIn>>,
     /// Whether the pass or use can be off.
@@ -63,7 +63,7 @@ pub(crate) struct Otherwise {
 
 impl Context<'_> {
     /// The stand-ins of a pass or use: one or several.
-    pub(crate) fn otherwise(&mut self, leaf: Option<Leaf<'_>>, when: Option<Leaf<'_>>) -> Option<Option<Otherwise>> {
+    pub(crate) fn otherwise(&mut self, leaf: Option<Leaf<'_>>, when: Option<Leaf<'_>>) -> Option<Option<StandInList>> {
         optional(leaf, |leaf| {
             let entries = match leaf.shape() {
                 Shape::List => self.reader.list(leaf, "`otherwise`")?,
@@ -71,7 +71,7 @@ impl Context<'_> {
             };
             let all: Vec<Option<FieldValue<StandIn>>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
             let stand_ins = all.into_iter().collect::<Option<_>>()?;
-            Some(Otherwise { span: leaf.span(), stand_ins, conditional: when.is_some() })
+            Some(StandInList { span: leaf.span(), stand_ins, conditional: when.is_some() })
         })
     }
 
@@ -90,20 +90,20 @@ impl Context<'_> {
 
 /// The kind of entry that `otherwise` belongs to.
 #[derive(Clone, Copy)]
-pub(crate) enum Of {
+pub(crate) enum OtherwiseOwner {
     Pass,
     Use,
 }
 
-impl Of {
+impl OtherwiseOwner {
     /// The message and the help for a stand-in of an image that is not written.
     const fn foreign(self) -> (&'static str, &'static str) {
         match self {
-            Of::Pass => (
+            OtherwiseOwner::Pass => (
                 "`otherwise` fills an image that this pass doesn't write",
                 "it is one of the images that the pass draws into or writes",
             ),
-            Of::Use => (
+            OtherwiseOwner::Use => (
                 "`otherwise` fills an image that no pass of this use would write",
                 "it is an image in `with` that a pass of the fragment writes; what is repeated 0 times writes nothing, on or \
                  off",
@@ -113,7 +113,7 @@ impl Of {
 }
 
 /// Reports stand-ins that don't fill images of the pass's own, each once, from other images.
-pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &Otherwise, of: Of, pass: &Pass) {
+pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &StandInList, of: OtherwiseOwner, pass: &Pass) {
     if !otherwise.conditional {
         let idle = Diagnostic::new(otherwise.span, "`otherwise` never comes to pass: there is no `when`");
         reader.report(idle.help("add `when: …`, or remove `otherwise`"));

@@ -1,13 +1,13 @@
 //! `color` and `depth`: the targets of a pass, with their clears, blends and tests.
 
-use super::parts::{self, Selected};
+use super::parts::{self, PartSelection};
 use super::values::{self, at, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
 use crate::language::scope::{Context, FieldValue, all, combined};
-use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
+use crate::ron::{FieldTable, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
 fields! {
@@ -130,7 +130,8 @@ impl Context<'_> {
             Shape::Parentheses => {
                 let fields: ColorTargetFields<'_> = self.reader.read(leaf, "a colour target")?;
                 let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
-                let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
+                let part =
+                    self.selected_image(fields.image, PartSelection { mip, layer, layers, ..PartSelection::default() });
                 let clear = optional(fields.clear, |clear| self.clear_color(clear));
                 let blend = values::optional_choice(self.reader, fields.blend, "a blend", &BLENDS);
                 let blend = blend?.unwrap_or(replace);
@@ -160,7 +161,8 @@ impl Context<'_> {
             Shape::Parentheses => {
                 let fields: DepthTargetFields<'_> = self.reader.read(leaf, "a depth target")?;
                 let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
-                let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
+                let part =
+                    self.selected_image(fields.image, PartSelection { mip, layer, layers, ..PartSelection::default() });
                 let clear = optional(fields.clear, |clear| self.clear_depth(clear));
                 let test = fields.test.map_or(Some(test), |test| self.reader.choice(test, "a depth test", &TESTS));
                 let write = fields

@@ -6,7 +6,7 @@ use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
 use crate::language::model::{Decided, Decisions, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
 use crate::language::scope::{Context, FieldValue};
-use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
+use crate::ron::{FieldTable, Form, Leaf, Name, PlainForm, Reader, Spanned, names};
 use crate::{fields, vulkan};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -19,9 +19,9 @@ fields! {
     /// ```
     pub(crate) struct TextureFields<'src> as "Texture" {
         /// Its name, unique among images and buffers.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// Its path, counted from the file in which it stands; parts are divided by `/`.
-        pub(crate) file: Leaf<'src> => Form::Plain(Plain::Text),
+        pub(crate) file: Leaf<'src> => Form::Plain(PlainForm::Text),
         /// `Srgb`: red, green and blue are encoded with the sRGB curve, as pictures for people are; `Linear`: all values are as
         /// they are, as in tables, noise and light. `Srgb` if left out; HDR and EXR files are linear.
         pub(crate) color_space: Option<Leaf<'src>> => Form::Choice("a colour space", || names(&COLOR_SPACES)),

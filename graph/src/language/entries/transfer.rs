@@ -6,7 +6,7 @@ use super::values;
 use crate::fields;
 use crate::language::model::{Part, Work};
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Described, Form, Leaf, Shape};
+use crate::ron::{FieldTable, Form, Leaf, Shape};
 
 fields! {
     /// A copy: bits as they are.

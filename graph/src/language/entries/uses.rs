@@ -4,14 +4,14 @@ use super::body::Tables;
 use super::condition::{CONDITION, Condition};
 use super::fragments::Fragments;
 use super::repeat::REPEAT;
-use super::stand_ins::{OTHERWISE, Otherwise};
+use super::stand_ins::{OTHERWISE, StandInList};
 use super::{parameters, views};
-use crate::base::{Diagnostic, MistakeKind, Sought, Span, enumerated};
-use crate::expression::{Expression, Outcome, Type, Value, Wanted};
+use crate::base::{Diagnostic, MistakeKind, NameKind, Span, enumerated};
+use crate::expression::{Expression, Outcome, Type, Value, WantedTypes};
 use crate::fields;
 use crate::language::model::SettingKind;
 use crate::language::scope::{Context, DecidedValue, FieldValue, Parameter, ParameterKind, Symbols, joined};
-use crate::ron::{Form, Leaf, Name, Plain, Reader, Shape};
+use crate::ron::{Form, Leaf, Name, PlainForm, Reader, Shape};
 use std::collections::{HashMap, HashSet};
 
 fields! {
@@ -21,9 +21,9 @@ fields! {
     /// ```
     pub(crate) struct UseFields<'src> as "Use" {
         /// The fragment's name.
-        pub(crate) r#use: Leaf<'src> => Form::Plain(Plain::Name),
+        pub(crate) r#use: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// Its own name: all that it puts in is named `NAME.…`, in Plans too.
-        pub(crate) name: Leaf<'src> => Form::Plain(Plain::Name),
+        pub(crate) name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view that all it puts in is for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
         /// The name of an index, and how often the entry is repeated.
@@ -39,8 +39,8 @@ fields! {
 
 /// A value for a parameter.
 const ARGUMENT: Form = Form::Either(&[
-    Form::Plain(Plain::Truth),
-    Form::Plain(Plain::Number),
+    Form::Plain(PlainForm::Truth),
+    Form::Plain(PlainForm::Number),
     parameters::FORMAT,
     Form::Expression("an image, a buffer, or an expression"),
 ]);
@@ -52,7 +52,7 @@ pub(crate) struct UseEntry {
     pub(crate) fragment: usize,
     pub(crate) condition: FieldValue<Condition>,
     /// The stand-ins for when it is off.
-    pub(crate) otherwise: Option<Otherwise>,
+    pub(crate) otherwise: Option<StandInList>,
     /// Values for the fragment's parameters, in their order.
     pub(crate) arguments: Vec<Option<Argument>>,
 }
@@ -144,7 +144,7 @@ impl Context<'_> {
             ParameterKind::Image => Some(self.image(leaf)?.map(|image| Value::Image(image.index).into())),
             ParameterKind::Buffer => Some(self.buffer(leaf)?.map(|buffer| Value::Buffer(buffer.index).into())),
             ParameterKind::Format { .. } => match leaf.shape() {
-                Shape::Text => self.expression(leaf, Wanted::FORMAT).map(evaluated),
+                Shape::Text => self.expression(leaf, WantedTypes::FORMAT).map(evaluated),
                 _ => {
                     let format = parameters::format(self.reader, leaf)?;
                     Some(FieldValue::Constant(Value::Format(format).into()))
@@ -174,7 +174,7 @@ impl Context<'_> {
         let unquoted = Diagnostic::new(leaf.span(), message);
         let unquoted = unquoted.help(format!("write it in single quotes inside the quotes: {all}"));
         // A setting of that name may have been meant.
-        self.reader.report(Diagnostic { kind: MistakeKind::UnknownName(Sought::Setting), ..unquoted });
+        self.reader.report(Diagnostic { kind: MistakeKind::UnknownName(NameKind::Setting), ..unquoted });
         None
     }
 
@@ -206,12 +206,12 @@ fn evaluated(expression: Expression) -> FieldValue<DecidedValue> {
     })
 }
 
-const fn wanted(kind: &SettingKind) -> Wanted<'static> {
+const fn wanted(kind: &SettingKind) -> WantedTypes<'static> {
     match kind {
-        SettingKind::Bool { .. } => Wanted::BOOL,
-        SettingKind::OneOf { .. } | SettingKind::Integer { .. } => Wanted::INTEGER,
-        SettingKind::Number { .. } => Wanted::NUMBER,
-        SettingKind::Choice { .. } => Wanted::TEXT,
+        SettingKind::Bool { .. } => WantedTypes::BOOL,
+        SettingKind::OneOf { .. } | SettingKind::Integer { .. } => WantedTypes::INTEGER,
+        SettingKind::Number { .. } => WantedTypes::NUMBER,
+        SettingKind::Choice { .. } => WantedTypes::TEXT,
     }
 }
 

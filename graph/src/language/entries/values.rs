@@ -2,10 +2,10 @@
 //! an expression in quotes.
 
 use crate::base::Diagnostic;
-use crate::expression::{Value, Wanted};
+use crate::expression::{Value, WantedTypes};
 use crate::frame::ParamValue;
 use crate::language::model::{Decided, Decisions, Fill, SettingKind};
-use crate::language::scope::{Context, FieldValue, Kept, Quoted, all, combined, decided, within_view};
+use crate::language::scope::{Context, FieldContents, FieldValue, Quoted, all, combined, decided, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
 use crate::vulkan::Format;
 use std::ops::RangeInclusive;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 impl Context<'_> {
     /// A whole number within `range`; all values of a plain setting must lie there. `what` names it: "number of mip levels".
-    pub(crate) fn whole<T: TryFrom<i64> + Kept>(
+    pub(crate) fn whole<T: TryFrom<i64> + FieldContents>(
         &mut self,
         leaf: Leaf<'_>,
         what: &'static str,
@@ -23,7 +23,7 @@ impl Context<'_> {
     }
 
     /// A whole number as [`Context::whole`] reads it, with its place.
-    pub(crate) fn whole_at<T: TryFrom<i64> + Kept>(
+    pub(crate) fn whole_at<T: TryFrom<i64> + FieldContents>(
         &mut self,
         leaf: Leaf<'_>,
         what: &'static str,
@@ -33,7 +33,7 @@ impl Context<'_> {
     }
 
     /// A whole number as [`Context::whole`] reads it, with its place and cause.
-    pub(crate) fn whole_because<T: TryFrom<i64> + Kept>(
+    pub(crate) fn whole_because<T: TryFrom<i64> + FieldContents>(
         &mut self,
         leaf: Leaf<'_>,
         what: &'static str,
@@ -47,7 +47,7 @@ impl Context<'_> {
             return constant(self.reader, leaf, what, range).map(|number| FieldValue::said(leaf, number));
         };
         let words = ("a whole number", Some("a whole number"));
-        let (number, setting) = self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+        let (number, setting) = self.value(leaf, SettingKind::is_whole, WantedTypes::INTEGER, words)?;
         if let Some(odd) = setting.and_then(|setting| setting.whole_beyond(&range)) {
             let message = format!("this setting allows {odd}, which is no {what}");
             self.reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
@@ -75,7 +75,7 @@ impl Context<'_> {
             return self.reader.number_as(leaf, Some(what)).map(|number| FieldValue::said(leaf, number));
         };
         let words = ("a number", Some("a number"));
-        let (number, _) = self.value(leaf, SettingKind::is_number, Wanted::NUMBER, words)?;
+        let (number, _) = self.value(leaf, SettingKind::is_number, WantedTypes::NUMBER, words)?;
         typed(number, |value| match value {
             Value::Number(number) => Some(number),
             #[allow(clippy::cast_precision_loss, reason = "the nearest number is meant")]
@@ -90,13 +90,13 @@ impl Context<'_> {
             return self.reader.truth(leaf).map(|value| FieldValue::said(leaf, value));
         };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
-        let (value, _) = self.value(leaf, fits, Wanted::BOOL, ("`true` or `false`", None))?;
+        let (value, _) = self.value(leaf, fits, WantedTypes::BOOL, ("`true` or `false`", None))?;
         typed(value, |value| if let Value::Bool(value) = value { Some(value) } else { None })
     }
 
     /// A format that an expression says.
     pub(crate) fn format(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Format>>> {
-        let format = decided(self.expression(leaf, Wanted::FORMAT)?, leaf.span());
+        let format = decided(self.expression(leaf, WantedTypes::FORMAT)?, leaf.span());
         typed(format, |value| if let Value::Format(format) = value { Some(format) } else { None })
     }
 
@@ -157,8 +157,8 @@ impl Context<'_> {
             }
         }
         let fits = |kind: &SettingKind| !matches!(kind, SettingKind::Choice { .. });
-        let words = (Wanted::PARAMETER.words, Some(Wanted::PARAMETER.words));
-        let value = match self.quoted(leaf, fits, Wanted::PARAMETER, words)? {
+        let words = (WantedTypes::PARAMETER.words, Some(WantedTypes::PARAMETER.words));
+        let value = match self.quoted(leaf, fits, WantedTypes::PARAMETER, words)? {
             Quoted::Parameter(parameter, at) => {
                 let written: Arc<str> =
                     format!("{} `{}`", self.scope.symbols.parameter_word(), parameter.name.text).into();
@@ -183,7 +183,7 @@ impl Context<'_> {
     }
 
     /// One of a few words, by itself or as the text that an expression says.
-    pub(crate) fn word<T: Copy + Kept>(
+    pub(crate) fn word<T: Copy + FieldContents>(
         &mut self,
         leaf: Leaf<'_>,
         what: &'static str,
@@ -193,7 +193,7 @@ impl Context<'_> {
         if quoted.is_none() {
             return self.reader.choice(leaf, what, choices).map(|word| FieldValue::said(leaf, word));
         }
-        let said = decided(self.expression(leaf, Wanted::TEXT)?, leaf.span());
+        let said = decided(self.expression(leaf, WantedTypes::TEXT)?, leaf.span());
         typed(said, text)?.checked(self.reader, move |said, view| {
             if let Some((_, value)) = choices.iter().find(|(word, _)| *word == &*said.value) {
                 return Ok(said.map(|_| *value));
@@ -232,7 +232,7 @@ impl Context<'_> {
             return self.reader.bare(word, rest).map(|()| FieldValue::said(leaf, word));
         };
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
-        let (said, setting) = self.value(leaf, fits, Wanted::TEXT, ("a text", None))?;
+        let (said, setting) = self.value(leaf, fits, WantedTypes::TEXT, ("a text", None))?;
         if let Some(setting) = setting
             && let Some(odd) = setting.texts().iter().find(|text| words.find(text).is_none())
         {
@@ -254,7 +254,7 @@ impl Context<'_> {
 }
 
 /// A value of another type.
-pub(crate) fn typed<T: Kept>(
+pub(crate) fn typed<T: FieldContents>(
     value: FieldValue<Decided<Value>>,
     make: impl Fn(Value) -> Option<T> + Send + Sync + 'static,
 ) -> Option<FieldValue<Decided<T>>> {
@@ -271,7 +271,7 @@ fn text(value: Value) -> Option<Arc<str>> {
 }
 
 /// A value with the place of `leaf`.
-pub(crate) fn at<T: Kept>(leaf: Leaf<'_>, value: FieldValue<T>) -> FieldValue<Spanned<T>> {
+pub(crate) fn at<T: FieldContents>(leaf: Leaf<'_>, value: FieldValue<T>) -> FieldValue<Spanned<T>> {
     let span = leaf.span();
     value.map(move |value| Spanned { value, span })
 }

@@ -2,7 +2,7 @@
 
 use super::values::optional;
 use super::{list, presets, sizes};
-use crate::base::{Diagnostic, Label, OutsideChoice, Sought, shown_number};
+use crate::base::{Diagnostic, Label, NameKind, OutsideChoice, shown_number};
 use crate::fields;
 use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
@@ -11,7 +11,7 @@ use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
 use crate::language::scope::{
     Context, DecidedValue, Evaluator, FieldValue, FieldValueTuple, ScopeValues, all, combined,
 };
-use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
+use crate::ron::{FieldTable, Form, Leaf, Name, Names, PlainForm, Reader, Word, WordContents, Words};
 
 fields! {
     /// A view: a picture from one place, with a size and values of settings of its own.
@@ -21,13 +21,13 @@ fields! {
     /// ```
     struct ViewFields<'src> as "View" {
         /// Its name, which images, buffers, passes and uses give in their `view`.
-        name: Leaf<'src> => Form::Plain(Plain::Name),
+        name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// A description for people.
-        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        about: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
         /// Width and height; `Output` if left out. The first view always has `Output`.
         size: Option<Leaf<'src>> => Form::Words(&SIZES),
         /// The scene's camera of that name; the scene's own if left out.
-        camera: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        camera: Option<Leaf<'src>> => Form::Plain(PlainForm::Text),
         /// The value of `view.allows_msaa` in conditions; true if left out.
         allows_msaa: Option<Leaf<'src>> => Form::Truth,
         /// The value of `view.allows_hdr` in conditions; true if left out.
@@ -51,7 +51,7 @@ const JITTER: Form = Form::Whole(1, frame::LONGEST_JITTER as i64);
 pub(crate) const VIEWS: Form = Form::List(&Form::Fields(ViewFields::<'static>::table));
 
 /// The name of a view.
-pub(crate) const NAME: Form = Form::Plain(Plain::Name);
+pub(crate) const NAME: Form = Form::Plain(PlainForm::Name);
 
 static SIZES: Words = Words {
     name: "ViewSize",
@@ -61,13 +61,13 @@ static SIZES: Words = Words {
         Word::alone("Output", "The frame's."),
         Word::new(
             "Scaled",
-            &[Takes::Values(&[Form::Number])],
+            &[WordContents::Values(&[Form::Number])],
             &["Scaled(0.5)"],
             "The frame's, times a number above 0; rounded down, at least 1.",
         ),
         Word::new(
             "Fixed",
-            &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])],
+            &[WordContents::Values(&[sizes::EXTENT, sizes::EXTENT])],
             &["Fixed(640, 360)"],
             "This many pixels.",
         ),
@@ -103,7 +103,7 @@ impl ViewEntries {
         list: Option<Leaf<'_>>,
         removed: Option<&Change>,
     ) -> ViewEntries {
-        let (mut names, before) = (Names::new(Sought::View), context.reader.errors.len());
+        let (mut names, before) = (Names::new(NameKind::View), context.reader.errors.len());
         let fields: Vec<Option<ViewFields<'_>>> = list::entries(context.reader, list, "`views`", "view", &mut names);
         if let Some(list) = list.filter(|_| fields.is_empty() && context.reader.errors.is_empty()) {
             context.reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
@@ -122,7 +122,7 @@ impl ViewEntries {
     pub(crate) fn find(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<ViewIndex> {
         let name = reader.reference(leaf, "a view")?;
         if self.list.is_empty() && self.names.complete() {
-            let unknown = Diagnostic::unknown_name(Sought::View, &name.text).at(name.span);
+            let unknown = Diagnostic::unknown_name(NameKind::View, &name.text).at(name.span);
             reader.report(unknown.help(format!(
                 "list the views of the frame, the main one first: `views: [(name: \"main\"), (name: \"{}\")]`",
                 name.text

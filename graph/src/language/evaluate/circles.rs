@@ -9,12 +9,12 @@ use std::sync::Arc;
 const MOST_SHOWN: usize = 10;
 
 /// Images, then buffers, by one index.
-struct All<'a> {
+struct ResourceList<'a> {
     images: &'a [Option<Arc<Image>>],
     buffers: &'a [Option<Buffer>],
 }
 
-impl All<'_> {
+impl ResourceList<'_> {
     fn name(&self, at: usize) -> &str {
         let image = self.images.get(at).and_then(Option::as_ref).map(|image| &*image.name.text);
         let buffer = || self.buffers.get(at.checked_sub(self.images.len())?)?.as_ref().map(|buffer| &*buffer.name.text);
@@ -30,13 +30,13 @@ impl All<'_> {
 }
 
 /// The images or buffers that follow another in one property, by index: each with the other and where it is named.
-type Follows = Vec<(usize, (usize, Span))>;
+type FollowEdges = Vec<(usize, (usize, Span))>;
 
 /// Reports every circle once, for each property that can follow.
 pub(crate) fn find(images: &[Option<Arc<Image>>], buffers: &[Option<Buffer>], errors: &mut Vec<Diagnostic>) {
-    let all = All { images, buffers };
-    let [mut sizes, mut formats, mut samples, mut mips, mut layers] = [const { Follows::new() }; 5];
-    let [mut bytes, mut lifetimes] = [const { Follows::new() }; 2];
+    let all = ResourceList { images, buffers };
+    let [mut sizes, mut formats, mut samples, mut mips, mut layers] = [const { FollowEdges::new() }; 5];
+    let [mut bytes, mut lifetimes] = [const { FollowEdges::new() }; 2];
     let image = |of: ImageRef| (of.index.0 as usize, of.span);
     for (at, described) in images.iter().enumerate() {
         let Some(described) = described else { continue };
@@ -85,7 +85,7 @@ pub(crate) fn find(images: &[Option<Arc<Image>>], buffers: &[Option<Buffer>], er
 }
 
 /// Each follows at most one other, so a walk from each, ended where an earlier walk has been, finds every circle.
-fn along(all: &All<'_>, what: &str, follows: &Follows, errors: &mut Vec<Diagnostic>) {
+fn along(all: &ResourceList<'_>, what: &str, follows: &FollowEdges, errors: &mut Vec<Diagnostic>) {
     let next = |at: usize| follows.binary_search_by_key(&at, |(from, _)| *from).ok().map(|found| follows[found].1);
     let mut walked_from = vec![usize::MAX; all.images.len() + all.buffers.len()];
     for (start, _) in follows {
@@ -104,7 +104,7 @@ fn along(all: &All<'_>, what: &str, follows: &Follows, errors: &mut Vec<Diagnost
     }
 }
 
-fn report(all: &All<'_>, what: &str, circle: &[(usize, (usize, Span))], errors: &mut Vec<Diagnostic>) {
+fn report(all: &ResourceList<'_>, what: &str, circle: &[(usize, (usize, Span))], errors: &mut Vec<Diagnostic>) {
     let Some((start, to)) = circle.first() else { return };
     let most = circle.len().min(MOST_SHOWN);
     let mut path: Vec<String> = circle[..most].iter().map(|(from, _)| format!("`{}`", all.name(*from))).collect();

@@ -1,6 +1,6 @@
 //! The state of an evaluation: its inputs, its purpose, and the lists that it has made so far.
 
-use super::lists::Flat;
+use super::lists::FlatLists;
 use super::memory::Memory;
 use crate::base::{Diagnostic, Span};
 use crate::frame::ViewIndex;
@@ -33,7 +33,7 @@ pub(super) struct Evaluation<'a> {
     pub(super) surroundings: &'a Surroundings<'a>,
     pub(super) fragments: &'a Fragments<Body>,
     pub(super) views: Views<'a>,
-    pub(super) flat: Flat,
+    pub(super) flat: FlatLists,
     /// Fragments that are being put in, by number, and where.
     pub(super) path: Vec<(usize, Name)>,
     /// Mistakes in fragments that were reported: place and message.
@@ -135,7 +135,7 @@ impl<'a> Evaluation<'a> {
             surroundings,
             fragments,
             views: Views::none(),
-            flat: Flat::default(),
+            flat: FlatLists::default(),
             path: Vec::new(),
             reported: HashSet::new(),
             used: HashSet::new(),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Images, buffers, passes and instances that were evaluated so far; `None` where a mistake was reported. Those that the file
 /// says as they are belong to the document, too.
 #[derive(Default)]
-pub(super) struct Flat {
+pub(super) struct FlatLists {
     pub(super) images: Vec<Option<Arc<Image>>>,
     /// Properties of images.
     pub(super) properties: Vec<Option<Properties>>,
@@ -25,10 +25,10 @@ pub(super) struct Lengths {
     instances: usize,
 }
 
-impl Flat {
+impl FlatLists {
     /// Lists of images and buffers of which only the number is known.
     pub(super) fn nothing_known(images: u32, buffers: u32) -> Self {
-        let mut flat = Flat::default();
+        let mut flat = FlatLists::default();
         flat.images.resize_with(images as usize, || None);
         flat.properties.resize_with(images as usize, || None);
         flat.buffers.resize_with(buffers as usize, || None);
@@ -36,7 +36,7 @@ impl Flat {
     }
 
     pub(super) const fn lengths(&self) -> Lengths {
-        let Flat { images, buffers, passes, instances, .. } = self;
+        let FlatLists { images, buffers, passes, instances, .. } = self;
         Lengths { images: images.len(), buffers: buffers.len(), passes: passes.len(), instances: instances.len() }
     }
 

@@ -5,7 +5,7 @@ use super::evaluation::{Evaluation, Level};
 use crate::frame::ViewIndex;
 use crate::language::entries::pipeline::Entries;
 use crate::language::model::{Image, Pass, PassDecisions};
-use crate::language::scope::{Answers, Asked, Evaluator, FieldValue, FieldValueTuple, Kept, ScopeValues};
+use crate::language::scope::{Answers, Asked, Evaluator, FieldContents, FieldValue, FieldValueTuple, ScopeValues};
 use crate::ron::Reader;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Given {
 }
 
 /// A kind of thing that is remembered.
-pub(super) trait Remembered: Kept {
+pub(super) trait Remembered: FieldContents {
     /// The things of its kind.
     fn table(memory: &mut Memory) -> &mut Table<Self>;
 }

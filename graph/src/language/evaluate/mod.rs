@@ -2,15 +2,15 @@
 
 mod circles;
 mod evaluation;
+mod fragment_use;
 mod lists;
 mod memory;
 mod passes;
 mod pipeline;
 mod previous;
 mod properties;
-mod put_in;
 mod resources;
-mod unused;
+mod unused_fragments;
 
 pub(crate) use evaluation::Purpose;
 pub(crate) use memory::Memory;

@@ -223,7 +223,7 @@ impl Facts {
     }
 
     /// These facts with another value of `fact`. A value of another type than the fact's changes nothing; a count that is too
-    /// large becomes the largest. Of several [`Fact::Lights`] one is a sun.
+    /// large becomes the largest. If there are several [`Fact::Lights`], one is a sun.
     #[must_use]
     pub fn with(mut self, fact: Fact, value: FactValue) -> Facts {
         let count = |value: i64| u32::try_from(value.max(0)).unwrap_or(u32::MAX);

@@ -1,7 +1,7 @@
 //! Chosen values of settings: by presets, settings files and defaults.
 
 use super::setting::Setting;
-use crate::base::{Diagnostic, Sought, Span, suggestion};
+use crate::base::{Diagnostic, NameKind, Span, suggestion};
 use crate::expression::Value;
 use crate::ron::Name;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub struct SettingsFile {
 
 /// A setting's value, and who chose it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct InForce {
+pub struct ChosenValue {
     /// The value, which the setting allows.
     pub value: Value,
     /// Who chose it.
@@ -63,16 +63,16 @@ pub enum ChosenBy {
 pub(crate) fn unknown_preset(name: &str, presets: &[Preset]) -> Diagnostic {
     let help = suggestion(name, presets.iter().map(|preset| &*preset.name.text))
         .or_else(|| Some("this pipeline has no presets".to_owned()));
-    Diagnostic { help, ..Diagnostic::unknown_name(Sought::Preset, name) }
+    Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Preset, name) }
 }
 
 /// Every setting's value once a preset and settings files, from the weakest to the strongest, are applied to defaults.
-pub(crate) fn in_force(settings: &[Setting], preset: Option<&Preset>, files: &[SettingsFile]) -> Vec<InForce> {
-    let default = |setting: &Setting| InForce { value: setting.kind.default(), by: ChosenBy::Default };
-    let mut values: Vec<InForce> = settings.iter().map(default).collect();
+pub(crate) fn in_force(settings: &[Setting], preset: Option<&Preset>, files: &[SettingsFile]) -> Vec<ChosenValue> {
+    let default = |setting: &Setting| ChosenValue { value: setting.kind.default(), by: ChosenBy::Default };
+    let mut values: Vec<ChosenValue> = settings.iter().map(default).collect();
     let mut put = |choice: &Choice, by: ChosenBy| {
         if let Some(slot) = values.get_mut(choice.setting) {
-            *slot = InForce { value: choice.value.clone(), by };
+            *slot = ChosenValue { value: choice.value.clone(), by };
         }
     };
     if let Some(Preset { name, set, .. }) = preset {

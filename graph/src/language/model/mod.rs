@@ -2,7 +2,7 @@
 
 mod area;
 mod choices;
-mod decided;
+mod decisions;
 mod named;
 mod part;
 mod pass;
@@ -13,14 +13,14 @@ mod setting;
 mod view;
 
 pub(crate) use area::{Area, LARGEST_SIZE, area, times};
-pub use choices::{Choice, ChosenBy, InForce, Preset, SettingsFile};
+pub use choices::{Choice, ChosenBy, ChosenValue, Preset, SettingsFile};
 pub(crate) use choices::{in_force, unknown_preset};
-pub use decided::{Decided, Decisions};
+pub use decisions::{Decided, Decisions};
 pub(crate) use named::{PartRef, Use};
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub use pass::{
-    Color, Depth, Face, Forward, Groups, LeftOut, Off, Param, Pass, PassDecisions, Sample, StandIn, Storage,
-    StorageAccess, Uniform, Work,
+    Color, Depth, Face, Forward, Groups, LeftOutSample, OffReason, Param, Pass, PassDecisions, Sample, StandIn,
+    Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{Instance, Output, Pipeline, RemovedPass};
 pub use references::{BufferRef, ImageRef, ResourceRef};

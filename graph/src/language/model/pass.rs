@@ -1,6 +1,6 @@
 //! Passes as a pipeline file declares them: their work, their images and buffers, and their conditions.
 
-use super::decided::Decisions;
+use super::decisions::Decisions;
 use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
@@ -16,7 +16,7 @@ pub struct Pass {
     /// Unique name.
     pub name: Name,
     /// Why the pass does not run; `None`: it runs.
-    pub off: Option<Off>,
+    pub off: Option<OffReason>,
     /// The settings and facts that decided about it.
     pub decided: PassDecisions,
     /// The work of the pass.
@@ -24,7 +24,7 @@ pub struct Pass {
     /// Images that its shaders sample.
     pub sample: Vec<Sample>,
     /// Images that its shaders would sample, had conditions not left them out.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutSample>,
     /// Images and buffers that its shaders read and write by themselves.
     pub storage: Vec<Storage>,
     /// Buffers that its shaders read as uniform blocks.
@@ -82,7 +82,7 @@ impl PassDecisions {
 
 /// Why a pass does not run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Off {
+pub struct OffReason {
     /// Where its condition stands.
     pub span: Span,
     /// The cause of the failed condition: "tone_mapping = false".
@@ -91,13 +91,13 @@ pub struct Off {
 
 /// A sampled image that a condition leaves out.
 #[derive(Debug, Clone)]
-pub struct LeftOut {
+pub struct LeftOutSample {
     /// The shader's name for it.
     pub binding: Name,
     /// The image as the pass would sample it; `None` if it has no value while it is left out.
     pub sample: Option<Sample>,
     /// Why it is left out.
-    pub off: Off,
+    pub off: OffReason,
 }
 
 /// The work of a pass.
@@ -408,6 +408,11 @@ impl Work {
 }
 
 impl Pass {
+    /// Whether the pass draws into images: a custom pass is recorded within a rendering scope then.
+    pub(crate) fn is_drawn(&self) -> bool {
+        !self.color.is_empty() || self.depth.is_some()
+    }
+
     /// A pass that does nothing.
     pub(crate) fn idle(name: Name) -> Pass {
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: Vec::new() };

@@ -1,6 +1,6 @@
 //! Images and buffers as a pipeline file declares them: their properties and lifetimes.
 
-use super::decided::{Decided, Decisions};
+use super::decisions::{Decided, Decisions};
 use super::references::{BufferRef, ImageRef, ResourceRef};
 use crate::base::Span;
 use crate::expression::Property;

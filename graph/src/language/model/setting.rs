@@ -146,7 +146,7 @@ impl SettingKind {
         }
     }
 
-    /// Whether it allows a value. Of numbers with a step those that are off by rounding alone are allowed.
+    /// Whether it allows a value. A number may be off its step by rounding.
     #[must_use]
     pub fn allows(&self, value: &Value) -> bool {
         match (self, value) {

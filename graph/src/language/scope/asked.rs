@@ -2,7 +2,7 @@
 
 use super::evaluator::ScopeValues;
 use super::level::{DecidedValue, Elements};
-use crate::expression::{Decision, Missing, Property, Value, Values};
+use crate::expression::{Decision, MissingValue, Property, Value, Values};
 use crate::frame::ImageIndex;
 use std::cell::RefCell;
 
@@ -18,7 +18,7 @@ pub(crate) enum Asked {
     /// The buffers of the declaration with this number.
     Buffers(usize, Option<Elements>),
     /// A property of an image, and the decisions behind it.
-    Property(ImageIndex, Property, Result<i64, Missing>, Vec<Decision>),
+    Property(ImageIndex, Property, Result<i64, MissingValue>, Vec<Decision>),
 }
 
 /// Where values are noted that are asked for.

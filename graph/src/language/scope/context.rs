@@ -5,7 +5,7 @@ use super::field_value::FieldValue;
 use super::lookup::{Scope, is_expression};
 use super::parameter::{Parameter, ParameterKind};
 use crate::base::{Diagnostic, Span};
-use crate::expression::{Expression, Value, Wanted};
+use crate::expression::{Expression, Value, WantedTypes};
 use crate::language::model::{Decided, Decisions, SettingKind};
 use crate::ron::{Leaf, Reader, Shape};
 
@@ -31,7 +31,7 @@ impl<'c> Context<'c> {
         &mut self,
         leaf: Leaf<'_>,
         fits: impl Fn(&SettingKind) -> bool + Copy,
-        wanted: Wanted<'static>,
+        wanted: WantedTypes<'static>,
         words: (&str, Option<&str>),
     ) -> Option<(FieldValue<Decided<Value>>, Option<&'c Parameter>)> {
         let span = leaf.span();
@@ -52,7 +52,7 @@ impl<'c> Context<'c> {
     }
 
     /// The expression that stands at `leaf`, checked.
-    pub(crate) fn expression(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>) -> Option<Expression> {
+    pub(crate) fn expression(&mut self, leaf: Leaf<'_>, wanted: WantedTypes<'_>) -> Option<Expression> {
         match (leaf.shape(), leaf.plain()) {
             (Shape::Text, Some(text)) => match Expression::new(text, leaf.span_of(text), &self.scope, wanted) {
                 Ok(expression) => Some(expression),
@@ -78,7 +78,7 @@ impl<'c> Context<'c> {
         &mut self,
         leaf: Leaf<'_>,
         fits: impl Fn(&SettingKind) -> bool + Copy,
-        wanted: Wanted<'_>,
+        wanted: WantedTypes<'_>,
         (words, literal): (&str, Option<&str>),
     ) -> Option<Quoted<'c>> {
         let symbols = self.scope.symbols;

@@ -3,7 +3,7 @@
 use super::asked::{Answers, Asked};
 use super::field_value::FieldValueTuple;
 use super::level::{DecidedValue, Elements, LevelValues, Properties};
-use super::lookup::Declared;
+use super::lookup::DeclaredResource;
 use super::symbols::Symbols;
 use crate::base::{Diagnostic, Label, Span};
 use crate::expression::{Decision, Expression, Origin, Outcome, Value};
@@ -136,14 +136,14 @@ impl<'e, 'a> Evaluator<'e, 'a> {
     }
 
     /// The image or buffer that a declaration of this level stands for.
-    pub(super) fn declared(&self, declared: Declared) -> Option<Resource> {
+    pub(super) fn declared(&self, declared: DeclaredResource) -> Option<Resource> {
         let one = |elements: Option<Elements>| match elements {
             Some(Elements::At { first, .. }) => Some(first),
             _ => None,
         };
         match declared {
-            Declared::Image(at) => one(self.scope.images_of(at)).map(|at| Resource::Image(ImageIndex(at))),
-            Declared::Buffer(at) => one(self.scope.buffers_of(at)).map(|at| Resource::Buffer(BufferIndex(at))),
+            DeclaredResource::Image(at) => one(self.scope.images_of(at)).map(|at| Resource::Image(ImageIndex(at))),
+            DeclaredResource::Buffer(at) => one(self.scope.buffers_of(at)).map(|at| Resource::Buffer(BufferIndex(at))),
         }
     }
 

@@ -7,7 +7,9 @@ use super::lookup::Scope;
 use super::parameter::{Parameter, ParameterKind};
 use super::symbols::Symbols;
 use crate::base::Span;
-use crate::expression::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Type, Value, Values};
+use crate::expression::{
+    Decision, Declarations, MissingValue, NameMeaning, Origin, Property, Symbol, Type, Value, Values,
+};
 use crate::frame::{BufferIndex, ImageIndex};
 use crate::language::inputs;
 use crate::language::model::SettingKind;
@@ -35,15 +37,15 @@ const fn split(id: u32) -> (u32, usize) {
 }
 
 impl Declarations for Scope<'_> {
-    fn find(&self, name: &str) -> Found {
+    fn find(&self, name: &str) -> NameMeaning {
         let Symbols {
             names: parameter_names, parameters, images, image_lists, buffers, buffer_lists, settings, ..
         } = self.symbols;
-        let found = |symbol: Option<Symbol>| symbol.map_or(Found::Reported, Found::Symbol);
+        let found = |symbol: Option<Symbol>| symbol.map_or(NameMeaning::Reported, NameMeaning::Symbol);
         if let Some(index) = self.index.filter(|index| *index.text == *name) {
             let declared = index.span;
             let symbol = Symbol { id: INDEX, ty: Type::Integer, list: false, origin: Origin::Index, declared };
-            return Found::Symbol(symbol);
+            return NameMeaning::Symbol(symbol);
         }
         if let Some(at) = parameter_names.at(name) {
             let origin = if *settings { Origin::Setting } else { Origin::Parameter };
@@ -69,10 +71,10 @@ impl Declarations for Scope<'_> {
         }
         if let Some((at, ty, origin)) = inputs::find(name) {
             let declared = Span::NONE;
-            return Found::Symbol(Symbol { id: SURROUNDINGS | at, ty, list: false, origin, declared });
+            return NameMeaning::Symbol(Symbol { id: SURROUNDINGS | at, ty, list: false, origin, declared });
         }
         // The name may be one that couldn't be read.
-        if self.symbols.complete() { Found::Unknown } else { Found::Reported }
+        if self.symbols.complete() { NameMeaning::Unknown } else { NameMeaning::Reported }
     }
 
     fn names(&self) -> Vec<&str> {
@@ -96,7 +98,7 @@ impl Declarations for Scope<'_> {
 }
 
 impl ScopeValues<'_> {
-    fn block(&self, id: u32) -> Result<(u32, u32), Missing> {
+    fn block(&self, id: u32) -> Result<(u32, u32), MissingValue> {
         let (kind, at) = split(id);
         let (elements, names) = match kind {
             IMAGE => (self.images_of(at), &self.symbols.images),
@@ -104,8 +106,8 @@ impl ScopeValues<'_> {
         };
         match elements {
             Some(Elements::At { first, count }) => Ok((first, count)),
-            Some(Elements::Below) => Err(Missing::Below(names.span(at))),
-            Some(Elements::Failed) | None => Err(Missing::Reported),
+            Some(Elements::Below) => Err(MissingValue::Below(names.span(at))),
+            Some(Elements::Failed) | None => Err(MissingValue::Reported),
         }
     }
 }
@@ -119,34 +121,34 @@ const fn thing(id: u32, index: u32) -> Value {
 }
 
 impl Values for ScopeValues<'_> {
-    fn value(&self, id: u32) -> Result<Value, Missing> {
+    fn value(&self, id: u32) -> Result<Value, MissingValue> {
         let (kind, at) = split(id);
         match kind {
             PARAMETER => match self.parameter(at) {
                 Some(value) => Ok(value.value.clone()),
-                None => Err(Missing::Reported),
+                None => Err(MissingValue::Reported),
             },
-            INDEX => self.index.map(|at| Value::Integer(at.into())).ok_or(Missing::Reported),
+            INDEX => self.index.map(|at| Value::Integer(at.into())).ok_or(MissingValue::Reported),
             SURROUNDINGS => {
                 let value = self.surroundings.value(id & !KIND);
                 self.note(|| Asked::Surroundings(id & !KIND, value.clone()));
-                value.ok_or(Missing::Reported)
+                value.ok_or(MissingValue::Reported)
             }
             _ => self.block(id).map(|(first, _)| thing(id, first)),
         }
     }
 
-    fn length(&self, id: u32) -> Result<u64, Missing> {
+    fn length(&self, id: u32) -> Result<u64, MissingValue> {
         self.block(id).map(|(_, count)| count.into())
     }
 
-    fn element(&self, id: u32, at: u64) -> Result<Value, Missing> {
+    fn element(&self, id: u32, at: u64) -> Result<Value, MissingValue> {
         let (first, _) = self.block(id)?;
         let at = u32::try_from(at).ok().and_then(|at| first.checked_add(at));
-        at.map(|index| thing(id, index)).ok_or(Missing::Reported)
+        at.map(|index| thing(id, index)).ok_or(MissingValue::Reported)
     }
 
-    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
+    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, MissingValue> {
         let value = self.known_property(image, property);
         self.note(|| Asked::Property(image, property, value, self.property_decided_by(image, property).to_vec()));
         value
@@ -176,12 +178,12 @@ impl Values for ScopeValues<'_> {
 
 impl ScopeValues<'_> {
     /// A property of an image that was evaluated.
-    pub(super) fn known_property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
-        let Some(properties) = self.properties else { return Err(Missing::Reported) };
+    pub(super) fn known_property(&self, image: ImageIndex, property: Property) -> Result<i64, MissingValue> {
+        let Some(properties) = self.properties else { return Err(MissingValue::Reported) };
         let at = image.0 as usize;
-        let below = || Missing::Below(self.symbols.images.span(self.declaration(image)));
+        let below = || MissingValue::Below(self.symbols.images.span(self.declaration(image)));
         let Some(known) = properties.get(at) else { return Err(below()) };
-        let Some(known) = known else { return Err(Missing::Reported) };
+        let Some(known) = known else { return Err(MissingValue::Reported) };
         let value = match property {
             Property::Width => known.area.map(|area| area.extent[0]),
             Property::Height => known.area.map(|area| area.extent[1]),

@@ -8,9 +8,9 @@ use crate::ron::{Leaf, Name, Reader, Spanned};
 use std::sync::Arc;
 
 /// The bounds of all values of fields: they are kept in a document, and copied into pipelines.
-pub(crate) trait Kept: Clone + Send + Sync + 'static {}
+pub(crate) trait FieldContents: Clone + Send + Sync + 'static {}
 
-impl<T: Clone + Send + Sync + 'static> Kept for T {}
+impl<T: Clone + Send + Sync + 'static> FieldContents for T {}
 
 /// A closure that finds a value.
 type Compute<T> = dyn Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync;
@@ -24,7 +24,7 @@ pub(crate) enum FieldValue<T> {
     Computed(Arc<Compute<T>>),
 }
 
-impl<T: Kept> FieldValue<T> {
+impl<T: FieldContents> FieldValue<T> {
     pub(crate) fn computed(
         compute: impl Fn(&mut Evaluator<'_, '_>) -> Option<T> + Send + Sync + 'static,
     ) -> FieldValue<T> {
@@ -32,7 +32,10 @@ impl<T: Kept> FieldValue<T> {
     }
 
     /// A value that is computed from this one, if there is one.
-    pub(crate) fn then<U: Kept>(self, make: impl Fn(T) -> Option<U> + Send + Sync + 'static) -> Option<FieldValue<U>> {
+    pub(crate) fn then<U: FieldContents>(
+        self,
+        make: impl Fn(T) -> Option<U> + Send + Sync + 'static,
+    ) -> Option<FieldValue<U>> {
         match self {
             FieldValue::Constant(value) => make(value).map(FieldValue::Constant),
             FieldValue::Computed(compute) => {
@@ -42,14 +45,14 @@ impl<T: Kept> FieldValue<T> {
     }
 
     /// A value that is computed from this one.
-    pub(crate) fn map<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<U> {
+    pub(crate) fn map<U: FieldContents>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<U> {
         combined(self, make)
     }
 
     /// A value that is computed from this one, or a mistake. The mistake is reported to `reader` if the value is constant; else
     /// it is a fault at each lowering, see [`Evaluator::fault`]. The second argument is the view of the entry, unless it is
     /// the main one.
-    pub(crate) fn checked<U: Kept>(
+    pub(crate) fn checked<U: FieldContents>(
         self,
         reader: &mut Reader,
         check: impl Fn(T, Option<&Name>) -> Result<U, Diagnostic> + Send + Sync + 'static,
@@ -59,7 +62,7 @@ impl<T: Kept> FieldValue<T> {
 
     /// As [`checked`](FieldValue::checked). If the file says the wrong part of the value itself (`said`), the mistake is always
     /// reported, never a fault.
-    pub(crate) fn checked_as<U: Kept>(
+    pub(crate) fn checked_as<U: FieldContents>(
         self,
         reader: &mut Reader,
         said: bool,
@@ -79,7 +82,7 @@ impl<T: Kept> FieldValue<T> {
     }
 }
 
-impl<T: Kept> FieldValue<Decided<T>> {
+impl<T: FieldContents> FieldValue<Decided<T>> {
     /// The same value. Its cause names the view unless that is the main one, as messages outside of the entry need it.
     pub(crate) fn within_view(self) -> Self {
         let FieldValue::Computed(compute) = self else { return self };
@@ -102,7 +105,7 @@ impl<T: Kept> FieldValue<Decided<T>> {
     }
 
     /// A value that is computed from this one, with the same cause.
-    pub(crate) fn of<U: Kept>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<Decided<U>> {
+    pub(crate) fn of<U: FieldContents>(self, make: impl Fn(T) -> U + Send + Sync + 'static) -> FieldValue<Decided<U>> {
         self.map(move |decided| decided.map(&make))
     }
 
@@ -120,7 +123,7 @@ impl<T: Kept> FieldValue<Decided<T>> {
 /// Values of an entry that belong together: one, a tuple or a list of them, or none.
 pub(crate) trait FieldValueTuple: Send + Sync + 'static {
     /// The values.
-    type Values: Kept;
+    type Values: FieldContents;
 
     /// Whether the file says all values.
     fn is_constant(&self) -> bool;
@@ -133,10 +136,10 @@ pub(crate) trait FieldValueTuple: Send + Sync + 'static {
 }
 
 /// A value that may be missing because it couldn't be read: the others are evaluated all the same.
-pub(crate) struct IfRead<P>(pub(crate) Option<P>);
+pub(crate) struct ReadableValue<P>(pub(crate) Option<P>);
 
 /// A value that is computed from several values.
-pub(crate) fn combined<P: FieldValueTuple, T: Kept>(
+pub(crate) fn combined<P: FieldValueTuple, T: FieldContents>(
     parts: P,
     make: impl Fn(P::Values) -> T + Send + Sync + 'static,
 ) -> FieldValue<T> {
@@ -149,7 +152,7 @@ pub(crate) fn combined<P: FieldValueTuple, T: Kept>(
 
 /// A value that is computed from several values, with mistakes that `make` reports: now if all are constant, else at each
 /// lowering.
-pub(crate) fn reported<P: FieldValueTuple, T: Kept>(
+pub(crate) fn reported<P: FieldValueTuple, T: FieldContents>(
     reader: &mut Reader,
     parts: P,
     make: impl Fn(&mut Reader, P::Values) -> Option<T> + Send + Sync + 'static,
@@ -163,7 +166,7 @@ pub(crate) fn reported<P: FieldValueTuple, T: Kept>(
     }))
 }
 
-impl<T: Kept> FieldValueTuple for FieldValue<T> {
+impl<T: FieldContents> FieldValueTuple for FieldValue<T> {
     type Values = T;
 
     fn is_constant(&self) -> bool {
@@ -198,7 +201,7 @@ impl<P: FieldValueTuple> FieldValueTuple for Option<P> {
     }
 }
 
-impl<P: FieldValueTuple> FieldValueTuple for IfRead<P> {
+impl<P: FieldValueTuple> FieldValueTuple for ReadableValue<P> {
     type Values = Option<P::Values>;
 
     fn is_constant(&self) -> bool {

@@ -1,7 +1,7 @@
 //! The scope of an entry: settings or parameters, images, buffers, the scene, the view and the device.
 
 use super::symbols::Symbols;
-use crate::expression::{Type, Wanted};
+use crate::expression::{Type, WantedTypes};
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::ron::{Leaf, Name, Names};
 
@@ -15,7 +15,7 @@ pub(crate) struct Scope<'a> {
 
 /// An image or buffer that is declared at a level, by number.
 #[derive(Clone, Copy)]
-pub(super) enum Declared {
+pub(super) enum DeclaredResource {
     Image(usize),
     Buffer(usize),
 }
@@ -40,33 +40,35 @@ impl Scope<'_> {
     }
 
     /// The image or buffer with a plain name; most references are no more.
-    pub(super) fn plain_reference(&self, plain: &str, wanted: Wanted<'_>) -> Option<Declared> {
+    pub(super) fn plain_reference(&self, plain: &str, wanted: WantedTypes<'_>) -> Option<DeclaredResource> {
         let Symbols { images, image_lists, buffers, buffer_lists, .. } = self.symbols;
         let one = |at: usize, lists: &[bool]| (lists.get(at) == Some(&false)).then_some(at);
         if wanted.types.contains(&Type::Image)
             && let Some(at) = images.at(plain)
         {
-            return one(at, image_lists).map(Declared::Image);
+            return one(at, image_lists).map(DeclaredResource::Image);
         }
         if wanted.types.contains(&Type::Buffer)
             && let Some(at) = buffers.at(plain)
         {
-            return one(at, buffer_lists).map(Declared::Buffer);
+            return one(at, buffer_lists).map(DeclaredResource::Buffer);
         }
         None
     }
 
     /// The image or buffer that a declaration stands for, if its index is the same at every evaluation.
-    pub(super) fn fixed(&self, declared: Declared) -> Option<Resource> {
+    pub(super) fn fixed(&self, declared: DeclaredResource) -> Option<Resource> {
         let one = |at: usize, fixed: usize| if at < fixed { u32::try_from(at).ok() } else { None };
         match declared {
-            Declared::Image(at) => one(at, self.symbols.fixed_images).map(|at| Resource::Image(ImageIndex(at))),
-            Declared::Buffer(at) => one(at, self.symbols.fixed_buffers).map(|at| Resource::Buffer(BufferIndex(at))),
+            DeclaredResource::Image(at) => one(at, self.symbols.fixed_images).map(|at| Resource::Image(ImageIndex(at))),
+            DeclaredResource::Buffer(at) => {
+                one(at, self.symbols.fixed_buffers).map(|at| Resource::Buffer(BufferIndex(at)))
+            }
         }
     }
 
     /// Whether a reference is an expression, or the name of something that isn't plainly an image or buffer.
-    pub(super) fn refers_by_expression(&self, leaf: Leaf<'_>, wanted: Wanted<'_>) -> bool {
+    pub(super) fn refers_by_expression(&self, leaf: Leaf<'_>, wanted: WantedTypes<'_>) -> bool {
         let Some(plain) = leaf.plain() else { return false };
         let has = |ty: Type| wanted.types.contains(&ty);
         is_expression(plain)

@@ -17,7 +17,7 @@ mod symbols;
 pub(crate) use asked::{Answers, Asked};
 pub(crate) use context::{Context, Quoted, decided};
 pub(crate) use evaluator::{Evaluator, ScopeValues, joined, within_view};
-pub(crate) use field_value::{FieldValue, FieldValueTuple, IfRead, Kept, all, combined, reported};
+pub(crate) use field_value::{FieldContents, FieldValue, FieldValueTuple, ReadableValue, all, combined, reported};
 pub(crate) use level::{DecidedValue, Elements, LevelValues, Properties};
 pub(crate) use lookup::Scope;
 pub(crate) use parameter::{Parameter, ParameterKind};

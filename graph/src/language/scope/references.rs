@@ -2,8 +2,8 @@
 
 use super::context::Context;
 use super::field_value::FieldValue;
-use crate::base::{Diagnostic, Sought};
-use crate::expression::{Expression, Type, Wanted};
+use crate::base::{Diagnostic, NameKind};
+use crate::expression::{Expression, Type, WantedTypes};
 use crate::frame::Resource;
 use crate::language::model::{BufferRef, ImageRef, ResourceRef};
 use crate::ron::{Leaf, Name};
@@ -11,7 +11,7 @@ use crate::ron::{Leaf, Name};
 impl Context<'_> {
     /// An image that is referred to.
     pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ImageRef>> {
-        self.reference(leaf, Wanted::IMAGE, "an image")?.then(|of| match of.resource {
+        self.reference(leaf, WantedTypes::IMAGE, "an image")?.then(|of| match of.resource {
             Resource::Image(index) => Some(ImageRef { index, span: of.span }),
             Resource::Buffer(_) => None,
         })
@@ -19,7 +19,7 @@ impl Context<'_> {
 
     /// A buffer that is referred to.
     pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<BufferRef>> {
-        self.reference(leaf, Wanted::BUFFER, "a buffer")?.then(|of| match of.resource {
+        self.reference(leaf, WantedTypes::BUFFER, "a buffer")?.then(|of| match of.resource {
             Resource::Buffer(index) => Some(BufferRef { index, span: of.span }),
             Resource::Image(_) => None,
         })
@@ -27,10 +27,10 @@ impl Context<'_> {
 
     /// An image or buffer that is referred to.
     pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<ResourceRef>> {
-        self.reference(leaf, Wanted::RESOURCE, "an image or buffer")
+        self.reference(leaf, WantedTypes::RESOURCE, "an image or buffer")
     }
 
-    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<FieldValue<ResourceRef>> {
+    fn reference(&mut self, leaf: Leaf<'_>, wanted: WantedTypes<'_>, what: &str) -> Option<FieldValue<ResourceRef>> {
         let span = leaf.span();
         let found = move |resource: Resource| ResourceRef { resource, span };
         if let Some(plain) = leaf.plain()
@@ -56,7 +56,7 @@ impl Context<'_> {
     }
 
     /// Reports a name of another kind, or a name that nothing has.
-    fn unknown(&mut self, name: &Name, wanted: Wanted<'_>) {
+    fn unknown(&mut self, name: &Name, wanted: WantedTypes<'_>) {
         let (image, buffer) = (wanted.types.contains(&Type::Image), wanted.types.contains(&Type::Buffer));
         let others =
             if image { (&self.scope.symbols.buffers, "a buffer") } else { (&self.scope.symbols.images, "an image") };
@@ -72,9 +72,9 @@ impl Context<'_> {
         }
         let no_buffers = self.scope.symbols.buffers.in_order().next().is_none();
         let what = match (image, buffer) {
-            (true, true) if !no_buffers => Sought::ImageOrBuffer,
-            (true, _) => Sought::Image,
-            _ => Sought::Buffer,
+            (true, true) if !no_buffers => NameKind::ImageOrBuffer,
+            (true, _) => NameKind::Image,
+            _ => NameKind::Buffer,
         };
         let images = if image { Some(self.scope.symbols.all_of(Type::Image)) } else { None };
         let buffers = if buffer { Some(self.scope.symbols.all_of(Type::Buffer)) } else { None };

@@ -3,23 +3,23 @@
 use super::outline::Outline;
 use super::words::{bytes, cause, count, held, place, samples, size};
 use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{
-    Buffer, ChosenFormat, EntryKind, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye,
+    Buffer, ChosenFormat, EntryKind, FirstContents, Image, Note, Output, Plan, Resource, Role, Totals, View, ViewEye,
 };
 use crate::vulkan::{Encoding, Format, name_of};
 
 pub(super) fn view(view: &View) -> String {
     let [width, height] = view.extent;
     let camera =
-        view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
+        view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", ShownText(it)));
     let Allowances { msaa, hdr, scale } = view.allows;
     let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
     let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
     let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
     let eye = view.eye.map_or_else(String::new, |ViewEye { eye, .. }| format!(", {} eye", eye.name()));
     let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
-    format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name))
+    format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", ShownText(&view.name))
 }
 
 fn jitter(jitter: &Jitter) -> String {
@@ -30,7 +30,7 @@ fn jitter(jitter: &Jitter) -> String {
 pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> String {
     let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
     let role = role(&buffer.role, &buffer.name, None, next);
-    format!("`{}` {}{role}{}", Shown(&buffer.name), bytes(buffer.bytes), cause(&buffer.cause))
+    format!("`{}` {}{role}{}", ShownText(&buffer.name), bytes(buffer.bytes), cause(&buffer.cause))
 }
 
 /// Where the memory of the image or buffer `name` comes from; `format`: that of an image.
@@ -43,16 +43,16 @@ fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) 
             let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
             format!(": {taken} at {offset} in heap {}, {steps}", placement.heap)
         }
-        Role::Persistent { initial: Initial::File(file), .. } => {
+        Role::Persistent { initial: FirstContents::File(file), .. } => {
             let decoded = match file.color_space {
                 ColorSpace::Srgb => "sRGB",
                 ColorSpace::Linear => "linear",
             };
-            format!(": the file `{}` ({decoded}), only read", Shown(&file.path))
+            format!(": the file `{}` ({decoded}), only read", ShownText(&file.path))
         }
-        Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
+        Role::Persistent { becomes, initial: FirstContents::Value(initial), .. } => {
             let next = next(*becomes);
-            let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
+            let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", ShownText(next)) };
             format!(
                 ": persistent, {becomes} in the next frame, at first {}",
                 held(initial, format.map(|format| (format, format.aspects())))
@@ -64,7 +64,7 @@ fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) 
 
 pub(super) fn image(plan: &Plan, image: &Image) -> String {
     let whole = image.allocated.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
-    let mut text = format!("`{}` {} {}{whole}", Shown(&image.name), image.format, size(image.extent));
+    let mut text = format!("`{}` {} {}{whole}", ShownText(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
         if count > 1 {
             text += &format!(", {count} {word}");
@@ -92,12 +92,12 @@ pub(super) fn chosen(chosen: &ChosenFormat) -> Outline {
         1.. => format!("{amount} more than"),
         ..0 => format!("{amount} fewer than"),
     };
-    Outline::detail(format!("{}: {comes_to} in {usual}", Shown(because)))
+    Outline::detail(format!("{}: {comes_to} in {usual}", ShownText(because)))
 }
 
 pub(super) fn output(plan: &Plan, output: &Output) -> String {
     let resource = output.resource;
-    let name = Shown(plan.resource_name(resource));
+    let name = ShownText(plan.resource_name(resource));
     let role = match resource {
         Resource::Image(id) => plan.images.get(id.0 as usize).map(|image| &image.role),
         Resource::Buffer(id) => plan.buffers.get(id.0 as usize).map(|buffer| &buffer.role),
@@ -107,8 +107,8 @@ pub(super) fn output(plan: &Plan, output: &Output) -> String {
     let encoded = output.encoding.map_or_else(String::new, |encoding| {
         let by = output.encoded.as_deref().unwrap_or("");
         match encoding {
-            Encoding::Srgb => format!("; sRGB, encoded {}", Shown(by)),
-            Encoding::Hdr10 => format!("; HDR10, encoded {}", Shown(by)),
+            Encoding::Srgb => format!("; sRGB, encoded {}", ShownText(by)),
+            Encoding::Hdr10 => format!("; HDR10, encoded {}", ShownText(by)),
             Encoding::Linear => "; linear light, not encoded".to_owned(),
             Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
         }
@@ -120,7 +120,7 @@ pub(super) fn output(plan: &Plan, output: &Output) -> String {
 }
 
 pub(super) fn note(note: &Note) -> String {
-    format!("{} `{}`: {}{}", name_of(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at))
+    format!("{} `{}`: {}{}", name_of(&note.stage), ShownText(&note.subject), ShownText(&note.text), place(&note.at))
 }
 
 pub(super) fn totals(totals: &Totals) -> Outline {

@@ -1,7 +1,7 @@
 //! A Plan as text for people.
 
 mod changes;
-mod decided;
+mod decisions;
 mod lists;
 mod outline;
 mod tree;

@@ -1,18 +1,18 @@
 //! The entries of a Plan in words, and its tree form: the steps in order, with inserted work at its place and why.
 
 use super::changes;
-use super::decided::Decisions;
+use super::decisions::Decisions;
 use super::lists::{self, totals};
 use super::outline::Outline;
 use super::words::{
     bound, bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of_list,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
-use crate::plan::names::Shown;
+use crate::plan::names::ShownText;
 use crate::plan::{
     About, Access, Attachment, AttachmentKind, AttachmentResolve, BufferAccess, Cause, Entry, EntryKind, Image,
-    ImageBarrier, ImageId, Item, MemoryBarrier, Moved, Pass, Plan, Queue, RenderScope, Resource, Side, Step, StepId,
-    Transfer, Wait, Work,
+    ImageBarrier, ImageId, Item, MemoryBarrier, MovedBytes, Pass, Plan, Queue, RenderScope, Resource, Side, Step,
+    StepId, Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -84,7 +84,7 @@ impl<'p> Text<'p> {
             totals.parts.extend(self.cost(&plan.steps, plan.moved()));
         }
         parts.push(totals);
-        let text = format!("Plan for {}, with {memory}", Shown(&plan.device.name));
+        let text = format!("Plan for {}, with {memory}", ShownText(&plan.device.name));
         Outline::of(EntryKind::Plan, text, parts)
     }
 
@@ -105,7 +105,7 @@ impl<'p> Text<'p> {
     pub fn line(&self, entry: Entry<'_>) -> Outline {
         let leaf = |text| (text, Vec::new());
         let (text, parts) = match entry.item {
-            Item::Setting(used) => leaf(format!("{} = {}", Shown(&used.name), Shown(&used.value))),
+            Item::Setting(used) => leaf(format!("{} = {}", ShownText(&used.name), ShownText(&used.value))),
             Item::Change(change) => leaf(changes::words(change)),
             Item::View(view) => leaf(lists::view(view)),
             Item::Step(step) => self.step(entry, step),
@@ -136,7 +136,7 @@ impl<'p> Text<'p> {
                 self.transfer(step.work.word(), transfer)
             }
             Work::Fill(fill) => {
-                let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
+                let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", ShownText(name)));
                 let value = fill_value(self.plan, fill);
                 format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
             }
@@ -161,7 +161,7 @@ impl<'p> Text<'p> {
     }
 
     /// The bytes that steps move, and those that stay on the chip.
-    fn cost(&self, steps: &[Step], sums: Moved) -> impl Iterator<Item = Outline> {
+    fn cost(&self, steps: &[Step], sums: MovedBytes) -> impl Iterator<Item = Outline> {
         moved(sums).into_iter().chain(on_chip(self.plan, steps)).map(Outline::detail)
     }
 
@@ -215,7 +215,7 @@ impl<'p> Text<'p> {
         let part = self.part(attachment.image, attachment.range);
         let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];
         let because = attachment.because.to_string();
-        format!("{used_as}: {part}, load {load}{clear}, store {store}: {}", Shown(&because))
+        format!("{used_as}: {part}, load {load}{clear}, store {store}: {}", ShownText(&because))
     }
 
     fn pass(&self, pass: &Pass) -> (String, Vec<Outline>) {
@@ -237,9 +237,9 @@ impl<'p> Text<'p> {
                 "dispatches as many groups as a buffer says".to_owned()
             }
         };
-        let mut text = format!("`{}` {work} with shader `{}`", Shown(&pass.name), Shown(&pass.shader));
+        let mut text = format!("`{}` {work} with shader `{}`", ShownText(&pass.name), ShownText(&pass.shader));
         if let Some(redraws) = &pass.redraws {
-            text += &format!(", again as `{}` does, depth only", Shown(redraws));
+            text += &format!(", again as `{}` does, depth only", ShownText(redraws));
         }
         if pass.alpha_to_coverage {
             text += ", alpha to coverage";
@@ -260,17 +260,17 @@ impl<'p> Text<'p> {
             text += &format!(", stencil {} {reference} then {}", name_of(test), name_of(pass));
         }
         if let Some(view) = pass.view.and_then(|view| self.plan.views.get(view.0 as usize)) {
-            text += &format!(", for view `{}`", Shown(&view.name));
+            text += &format!(", for view `{}`", ShownText(&view.name));
         }
         text += &cause(&pass.cause);
         let mut parts = self.about_pass(&pass.name);
         parts.extend(pass.accesses.iter().filter_map(|access| self.binding(access)));
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
         for param in &pass.params {
-            parts.push(Outline::detail(format!("{} = {}", Shown(&param.name), param.value)));
+            parts.push(Outline::detail(format!("{} = {}", ShownText(&param.name), param.value)));
         }
         if let Some(merged) = &pass.merged {
-            parts.push(Outline::detail(format!("in the scope of the pass before: {}", Shown(&merged.to_string()))));
+            parts.push(Outline::detail(format!("in the scope of the pass before: {}", ShownText(&merged.to_string()))));
         }
         (text, parts)
     }
@@ -285,7 +285,7 @@ impl<'p> Text<'p> {
         let binding = access.binding.as_ref()?;
         let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
         let part = self.part(access.image, access.range);
-        let text = format!("{} = {part}{eye}, {}", Shown(&binding.name), bound(binding));
+        let text = format!("{} = {part}{eye}, {}", ShownText(&binding.name), bound(binding));
         Some(Outline { about: Some(About::Image(access.image)), ..Outline::detail(text) })
     }
 
@@ -300,7 +300,7 @@ impl<'p> Text<'p> {
             Some(BufferRole::Indirect) => "counts",
             None => "transferred",
         };
-        let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
+        let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", ShownText(name)));
         let text = format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer)));
         Outline { about: Some(About::Buffer(access.buffer)), ..Outline::detail(text) }
     }
@@ -329,7 +329,7 @@ impl<'p> Text<'p> {
     }
 
     fn transfer(&self, word: &str, transfer: &Transfer) -> String {
-        let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", Shown(name)));
+        let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", ShownText(name)));
         let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", name_of(&filter)));
         let [from, to] = [self.side(&transfer.source), self.side(&transfer.target)];
         format!("{name}{word} {from} → {to}{filter}{}", cause(&transfer.cause))
@@ -394,8 +394,8 @@ impl<'p> Text<'p> {
         let Some((id, needing)) = needed_by.and_then(of_plan) else { return "this step".to_owned() };
         let here = step == needed_by;
         match self.plan.needing(needed_by, resource) {
-            Some(pass) if here => format!("`{}`", Shown(&pass.name)),
-            Some(pass) => format!("`{}` in step {}", Shown(&pass.name), id.0),
+            Some(pass) if here => format!("`{}`", ShownText(&pass.name)),
+            Some(pass) => format!("`{}` in step {}", ShownText(&pass.name), id.0),
             None => match needing.work.scope() {
                 Some(_) if here => "the end of the scope".to_owned(),
                 Some(_) => format!("the end of the scope of step {}", id.0),
@@ -406,7 +406,7 @@ impl<'p> Text<'p> {
     }
 
     fn resource(&self, resource: Resource) -> String {
-        format!("`{}`", Shown(self.plan.resource_name(resource)))
+        format!("`{}`", ShownText(self.plan.resource_name(resource)))
     }
 
     /// An image, with its part if that isn't all of it.

@@ -5,8 +5,8 @@ pub(super) use crate::base::amount::bytes;
 use crate::base::Place;
 use crate::base::amount::largest;
 use crate::frame::DrawList;
-use crate::plan::names::Shown;
-use crate::plan::{Binding, BindingKind, Cause, Fill, Hazard, ImageId, Moved, Plan, Side, Step, StepId};
+use crate::plan::names::ShownText;
+use crate::plan::{Binding, BindingKind, Cause, Fill, Hazard, ImageId, MovedBytes, Plan, Side, Step, StepId};
 use crate::vulkan::{AddressMode, Aspects, FillValue, Filter, Format, Numeric, Sampler, name_of};
 use std::collections::BTreeMap;
 
@@ -105,8 +105,8 @@ pub(super) fn samples(samples: u32) -> String {
 }
 
 /// The bytes that are moved, if there are any.
-pub(super) fn moved(moved: Moved) -> Option<String> {
-    let Moved { loaded, stored, resolved, copied } = moved;
+pub(super) fn moved(moved: MovedBytes) -> Option<String> {
+    let MovedBytes { loaded, stored, resolved, copied } = moved;
     let shares = [("loaded", loaded), ("stored", stored), ("resolved", resolved), ("copied", copied)];
     let shares = shares.iter().filter(|(_, amount)| *amount > 0);
     let shares: Vec<String> = shares.map(|(word, amount)| format!("{} {word}", bytes(*amount))).collect();
@@ -121,7 +121,7 @@ pub(super) fn on_chip(plan: &Plan, steps: &[Step]) -> Option<String> {
         *sum = sum.saturating_add(amount);
     }
     let sum = images.values().copied().fold(0, u64::saturating_add);
-    let names = images.iter().map(|(image, amount)| (Shown(&plan.image(*image).name).to_string(), *amount));
+    let names = images.iter().map(|(image, amount)| (ShownText(&plan.image(*image).name).to_string(), *amount));
     let names: Vec<(String, u64)> = names.collect();
     let largest = largest(names.iter().map(|(name, amount)| (&**name, *amount)).collect());
     (!images.is_empty()).then(|| format!("keeps {} on the chip, neither loaded nor stored: {largest}", bytes(sum)))
@@ -136,10 +136,10 @@ pub(crate) fn size([width, height, depth]: [u32; 3]) -> String {
 pub(super) fn cause(cause: &Cause) -> String {
     match cause {
         Cause::Written(at) => place(at),
-        Cause::Inserted(why) => format!(": {}{}", Shown(&why.because), place(&why.at)),
+        Cause::Inserted(why) => format!(": {}{}", ShownText(&why.because), place(&why.at)),
     }
 }
 
 pub(super) fn place(at: &Option<Place>) -> String {
-    at.as_ref().map_or_else(String::new, |place| format!(" ({}:{})", Shown(&place.file), place.line))
+    at.as_ref().map_or_else(String::new, |place| format!(" ({}:{})", ShownText(&place.file), place.line))
 }

@@ -2,10 +2,10 @@
 
 use crate::expression::world::{ANY, World};
 use framewright_graph::base::{Sources, Span, render};
-use framewright_graph::expression::{Expression, Parsed, Wanted};
+use framewright_graph::expression::{Expression, ParsedExpression, WantedTypes};
 
 /// Pins the answers to several expressions as one text.
-fn pinned(name: &str, mistakes: &[(&str, Wanted<'_>)]) {
+fn pinned(name: &str, mistakes: &[(&str, WantedTypes<'_>)]) {
     let world = World::new();
     let answers: Vec<String> = mistakes.iter().map(|(text, wanted)| world.answer(text, *wanted)).collect();
     for (answer, (text, _)) in answers.iter().zip(mistakes) {
@@ -18,7 +18,7 @@ fn pinned(name: &str, mistakes: &[(&str, Wanted<'_>)]) {
 }
 
 /// Mistakes in places that want any type.
-fn any<'t>(texts: &[&'t str]) -> Vec<(&'t str, Wanted<'static>)> {
+fn any<'t>(texts: &[&'t str]) -> Vec<(&'t str, WantedTypes<'static>)> {
     texts.iter().map(|text| (*text, ANY)).collect()
 }
 
@@ -120,15 +120,15 @@ fn types_that_do_not_fit() {
         "(levels == 1) + 1",
     ]);
     mistakes.extend([
-        ("levels / 2", Wanted::INTEGER),
-        ("radius", Wanted::INTEGER),
-        ("true", Wanted::INTEGER),
-        ("levels", Wanted::BOOL),
-        ("'source'", Wanted::IMAGE),
-        ("scene.has_opaque", Wanted::NUMBER),
-        ("R8_UNORM", Wanted::RESOURCE),
-        ("lights", Wanted::IMAGE),
-        ("quality", Wanted::PARAMETER),
+        ("levels / 2", WantedTypes::INTEGER),
+        ("radius", WantedTypes::INTEGER),
+        ("true", WantedTypes::INTEGER),
+        ("levels", WantedTypes::BOOL),
+        ("'source'", WantedTypes::IMAGE),
+        ("scene.has_opaque", WantedTypes::NUMBER),
+        ("R8_UNORM", WantedTypes::RESOURCE),
+        ("lights", WantedTypes::IMAGE),
+        ("quality", WantedTypes::PARAMETER),
     ]);
     pinned("types_that_do_not_fit", &mistakes);
 }
@@ -180,7 +180,7 @@ fn a_text_with_escapes_is_underlined_whole() {
     sources.add("p.ron", "p.ron", file);
     let errors = Expression::new("levels == hdr", span, &World::new(), ANY).expect_err("types differ");
     assert_eq!(errors[0].labels[0].span, span);
-    let mistake = Parsed::new("levels =", span).expect_err("no expression");
+    let mistake = ParsedExpression::new("levels =", span).expect_err("no expression");
     assert_eq!(mistake.labels[0].span, span);
     assert!(render(&sources, &[mistake]).contains(r"^^^^^^^^^^^^^^^^^^"));
 }

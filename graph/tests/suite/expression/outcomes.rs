@@ -2,7 +2,7 @@
 
 use crate::expression::world::{ANY, World};
 use framewright_graph::base::Span;
-use framewright_graph::expression::{Decision, Expression, Parsed, Type, Value, Wanted};
+use framewright_graph::expression::{Decision, Expression, ParsedExpression, Type, Value, WantedTypes};
 
 fn decided(text: &str) -> String {
     let outcome = World::new().outcome(text);
@@ -83,7 +83,8 @@ fn only_conditions_fail() {
 #[test]
 fn the_part_that_failed_has_its_place() {
     let world = World::new();
-    let expression = Expression::new("hdr && (bloom)", Span::new(4, 100, 114), &world, Wanted::BOOL).expect("right");
+    let expression =
+        Expression::new("hdr && (bloom)", Span::new(4, 100, 114), &world, WantedTypes::BOOL).expect("right");
     let failed = expression.evaluate(&world).expect("a value").failed.expect("it fails");
     assert_eq!(failed.span, Span::new(4, 108, 113));
     assert_eq!((expression.text(), expression.span()), ("hdr && (bloom)", Span::new(4, 100, 114)));
@@ -92,7 +93,7 @@ fn the_part_that_failed_has_its_place() {
 #[test]
 fn names_are_told_once_with_their_first_places_before_and_after_they_are_known() {
     let text = "if(hdr, down[i], down[i - 1]) == unheard.of";
-    let parsed = Parsed::new(text, Span::new(0, 50, 93)).expect("it parses");
+    let parsed = ParsedExpression::new(text, Span::new(0, 50, 93)).expect("it parses");
     let names: Vec<(&str, u32)> = parsed.names().map(|(name, span)| (name, span.start - 50)).collect();
     assert_eq!(names, [("hdr", 3), ("down", 8), ("i", 13), ("unheard.of", 33)]);
     let expression = Expression::new("R8_UNORM == R16_SFLOAT || hdr", Span::NONE, &World::new(), ANY).expect("right");

@@ -2,7 +2,7 @@
 
 use crate::expression::world::{ANY, World};
 use framewright_graph::base::{Sources, Span, render};
-use framewright_graph::expression::{Expression, Parsed, Type, Value};
+use framewright_graph::expression::{Expression, ParsedExpression, Type, Value};
 use proptest::prelude::*;
 
 /// An expression as a tree.
@@ -409,7 +409,7 @@ fn goes_through(text: &str) {
             assert!(shown.starts_with("error: ") && shown.chars().all(|c| c == '\n' || !c.is_control()), "{shown:?}");
         }
     }
-    if let Ok(parsed) = Parsed::new(text, span) {
+    if let Ok(parsed) = ParsedExpression::new(text, span) {
         for (name, place) in parsed.names() {
             assert_eq!(&text[place.start as usize - 1..place.end as usize - 1], name);
         }

@@ -2,12 +2,13 @@
 
 use framewright_graph::base::{self, Sources, Span};
 use framewright_graph::expression::{
-    Decision, Declarations, Expression, Found, Missing, Origin, Outcome, Property, Symbol, Type, Value, Values, Wanted,
+    Decision, Declarations, Expression, MissingValue, NameMeaning, Origin, Outcome, Property, Symbol, Type, Value,
+    Values, WantedTypes,
 };
 use framewright_graph::frame::{BufferIndex, ImageIndex};
 
 /// Any type does.
-pub(crate) const ANY: Wanted<'static> = Wanted {
+pub(crate) const ANY: WantedTypes<'static> = WantedTypes {
     types: &[Type::Bool, Type::Integer, Type::Number, Type::Text, Type::Format, Type::Image, Type::Buffer],
     words: "a value",
 };
@@ -85,7 +86,7 @@ impl World {
     }
 
     /// The answer to `text`, which is wrong or has no value.
-    pub(crate) fn answer(&self, text: &str, wanted: Wanted<'_>) -> String {
+    pub(crate) fn answer(&self, text: &str, wanted: WantedTypes<'_>) -> String {
         let place = Placed::new(text, self);
         match place.read(text, self, wanted).and_then(|expression| expression.evaluate(self)) {
             Ok(outcome) => panic!("{text} is {}", outcome.value),
@@ -133,17 +134,17 @@ impl Placed {
         Placed { sources, span: Span::new(0, start, end) }
     }
 
-    fn read(&self, text: &str, world: &World, wanted: Wanted<'_>) -> Result<Expression, Vec<base::Diagnostic>> {
+    fn read(&self, text: &str, world: &World, wanted: WantedTypes<'_>) -> Result<Expression, Vec<base::Diagnostic>> {
         Expression::new(text, self.span, world, wanted)
     }
 }
 
 impl Declarations for World {
-    fn find(&self, name: &str) -> Found {
+    fn find(&self, name: &str) -> NameMeaning {
         match self.entries.iter().position(|entry| entry.name == name) {
-            Some(at) => Found::Symbol(self.symbol(at)),
-            None if self.broken.contains(&name) => Found::Reported,
-            None => Found::Unknown,
+            Some(at) => NameMeaning::Symbol(self.symbol(at)),
+            None if self.broken.contains(&name) => NameMeaning::Reported,
+            None => NameMeaning::Unknown,
         }
     }
 
@@ -157,23 +158,23 @@ impl Declarations for World {
 }
 
 impl Values for World {
-    fn value(&self, id: u32) -> Result<Value, Missing> {
+    fn value(&self, id: u32) -> Result<Value, MissingValue> {
         Ok(self.entries[id as usize].values[0].clone())
     }
 
-    fn length(&self, id: u32) -> Result<u64, Missing> {
+    fn length(&self, id: u32) -> Result<u64, MissingValue> {
         Ok(self.entries[id as usize].values.len() as u64)
     }
 
-    fn element(&self, id: u32, at: u64) -> Result<Value, Missing> {
+    fn element(&self, id: u32, at: u64) -> Result<Value, MissingValue> {
         Ok(self.entries[id as usize].values[usize::try_from(at).expect("few")].clone())
     }
 
     /// Images are half as wide as the one before and a quarter as high; number 7 was reported, number 9 stands below.
-    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
+    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, MissingValue> {
         Ok(match (image.0, property) {
-            (7, _) => return Err(Missing::Reported),
-            (9, _) => return Err(Missing::Below(declaration("later", &self.file()))),
+            (7, _) => return Err(MissingValue::Reported),
+            (9, _) => return Err(MissingValue::Below(declaration("later", &self.file()))),
             (at, Property::Width) => 1920 >> at,
             (at, Property::Height) => 1024 >> (2 * at),
             (at, Property::Mips) => i64::from(at) + 1,

@@ -5,10 +5,10 @@ use crate::testing::plans::shipped;
 use crate::testing::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Stereo, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::language::{self, Files, FoundFile, ReadFailure};
 use framewright_graph::vulkan::Rotation;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -43,9 +43,9 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
 struct Folder;
 
 impl Files for Folder {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         let bytes = std::fs::read(folder().join(path)).map_err(|_| format!("there is no file `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes })
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
@@ -81,7 +81,7 @@ pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Di
     let sources = Arc::new(sources);
     let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
     let plan = frame.and_then(|frame| match device {
-        Some(device) => compile(&frame, &device, &mut Estimated(&device), &Options::default()).map(drop),
+        Some(device) => compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).map(drop),
         None => Ok(()),
     });
     (sources, plan.err().unwrap_or_default())

@@ -3,7 +3,7 @@
 use crate::testing::pipelines::{INPUTS, frame};
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::Inputs;
-use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::language::{self, Files, FoundFile, ReadFailure};
 use std::fmt::Write as _;
 
 /// The first lines of what is said about a file, and how much memory reading it took at most, in bytes.
@@ -109,12 +109,12 @@ fn ten_thousand_brackets_in_an_expression_are_too_many() {
 struct Endless(usize);
 
 impl Files for Endless {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         self.0 += 1;
         let at: usize = path.trim_end_matches(".ron").parse().map_err(|_| format!("what is `{path}`?"))?;
         let text =
             format!("Fragments(version: 1, include: [\"{}.ron\", \"{}.ron\"], fragments: [])", at + 1, at + 1000);
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.into_bytes() })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes: text.into_bytes() })
     }
 }
 
@@ -148,10 +148,10 @@ fn a_hundred_thousand_passes_are_put_in_in_bounded_memory() {
 struct Counted(u32);
 
 impl Files for Counted {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         self.0 += 1;
         let bytes = b"Fragments(version: 1, fragments: [])".to_vec();
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes })
     }
 }
 

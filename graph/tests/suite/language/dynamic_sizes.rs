@@ -4,7 +4,7 @@ use crate::testing::pipelines::{INPUTS, right, set};
 use crate::testing::plans::{on, shipped};
 use framewright_graph::base::render;
 use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Work};
@@ -63,7 +63,7 @@ fn whatever_part_is_in_use_a_plan_differs_in_values_alone_and_takes_the_same_mem
         assert_eq!(first.differs_beyond_values(&plan), None, "{scale}");
         assert_eq!(first.heaps, plan.heaps, "{scale}");
         let device = device();
-        let followed = compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        let followed = compiler.compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default());
         assert_eq!(followed.expect("it compiles"), &plan, "{scale}");
         let extents: Vec<_> = plan
             .steps
@@ -138,7 +138,7 @@ fn other_rooms_samples_or_passes_are_more_than_values() {
 fn what_changes_its_size_neither_leaves_the_frame_nor_is_stored_into() {
     let frame = frame("1", "\"toned\",");
     let device = device();
-    let errors = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect_err("it can't be");
+    let errors = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect_err("it can't be");
     let said = render(&frame.sources, &errors);
     assert!(said.contains("`toned` can't leave the frame: its size may change from frame to frame"), "{said}");
     assert!(said.contains("scale it into an image of a fixed size"), "{said}");

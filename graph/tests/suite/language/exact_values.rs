@@ -4,7 +4,7 @@
 use crate::testing::pipelines::{INPUTS, frame, right, set, wrong};
 use crate::testing::plans::shipped;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Lifetime, Work};
 use framewright_graph::plan::{Plan, Work as PlanWork};
@@ -148,7 +148,7 @@ fn a_setting_or_an_expression_clears_to_the_very_integer() {
 fn plan(format: Format, value: [f64; 4]) -> Plan {
     let text = text(format, &ron(value)).replace("outputs: [\"screen\"]", "outputs: [\"screen\", \"a\", \"b\", \"c\"]");
     let device = shipped("lavapipe");
-    let plan = compile(&right(&text, &INPUTS), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&right(&text, &INPUTS), &device, &mut MemoryEstimate(&device), &Options::default());
     plan.unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
@@ -240,8 +240,8 @@ fn a_fill_of_one_plane_takes_the_number_for_that_plane() {
 fn the_checker_refuses_a_depth_beyond_0_to_1() {
     let device = shipped("lavapipe");
     let text = planes("");
-    let plan =
-        compile(&right(&text, &INPUTS), &device, &mut Estimated(&device), &Options::default()).expect("it is valid");
+    let plan = compile(&right(&text, &INPUTS), &device, &mut MemoryEstimate(&device), &Options::default())
+        .expect("it is valid");
     for (depth, right) in [(0.0, true), (1.0, true), (-0.25, false), (1.5, false), (f32::NAN, false)] {
         let mut plan = plan.clone();
         let fills = plan.steps.iter_mut().filter_map(|step| match &mut step.work {

@@ -6,8 +6,8 @@ use crate::testing::table::Table;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::Frame;
-use framewright_graph::frame::change::{Action, Kind, Where};
-use framewright_graph::language::{self, Document, Files, Found, Unread};
+use framewright_graph::frame::change::{Action, InsertPlace, Kind};
+use framewright_graph::language::{self, Document, Files, FoundFile, ReadFailure};
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
 
@@ -34,9 +34,9 @@ const BASE: &str = r#"Pipeline(
 struct Shelf(Vec<(&'static str, String)>);
 
 impl Files for Shelf {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         let (_, text) = self.0.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
     }
 }
 
@@ -47,7 +47,7 @@ fn extending(more: &str) -> String {
 
 fn document(text: &str, files: &[(&'static str, &str)], applied: &[&str]) -> (Document, Arc<Sources>) {
     let shelf = files.iter().chain(&[("base.ron", BASE)]).map(|(name, text)| (*name, (*text).to_owned()));
-    let found = |name: &str, text: &str| Found {
+    let found = |name: &str, text: &str| FoundFile {
         shown: name.to_owned(),
         relative: name.into(),
         bytes: text.as_bytes().to_vec(),
@@ -162,7 +162,7 @@ fn a_word_that_is_wrong_in_the_base_stays_wrong_where_the_entry_is_changed() {
     let base = BASE.replace(r#"(name: "sky", draw"#, r#"Layer(name: "sky", draw"#);
     let changes = extending(r#"changes: [Set(pass: "sky", to: (side_effect: true))]"#);
     for text in [extending(""), changes] {
-        let own = Found { shown: "test.ron".to_owned(), relative: "test.ron".into(), bytes: text.into_bytes() };
+        let own = FoundFile { shown: "test.ron".to_owned(), relative: "test.ron".into(), bytes: text.into_bytes() };
         let mut sources = Sources::default();
         let mut shelf = Shelf(vec![("base.ron", base.clone())]);
         let errors = language::read_extended(&mut sources, &mut shelf, own, Vec::new());
@@ -270,7 +270,10 @@ fn a_plan_tells_what_files_did_and_where() {
         panic!("{actions:#?}")
     };
     assert_eq!(&**file, "b.ron");
-    assert!(matches!(rest[2], Action::Insert { place: Where::Before(name), .. } if &**name == "shrink"), "{rest:#?}");
+    assert!(
+        matches!(rest[2], Action::Insert { place: InsertPlace::Before(name), .. } if &**name == "shrink"),
+        "{rest:#?}"
+    );
     let plan = plan(&frame);
     let tree = plan.tree();
     let (_, after) = tree.split_once("├─ changes\n").expect("a branch");

@@ -5,7 +5,7 @@ use crate::testing::table::Table;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};
-use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::language::{self, Files, FoundFile, ReadFailure};
 use framewright_graph::vulkan::Format;
 use std::sync::Arc;
 
@@ -196,10 +196,10 @@ struct Shelf {
 }
 
 impl Files for Shelf {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         self.read.push(format!("{from} -> {path}"));
         let (_, text) = self.files.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
     }
 }
 

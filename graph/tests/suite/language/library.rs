@@ -4,7 +4,7 @@ use crate::testing::pipelines::INPUTS;
 use crate::testing::table::Table;
 use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, ParamValue};
 use framewright_graph::language::{self, PipelineFiles};
@@ -29,7 +29,7 @@ fn frame(extent: [u32; 2], include: &str, uses: &str) -> Frame {
     let frame = frame.unwrap_or_else(|wrong| panic!("{}", base::render(&sources, &wrong)));
     for (name, text) in SHIPPED_PROFILES {
         let device = Profile::from_ron(text).expect("shipped profiles are read");
-        let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default());
         let plan = plan.unwrap_or_else(|wrong| panic!("{extent:?} on {name}: {wrong:?}"));
         assert_eq!(verify(&plan), [], "{extent:?} on {name}");
     }

@@ -2,7 +2,7 @@
 //! changes, it would take many minutes.
 
 use framewright_graph::base::{Diagnostic, FilePath, Sources};
-use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::language::{self, Files, FoundFile, ReadFailure};
 
 /// A large number of changes, or of other things.
 const MANY: usize = 100_000;
@@ -17,8 +17,8 @@ const MOST_KEPT: usize = 256;
 struct Base(String);
 
 impl Files for Base {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone().into_bytes() })
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone().into_bytes() })
     }
 }
 

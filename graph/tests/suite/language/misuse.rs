@@ -4,7 +4,7 @@ use crate::language::{bad, choices};
 use crate::reference::catalogue::{self, called};
 use framewright_graph::base::{Diagnostic, Sources, Span};
 use framewright_graph::language::FILES;
-use framewright_graph::ron::{Form, Leaf, Shape, Table, Takes, Tree};
+use framewright_graph::ron::{Form, Leaf, Shape, Table, Tree, WordContents};
 use std::collections::BTreeSet;
 
 /// Fields and words of files, with where they stand.
@@ -31,8 +31,8 @@ impl Seen {
                     self.0.push((format!("{} {word}", words.name), leaf.span()));
                     for takes in words.find(word).into_iter().flat_map(|word| word.takes) {
                         match (takes, rest) {
-                            (Takes::Values(forms), Some(rest)) => self.each(rest, forms),
-                            (Takes::Fields(table), Some(rest)) => self.table(rest, &table()),
+                            (WordContents::Values(forms), Some(rest)) => self.each(rest, forms),
+                            (WordContents::Fields(table), Some(rest)) => self.table(rest, &table()),
                             _ => {}
                         }
                     }

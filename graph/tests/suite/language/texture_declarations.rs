@@ -3,7 +3,7 @@
 use crate::testing::pipelines::{INPUTS, frame, right, set};
 use crate::testing::plans::{on, shipped};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Work};
@@ -108,7 +108,7 @@ fn a_shader_that_adapts_does_without_the_samples_that_a_device_lacks() {
     let plan = planned(SAMPLED, &INPUTS, &device);
     assert_eq!(in_plan(&plan).as_deref(), Some("sampler2D"));
     let fixed = SAMPLED.replace("any_texture", "custom_resolve");
-    let wrong = compile(&right(&fixed, &INPUTS), &device, &mut Estimated(&device), &Options::default());
+    let wrong = compile(&right(&fixed, &INPUTS), &device, &mut MemoryEstimate(&device), &Options::default());
     let help = wrong.err().and_then(|wrong| wrong[0].help.clone()).expect("a shader that doesn't adapt is refused");
     assert!(help.contains("declare it `TEXTURE_source source`"), "{help}");
 }

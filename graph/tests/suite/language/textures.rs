@@ -5,7 +5,7 @@ use crate::testing::table::Table;
 use framewright_graph::base::{FilePath, Sources};
 use framewright_graph::expand::expand;
 use framewright_graph::frame::{ColorSpace, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::language::{self, Files, FoundFile, ReadFailure};
 use framewright_graph::vulkan::{Format, Shape};
 use std::sync::Arc;
 
@@ -78,11 +78,11 @@ fn passes_sample_a_texture_before_anything_is_drawn() {
 struct Shelf;
 
 impl Files for Shelf {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         let text = r#"Fragments(version: 1, fragments: [(name: "film", parameters: [(name: "target", value: Image)],
             textures: [(name: "grain", file: "grain.png", color_space: Linear)],
             passes: [(name: "draw", draw: FullScreen("downsample"), sample: {"source": "grain"}, color: ["target"])])])"#;
-        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.as_bytes().to_vec() })
+        Ok(FoundFile { shown: path.to_owned(), relative: path.into(), bytes: text.as_bytes().to_vec() })
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
@@ -105,7 +105,7 @@ fn a_fragment_brings_its_textures_which_lie_beside_the_file_that_it_stands_in() 
 struct Counted(u32);
 
 impl Files for Counted {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         Err(format!("no `{path}`").into())
     }
 

@@ -3,7 +3,7 @@
 use crate::testing::pipelines::{INPUTS, right, set, wrong};
 use crate::testing::plans::shipped;
 use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Allowances, Frame, Image, Jitter, Pass, ViewIndex};
 use std::sync::Arc;
@@ -180,7 +180,7 @@ fn a_compiler_that_remembers_the_last_frame_takes_over_how_views_are_shifted() {
     for jitter in ["4", "8", "8, jitter_size: Scaled(0.5)", "2"] {
         let frame = Arc::new(right(&pipeline(&format!("size: Fixed(320, 200), jitter: {jitter}"), "", ""), &INPUTS));
         // Spans differ with the texts; what is compiled anew is the judge.
-        let [mut estimated, mut anew] = [Estimated(&device), Estimated(&device)];
+        let [mut estimated, mut anew] = [MemoryEstimate(&device), MemoryEstimate(&device)];
         let followed = compiler.compile(&frame, &device, &mut estimated, &Options::default()).expect("it compiles");
         assert_eq!(
             followed,
@@ -194,7 +194,7 @@ fn a_compiler_that_remembers_the_last_frame_takes_over_how_views_are_shifted() {
     };
     for share in ["0.25", "0.5", "1"] {
         let frame = by_setting(share);
-        let [mut estimated, mut anew] = [Estimated(&device), Estimated(&device)];
+        let [mut estimated, mut anew] = [MemoryEstimate(&device), MemoryEstimate(&device)];
         let followed = compiler.compile(&frame, &device, &mut estimated, &Options::default()).expect("it compiles");
         assert_eq!(
             followed,

@@ -1,7 +1,7 @@
 //! Everything that the readers' tables name, found from the three kinds of files on.
 
 use framewright_graph::language::FILES;
-use framewright_graph::ron::{Form, Table, Takes, Words};
+use framewright_graph::ron::{Form, Table, WordContents, Words};
 use std::collections::BTreeMap;
 
 /// Tables, words and choices by name.
@@ -68,9 +68,9 @@ impl Catalogue {
                 words.or.iter().for_each(|or| self.form(or));
                 for takes in words.all.iter().flat_map(|word| word.takes) {
                     match takes {
-                        Takes::Nothing => {}
-                        Takes::Values(values) => values.iter().for_each(|value| self.form(value)),
-                        Takes::Fields(table) => self.table(table(), true),
+                        WordContents::Nothing => {}
+                        WordContents::Values(values) => values.iter().for_each(|value| self.form(value)),
+                        WordContents::Fields(table) => self.table(table(), true),
                     }
                 }
             }

@@ -177,7 +177,7 @@ fn right(what: &str, text: &str) {
 struct Based(Vec<u8>);
 
 impl language::Files for Based {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::Found, language::Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::FoundFile, language::ReadFailure> {
         let second = "(name: \"second\", draw: FullScreen(\"plain\"), color: [\"screen\"])";
         let base = with("passes", second).into_bytes();
         let bytes = match path {
@@ -185,7 +185,7 @@ impl language::Files for Based {
             "forward.ron" => include_bytes!("../../../../examples/pipelines/forward.ron").to_vec(),
             _ => self.0.clone(),
         };
-        Ok(language::Found { shown: path.to_owned(), relative: path.into(), bytes })
+        Ok(language::FoundFile { shown: path.to_owned(), relative: path.into(), bytes })
     }
 }
 
@@ -193,8 +193,8 @@ impl language::Files for Based {
 struct One(Vec<u8>);
 
 impl language::Files for One {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::Found, language::Unread> {
-        Ok(language::Found { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone() })
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::FoundFile, language::ReadFailure> {
+        Ok(language::FoundFile { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone() })
     }
 }
 

@@ -4,7 +4,7 @@ use crate::reference::catalogue::{self, Catalogue, called};
 use crate::reference::takes::{MOST_INLINE, Places, besides, takes};
 use framewright_graph::expression::functions;
 use framewright_graph::language::{goes_with, names_of};
-use framewright_graph::ron::{Row, Table, Takes, Words};
+use framewright_graph::ron::{Row, Table, WordContents, Words};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -130,8 +130,10 @@ fn words(words: &Words, places: &Places) -> String {
     let besides = besides(words, places).into_iter().map(|or| [or, String::new()]);
     let each = words.all.iter().map(|word| {
         let written: Vec<String> = word.written().map(code).collect();
-        let inner =
-            word.takes.iter().filter_map(|takes| if let Takes::Fields(table) = takes { Some(table()) } else { None });
+        let inner = word
+            .takes
+            .iter()
+            .filter_map(|takes| if let WordContents::Fields(table) = takes { Some(table()) } else { None });
         let inner = inner.filter(|table| !places.contains_key(called(table)));
         let mut about = word.about.to_owned();
         for row in inner.flat_map(|table| table.rows) {

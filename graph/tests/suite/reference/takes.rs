@@ -1,7 +1,7 @@
 //! Values that a place takes, in a few words with links.
 
 use crate::reference::catalogue::called;
-use framewright_graph::ron::{Form, Plain, Words};
+use framewright_graph::ron::{Form, PlainForm, Words};
 use std::collections::BTreeMap;
 
 /// Choices of more words than this have a list of their own.
@@ -14,11 +14,11 @@ pub(crate) type Places = BTreeMap<String, String>;
 pub(crate) fn takes(form: &Form, places: &Places) -> String {
     match form {
         Form::Anything => "anything".to_owned(),
-        Form::Plain(Plain::Truth) | Form::Truth => "`true` or `false`".to_owned(),
-        Form::Plain(Plain::Whole) => "a whole number".to_owned(),
-        Form::Plain(Plain::Number) | Form::Number => "a number".to_owned(),
-        Form::Plain(Plain::Text) => "a text".to_owned(),
-        Form::Plain(Plain::Name | Plain::Outside) => "a name".to_owned(),
+        Form::Plain(PlainForm::Truth) | Form::Truth => "`true` or `false`".to_owned(),
+        Form::Plain(PlainForm::Whole) => "a whole number".to_owned(),
+        Form::Plain(PlainForm::Number) | Form::Number => "a number".to_owned(),
+        Form::Plain(PlainForm::Text) => "a text".to_owned(),
+        Form::Plain(PlainForm::Name | PlainForm::Outside) => "a name".to_owned(),
         Form::Whole(least, most) => format!("a whole number, {} to {}", digits(*least), digits(*most)),
         Form::Listed(numbers) => any_of(numbers.iter().map(ToString::to_string).collect()),
         Form::Expression("a condition") => "a [condition](#expressions)".to_owned(),

@@ -2,7 +2,7 @@
 
 pub(crate) use super::parts::device;
 use super::parts::stored;
-use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Work};
+use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage, Work};
 use framewright_graph::vulkan::{Format, Stages};
 use std::sync::Arc;
 
@@ -28,7 +28,10 @@ impl Builder {
         let target = self.stored.get_or_insert_with(|| "target".into()).clone();
         let work = Work::Dispatch { shader: source.clone(), groups: Groups::Invocations([256, 256, 1]) };
         self.frame.passes.push(Pass {
-            sampled: reads.iter().map(|image| Sampled::new(source.clone(), *image, Stages::COMPUTE_SHADER)).collect(),
+            sampled: reads
+                .iter()
+                .map(|image| SampledImage::new(source.clone(), *image, Stages::COMPUTE_SHADER))
+                .collect(),
             storage: writes.iter().map(|(image, read)| stored(target.clone(), *image, *read)).collect(),
             ..Pass::new(name, work)
         });

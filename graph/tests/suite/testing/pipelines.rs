@@ -4,7 +4,7 @@ use super::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Facts, Files, Found, NoFiles, Unread};
+use framewright_graph::language::{self, Facts, Files, FoundFile, NoFiles, ReadFailure};
 use framewright_graph::vulkan::{Format, Rotation};
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ impl Pictures {
 }
 
 impl Files for Pictures {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
         NoFiles.read(from, path)
     }
 

@@ -3,14 +3,14 @@
 use super::parts::device;
 use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{MemoryEstimate, Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Image, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
 
 /// The Plan of a frame, in which the checker finds nothing; or what is wrong with the frame.
 pub(crate) fn planned(frame: &Frame, device: &Profile, options: &Options) -> Result<Plan, Vec<Diagnostic>> {
-    let plan = compile(frame, device, &mut Estimated(device), options)?;
+    let plan = compile(frame, device, &mut MemoryEstimate(device), options)?;
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     Ok(plan)
 }

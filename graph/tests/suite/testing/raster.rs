@@ -3,7 +3,7 @@
 pub(crate) use super::parts::device;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, SampledImage, Work,
 };
 use framewright_graph::vulkan::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::vulkan::{CompareOp, Filter, Rotation, Sampler, Stages, Subresources};
@@ -132,8 +132,8 @@ impl Added<'_> {
     }
 
     fn sampled(self, image: ImageIndex, face: Face, filter: Filter) -> Self {
-        let sampled = Sampled::new(format!("source{}", self.0.sampled.len()), image, Stages::FRAGMENT_SHADER);
-        self.0.sampled.push(Sampled { face, sampler: Sampler::new(filter), ..sampled });
+        let sampled = SampledImage::new(format!("source{}", self.0.sampled.len()), image, Stages::FRAGMENT_SHADER);
+        self.0.sampled.push(SampledImage { face, sampler: Sampler::new(filter), ..sampled });
         self
     }
 }

@@ -4,7 +4,8 @@ use framewright_graph::base::Quote;
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
-    ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Unset, Variant, VertexInput,
+    ShaderMessage, ShaderProblem, SuppliedKind, SuppliedResource, UnbindableResource, UnsetOutput, Variant,
+    VertexInput,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
@@ -66,10 +67,10 @@ fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
 }
 
 /// The first output, perhaps not set on some path, or surely.
-fn unset(refused: bool) -> Unset {
+fn unset(refused: bool) -> UnsetOutput {
     let what = if refused { "never sets `color_0`" } else { "doesn't set `color_0` on every path" };
     let place = Some("unset.frag:3".to_owned());
-    Unset { location: Some(0), name: "color_0".to_owned(), what: what.to_owned(), refused, place }
+    UnsetOutput { location: Some(0), name: "color_0".to_owned(), what: what.to_owned(), refused, place }
 }
 
 /// The names of the sampled images among `bindings`.
@@ -505,7 +506,7 @@ impl ShaderInterfaces for Table {
             }
             "comparing" => full_screen(vec![
                 Binding {
-                    kind: BindingKind::Other(Unbindable {
+                    kind: BindingKind::Other(UnbindableResource {
                         what: "a sampler that compares depth".to_owned(),
                         instead: "sample the depth by a `sampler2D`, and compare it in the shader".to_owned(),
                         place: Some("shaders/comparing.frag:2".to_owned()),
@@ -533,7 +534,7 @@ impl ShaderInterfaces for Table {
     }
 
     fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
-        let supplied = |set, binding, name, kind| Supplied::new(set, binding, name, kind);
+        let supplied = |set, binding, name, kind| SuppliedResource::new(set, binding, name, kind);
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {

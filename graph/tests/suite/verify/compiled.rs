@@ -6,7 +6,7 @@ use crate::testing::raster::{self, Raster, forward};
 use crate::verify::accepts::accept;
 use crate::verify::mutations::without_a_barrier;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::{Loss, Rule, Violation, verify};
@@ -20,7 +20,7 @@ fn options() -> [Options; 5] {
 }
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(device), options).expect("the frame is valid")
+    compile(frame, device, &mut MemoryEstimate(device), options).expect("the frame is valid")
 }
 
 /// Two versions of a multisampled image, each read by others; two outputs.

@@ -3,7 +3,7 @@
 use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{
     Blend, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
 };
@@ -37,7 +37,7 @@ fn plan(stereo: Stereo, form: EyeForm) -> Plan {
     let transfers = vec![used(screen, false), used(kept, true)];
     frame.passes.push(Pass { transfers, ..Pass::new("keep", Described::Copy) });
     let device = raster::device();
-    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is valid");
+    let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect("the frame is valid");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }

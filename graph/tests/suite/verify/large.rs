@@ -3,7 +3,7 @@
 use crate::testing::graphs;
 use crate::testing::hand_written_plans;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::verify::verify;
 
@@ -11,7 +11,7 @@ use framewright_graph::verify::verify;
 #[test]
 fn a_hundred_thousand_passes_are_checked_on_a_small_stack() {
     let device = graphs::device();
-    let plan = compile(&graphs::chain(100_000), &device, &mut Estimated(&device), &Options::default());
+    let plan = compile(&graphs::chain(100_000), &device, &mut MemoryEstimate(&device), &Options::default());
     let mut plan = plan.expect("a chain is valid");
     let check = |plan: &Plan| {
         std::thread::scope(|scope| {

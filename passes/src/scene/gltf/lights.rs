@@ -1,7 +1,7 @@
 //! Lights of `KHR_lights_punctual`.
 
 use super::document::{self, Document, follow};
-use super::nodes::Placed;
+use super::nodes::PlacedNode;
 use super::problem::{GltfError, Problem, at_most_in_all, leave_out, within};
 use crate::scene::model::{PointLight, Sun};
 use crate::scene::notes::Notes;
@@ -20,10 +20,10 @@ pub(super) struct Lights {
 ///
 /// # Errors
 /// Those of the file as a whole.
-pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Lights, GltfError> {
+pub(super) fn read(document: &Document, placed: &[PlacedNode<'_>], notes: &mut Notes) -> Result<Lights, GltfError> {
     let mut sun = None;
     let mut points = Vec::new();
-    for Placed { number, node, to_world } in placed {
+    for PlacedNode { number, node, to_world } in placed {
         let Some(reference) = &node.extensions.light else { continue };
         let at = format!("light {}", reference.light);
         let found = follow(&document.lights, reference.light, "light", &format!("node {number}"));

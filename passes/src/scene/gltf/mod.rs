@@ -25,6 +25,7 @@ mod container;
 mod document;
 mod extensions;
 mod external;
+mod ignored_extensions;
 mod json;
 mod lights;
 mod material;
@@ -32,11 +33,10 @@ mod nodes;
 mod picture;
 mod primitive;
 mod problem;
-mod unsupported;
 
 pub use problem::{GltfError, Problem};
 
-use super::exposure::{self, Invented};
+use super::exposure::{self, InventedLight};
 use super::model::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Object, Scene};
 use super::notes::Notes;
 use super::{defaults, limits};
@@ -44,7 +44,7 @@ use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::base::Root;
 use glam::{DMat4, DVec3};
-use nodes::Placed;
+use nodes::PlacedNode;
 use picture::Textures;
 use problem::{at_most_in_all, leave_out, within};
 use std::ops::Bound;
@@ -73,7 +73,7 @@ fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Sc
     if document.animated {
         notes.add("animations are ignored".into());
     }
-    unsupported::note(document, &mut notes);
+    ignored_extensions::note(document, &mut notes);
     let mut textures = Textures::default();
     let mut materials = Vec::with_capacity(document.materials.len() + 1);
     for (number, material) in document.materials.iter().enumerate() {
@@ -113,7 +113,7 @@ fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Sc
         notes,
         mistakes,
     };
-    Ok(scene.exposed(exposure, Invented { sun: invented_sun, ambient: true, sky: true }))
+    Ok(scene.exposed(exposure, InventedLight { sun: invented_sun, ambient: true, sky: true }))
 }
 
 /// A primitive of a glTF mesh, as a mesh and a material of the scene.
@@ -185,14 +185,14 @@ fn meshes(data: &Data<'_>, materials: &mut Vec<Material>, notes: &mut Notes) -> 
 /// Those of the file as a whole.
 fn objects(
     document: &Document,
-    placed: &[Placed<'_>],
+    placed: &[PlacedNode<'_>],
     meshes: &[Mesh],
     groups: &Groups,
     notes: &mut Notes,
 ) -> Result<(Vec<Object>, Option<Bounds>), GltfError> {
     let mut objects: Vec<Object> = Vec::new();
     let mut all: Option<Bounds> = None;
-    for Placed { number, node, to_world } in placed {
+    for PlacedNode { number, node, to_world } in placed {
         let Some(group) = node.mesh else { continue };
         let at = format!("node {number}");
         let parts = match follow(groups, group, "mesh", &at) {
@@ -237,9 +237,9 @@ fn objects(
 ///
 /// # Errors
 /// Those of the file as a whole.
-fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GltfError> {
+fn cameras(document: &Document, placed: &[PlacedNode<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GltfError> {
     let mut cameras = Vec::new();
-    for Placed { number, node, to_world } in placed {
+    for PlacedNode { number, node, to_world } in placed {
         let Some(index) = node.camera else { continue };
         let at = format!("camera {index}");
         let found = follow(&document.cameras, index, "camera", &format!("node {number}"));

@@ -6,7 +6,7 @@ use crate::scene::notes::Notes;
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.
-pub(super) struct Placed<'d> {
+pub(super) struct PlacedNode<'d> {
     pub(super) number: usize,
     pub(super) node: &'d Node,
     pub(super) to_world: DMat4,
@@ -14,7 +14,7 @@ pub(super) struct Placed<'d> {
 
 /// Every node of the scene that is shown, parents before children, siblings in the file's order. A node with a mistake is left out,
 /// and what is below it, whose place isn't known then.
-pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Vec<Placed<'d>> {
+pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Vec<PlacedNode<'d>> {
     let family = Family::of(document, notes);
     let Roots { tops, listed } = roots(document, &family.parents, notes);
     let mut waiting: Vec<(usize, DMat4, bool)> =
@@ -39,7 +39,7 @@ pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Vec<Placed<
         let shown = parent_shown || listed[number];
         waiting.extend(family.children[number].iter().rev().map(|child| (*child, to_world, shown)));
         if shown {
-            placed.push(Placed { number, node, to_world });
+            placed.push(PlacedNode { number, node, to_world });
         }
     }
     placed
@@ -106,8 +106,8 @@ struct Roots {
     listed: Vec<bool>,
 }
 
-/// The nodes at the top of the scene that the file shows; without any scene, of the file. Of a node that isn't at the top all
-/// that is above it is walked too, for its place.
+/// The nodes at the top of the scene that the file shows; without any scene, of the file. If one isn't at the top, all
+/// nodes above it are walked too, for its place.
 fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Roots {
     let count = document.nodes.len();
     let all = || (0..count).filter(|number| parents[*number].is_none());

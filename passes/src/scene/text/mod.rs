@@ -49,7 +49,7 @@ mod materials;
 mod objects;
 mod values;
 
-use super::exposure::{Invented, Lights, colors};
+use super::exposure::{InventedLight, Lights, colors};
 use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
 use super::{defaults, limits};
 use framewright_graph::base::{Diagnostic, Sources, Span, without_mark};
@@ -171,7 +171,8 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         notes: Vec::new(),
         mistakes: Vec::new(),
     };
-    let invented = Invented { sun: fields.sun.is_none(), ambient: fields.ambient.is_none(), sky: fields.sky.is_none() };
+    let invented =
+        InventedLight { sun: fields.sun.is_none(), ambient: fields.ambient.is_none(), sky: fields.sky.is_none() };
     let lights = Lights {
         sun: (!invented.sun).then_some(&scene.sun),
         points: &scene.point_lights,

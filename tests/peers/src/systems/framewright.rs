@@ -5,7 +5,7 @@ use crate::Graph;
 use crate::graphs::device;
 use crate::measure::{Barriers, Candidate, Times, timed};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::plan::Plan;
 
 pub(super) const ABOUT: About = About {
@@ -33,7 +33,7 @@ impl Candidate for Framewright {
     fn run(&mut self) -> Result<Times, String> {
         let (frame, build) = timed(|| self.graph.frame());
         let (plan, compile) =
-            timed(|| compile(&frame, &self.device, &mut Estimated(&self.device), &Options::default()));
+            timed(|| compile(&frame, &self.device, &mut MemoryEstimate(&self.device), &Options::default()));
         self.barriers = Some(counted(&plan.map_err(|errors| format!("{errors:?}"))?));
         Ok(Times { build, compile })
     }

@@ -2,7 +2,9 @@
 
 use framewright_graph::base;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
+use framewright_graph::device::{
+    BufferDescriptor, ImageDescriptor, MemoryEstimate, MemoryNeeds, MemoryProvider, Profile,
+};
 use framewright_graph::plan::{DeviceUsed, Plan};
 use framewright_graph::vulkan::{BufferUsage, Shape, Sharing, Usage};
 use framewright_tests::render::device;
@@ -38,7 +40,7 @@ fn a_saved_profile_gives_the_plans_of_its_device() {
                         .unwrap_or_else(|wrong| panic!("{}", base::render(&shipped.frame.sources, &wrong)))
                 };
                 let there = plan(&live, &mut device.memory());
-                let here = plan(&saved, &mut Estimated(&saved));
+                let here = plan(&saved, &mut MemoryEstimate(&saved));
                 assert!(there.device.exact_memory && !here.device.exact_memory);
                 let exact = DeviceUsed { exact_memory: true, ..here.device.clone() };
                 assert_eq!(Plan { device: exact, ..here }, there, "{} at {size:?}", shipped.how);
@@ -54,7 +56,7 @@ fn a_saved_profile_gives_the_plans_of_its_device() {
 fn a_saved_profile_knows_what_memory_the_device_asks_for() {
     let Some(device) = device() else { return };
     let saved = saved(device);
-    let (mut there, mut here) = (device.memory(), Estimated(&saved));
+    let (mut there, mut here) = (device.memory(), MemoryEstimate(&saved));
     let mut known = 0;
     for needs in &saved.known_needs {
         for (usage, ([width, height], _)) in

@@ -3,8 +3,8 @@
 use crate::hand_written_plans::build;
 use framewright_graph::frame::Stereo;
 use framewright_graph::plan::{
-    Access, Binding, BindingKind, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId, Initial,
-    Output, Placement, Plan, Resource, Role, Step, StepId, Totals, Work,
+    Access, Binding, BindingKind, DeviceUsed, FORMAT_VERSION, FirstContents, Hazard, Heap, Image, ImageBarrier,
+    ImageId, Output, Placement, Plan, Resource, Role, Step, StepId, Totals, Work,
 };
 use framewright_graph::vulkan::{
     Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Subresources, Usage,
@@ -67,7 +67,12 @@ pub(crate) fn persistent(plan: &mut Plan, name: &str, becomes: u32) -> ImageId {
     image(
         plan,
         name,
-        Role::Persistent { becomes, initial: Initial::Value(FillValue::Color([0.0; 4])), before: state, after: state },
+        Role::Persistent {
+            becomes,
+            initial: FirstContents::Value(FillValue::Color([0.0; 4])),
+            before: state,
+            after: state,
+        },
     )
 }
 

@@ -7,7 +7,7 @@
 
 use crate::hand_written_plans;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Sharing;
@@ -27,7 +27,7 @@ const PASSES: u32 = 24;
 
 fn compiled(name: &str, frame: &Frame, device: &Profile, order: Order) -> Plan {
     let options = Options { order, ..Options::default() };
-    let plan = compile(frame, device, &mut Estimated(device), &options);
+    let plan = compile(frame, device, &mut MemoryEstimate(device), &options);
     plan.unwrap_or_else(|wrong| panic!("{name}: {:?}", wrong.iter().map(|wrong| &wrong.message).collect::<Vec<_>>()))
 }
 

@@ -8,11 +8,11 @@
 
 mod block;
 mod free_list;
-mod measured;
+mod measured_blocks;
 mod search;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
 pub(super) use block::{Block, Change, Packing};
-pub(super) use measured::Measured;
+pub(super) use measured_blocks::MeasuredBlocks;

@@ -2,14 +2,14 @@
 
 use super::block::Packing;
 use super::free_list::{End, FreeList, NONE};
-use super::measured::Measured;
+use super::measured_blocks::MeasuredBlocks;
 use std::cmp::Reverse;
 
 /// Packs the blocks in the order of their first steps, of one step the largest first.
 ///
 /// Blocks that end before the step of the live peak go to the high ends of free ranges. So those that are alive at the peak
 /// lie close together at the low ends, with no free range between them at the step where memory is scarcest.
-pub(super) fn sweep(Measured { blocks, changes, peak }: &Measured<'_>, memory: &mut FreeList) -> Packing {
+pub(super) fn sweep(MeasuredBlocks { blocks, changes, peak }: &MeasuredBlocks<'_>, memory: &mut FreeList) -> Packing {
     let mut packing = Packing { offsets: vec![0; blocks.len()], height: 0 };
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
     let first = |at: u32| blocks[at as usize].first;

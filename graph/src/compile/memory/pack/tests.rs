@@ -1,6 +1,6 @@
 use super::block::{Block, Packing};
 use super::free_list::FreeList;
-use super::measured::Measured;
+use super::measured_blocks::MeasuredBlocks;
 use super::sweep::sweep;
 
 fn block(first: u32, last: u32, bytes: u64, alignment: u64) -> Block {
@@ -8,13 +8,13 @@ fn block(first: u32, last: u32, bytes: u64, alignment: u64) -> Block {
 }
 
 fn packed(blocks: &[Block]) -> Packing {
-    let packing = Measured::of(blocks).pack();
+    let packing = MeasuredBlocks::of(blocks).pack();
     assert_disjoint(blocks, &packing);
     packing
 }
 
 fn live_peak(blocks: &[Block]) -> u64 {
-    Measured::of(blocks).live_peak()
+    MeasuredBlocks::of(blocks).live_peak()
 }
 
 fn assert_disjoint(blocks: &[Block], packing: &Packing) {
@@ -130,7 +130,7 @@ fn one_walk_leaves_no_gap_among_the_blocks_of_the_peak() {
     // The second dies before the peak; the third, beside it, lives on into it.
     let blocks = [block(0, 3, 64, 1), block(1, 2, 2, 1), block(2, 3, 2, 1), block(3, 4, 16, 1)];
     assert_eq!(live_peak(&blocks), 82);
-    assert_eq!(sweep(&Measured::of(&blocks), &mut FreeList::tight(82, blocks.len())).height, 82);
+    assert_eq!(sweep(&MeasuredBlocks::of(&blocks), &mut FreeList::tight(82, blocks.len())).height, 82);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn steps_at_which_nothing_begins_or_ends_change_no_place() {
             blocks.iter().map(|it| Block { first: step(it.first), last: step(it.last), ..*it }).collect()
         };
         let (close, apart) = (over(&rank), over(&|step| rank(step).pow(3)));
-        let measured = Measured::of(&close);
+        let measured = MeasuredBlocks::of(&close);
         let tight = sweep(&measured, &mut FreeList::tight(measured.live_peak(), close.len()));
         searched += u32::from(tight.height > measured.live_peak());
         assert_eq!(packed(&apart), packed(&close));

@@ -13,7 +13,7 @@ pub(crate) fn plan() -> Plan {
     let usage = Usage::STORAGE | Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
     let shown: State = (Stages::FRAGMENT_SHADER, Accesses::SHADER_SAMPLED_READ, Layout::General);
     let state = vulkan::State { stages: shown.0, accesses: shown.1, layout: shown.2 };
-    let initial = Initial::Value(FillValue::Color([0.0; 4]));
+    let initial = FirstContents::Value(FillValue::Color([0.0; 4]));
     let field = Image {
         role: Role::Persistent { becomes: 0, initial, before: state, after: state },
         ..output(0, "field", Format::R16G16B16A16_SFLOAT, usage)

@@ -9,7 +9,7 @@ const CS: Stages = Stages::COMPUTE_SHADER;
 fn history(id: u32, name: &str, becomes: u32, before: State, after: State) -> Image {
     let usage = Usage::STORAGE | Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
     let state = |(stages, accesses, layout): State| vulkan::State { stages, accesses, layout };
-    let initial = Initial::Value(FillValue::Color([0.0; 4]));
+    let initial = FirstContents::Value(FillValue::Color([0.0; 4]));
     let role = Role::Persistent { becomes, initial, before: state(before), after: state(after) };
     Image { role, ..output(id, name, Format::R16G16B16A16_SFLOAT, usage) }
 }

@@ -13,7 +13,7 @@ pub(crate) fn plan() -> Plan {
     let depth = transient(1, "depth", Format::D32_SFLOAT, 4, depth_usage, [65536, 32768], [0, 0]);
     let usage = Usage::COLOR_ATTACHMENT | Usage::SAMPLED;
     let mut resolved = transient(2, "color.resolved", hdr, 1, usage, [98304, 16384], [0, 1]);
-    let cause = Cause::Inserted(Box::new(Inserted {
+    let cause = Cause::Inserted(Box::new(InsertionCause {
         because: "pass `tonemap` samples `color` and it has 4 samples".to_owned(),
         at: Some(Place { file: "pipeline.ron".into(), line: 40, column: 9 }),
     }));

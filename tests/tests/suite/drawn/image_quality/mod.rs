@@ -22,7 +22,7 @@
 //! | IQ-7, IQ-9, IQ-16, IQ-22 | `frames_by_hand` | `compile/adapt/demote.rs`: nothing moves; `compile/scope/builder.rs`: nothing folds |
 //! | IQ-10 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged where it is sampled, or where it leaves the frame |
 //! | IQ-11 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth is resolved for any number of samples |
-//! | IQ-11 | `graph/tests/suite/language/samplers.rs` | `expand/sampled.rs`: depth is filtered as colour is |
+//! | IQ-11 | `graph/tests/suite/language/samplers.rs` | `expand/shader/sampled_images.rs`: depth is filtered as colour is |
 //! | IQ-12 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared for every `start`, so that one is left |
 //! | IQ-12: refused | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
 //! | IQ-12, IQ-24 | `cli/tests/suite/image_quality.rs`, `depth_stripes`, `frames_by_hand` | `depth_stripes.ron`: `"depth"` for `Resolved("depth")` |

@@ -13,7 +13,7 @@ mod schedule;
 mod synchronisation;
 
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Attachment, Image, ImageId, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
@@ -24,7 +24,7 @@ use framewright_tests::happens_before::judge;
 #[track_caller]
 fn right(frame: &Frame, options: &Options) -> Plan {
     let device = device();
-    let plan = compile(frame, &device, &mut Estimated(&device), options)
+    let plan = compile(frame, &device, &mut MemoryEstimate(&device), options)
         .unwrap_or_else(|wrong| panic!("the frame is valid: {wrong:?}"));
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     assert_eq!(judge(&plan).harms, [], "{}", plan.tree());

@@ -3,7 +3,7 @@
 use super::right;
 use framewright_graph::base::{self, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::ImageIndex;
 use framewright_graph::language;
 use framewright_graph::plan::{Plan, Work};
@@ -88,7 +88,7 @@ fn filament_10320_a_graph_of_ten_thousand_passes_compiles() {
     }
     let device = device();
     let frame = builder.outputs(&[images[images.len() - 1]]);
-    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is valid");
+    let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect("the frame is valid");
     assert_eq!(plan.totals.passes, 10_000);
     // Two images are alive at a time.
     assert_eq!(plan.totals.placed_bytes, plan.totals.live_peak_bytes);

@@ -4,8 +4,8 @@
 //! | row | tests | what turns it red |
 //! |---|---|---|
 //! | PR-1 | `graph/tests/suite/rotation.rs`, `pictures::every_shipped_pipeline_shows_the_same_rotated` | `compile/rotate/mod.rs`: extents not turned |
-//! | PR-2 | `graph/tests/suite/random_frames.rs`, `pictures::what_is_resolved_into_the_screen_is_rotated_with_it` | `compile/rotate/together.rs`: no depth in `beside` |
-//! | PR-2 | `graph/tests/suite/rotation.rs` | `compile/rotate/together.rs`: what is sampled is no hindrance |
+//! | PR-2 | `graph/tests/suite/random_frames.rs`, `pictures::what_is_resolved_into_the_screen_is_rotated_with_it` | `compile/rotate/turn_search.rs`: no depth in `beside` |
+//! | PR-2 | `graph/tests/suite/rotation.rs` | `compile/rotate/turn_search.rs`: what is sampled is no hindrance |
 //! | PR-3 | `recorded::viewports_and_scissors_are_those_of_the_upright_picture`, `pictures` | `objects.vert`: `rotate_clip` left out |
 //! | PR-3 | `shaders::texels_are_fetched_exactly_where_they_are`, `pictures` | `full_screen.vert`: `rotate_clip` left out |
 //! | PR-4 | `shaders::images_that_do_not_leave_the_frame_are_drawn_upright` | `prepare/pass.rs`: the rotation of any image |
@@ -13,7 +13,7 @@
 //! | PR-6 | `shaders::derivatives_and_places_of_the_helpers_are_upright` | `rotation.glsl`: another sign in `ddx` |
 //! | PR-6 | `shaders::a_shader_that_breaks_is_reported_at_its_pass` | `shaders/rotation.rs`: no derivative is sideways |
 //! | PR-6 | `shaders::no_shipped_shader_breaks` | `objects.vert`: `rotate_clip` left out |
-//! | PR-7 | `graph/tests/suite/rotation.rs`, `shaders::the_screen_beside_another_target_is_refused_at_its_place` | `compile/rotate/together.rs`: several targets only keep upright |
+//! | PR-7 | `graph/tests/suite/rotation.rs`, `shaders::the_screen_beside_another_target_is_refused_at_its_place` | `compile/rotate/turn_search.rs`: several targets only keep upright |
 //! | PR-8 | `recorded::custom_passes_and_draws_are_told_rotation_and_size` | `recorder.rs`: `rotation` gives none |
 
 mod pictures;

@@ -2,7 +2,7 @@
 
 use super::{EXTENT, drawn, floats, planned};
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{ShaderInterfaces, ShaderProblem, Unturned, Variant};
+use framewright_graph::shader::{ShaderInterfaces, ShaderProblem, UnturnedPart, Variant};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::shipped::SHADERS;
@@ -156,7 +156,7 @@ fn no_shipped_shader_breaks() {
     }
     assert!(known > 30, "{known}");
     let ramp = library.draw_shader("raw_ramp", Draw::FullScreen, &Variant::default()).expect("it compiles");
-    assert_eq!(ramp.unturned, [Unturned::FragCoord, Unturned::Derivatives]);
+    assert_eq!(ramp.unturned, [UnturnedPart::FragCoord, UnturnedPart::Derivatives]);
 }
 
 /// PR-7: with the place in the file.

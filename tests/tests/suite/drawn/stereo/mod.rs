@@ -4,7 +4,7 @@
 //! | row | tests | what turns it red |
 //! |---|---|---|
 //! | ST-1 | `cameras::each_eye_sees_what_a_camera_in_its_place_sees` | `draw/eyes.rs`: the other eye's place |
-//! | ST-1 | `graph/tests/suite/language/eyes.rs` | `expand/eyes.rs`: `of` gives the left eye's image |
+//! | ST-1 | `graph/tests/suite/language/eyes.rs` | `expand/eyes/split.rs`: `of` gives the left eye's image |
 //! | ST-1 | `cameras::point_lights_reach_what_an_eye_sees_behind_the_camera_between_both` | `point_lights.glsl`: tiles as ahead |
 //! | ST-2 | `packed::one_image_for_both_is_twice_as_wide_or_has_two_layers` | `plan/part.rs`: `made` a texel wider |
 //! | ST-2 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each` | `eyes/at_once.rs`: `at_once` is false |
@@ -12,7 +12,7 @@
 //! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/view_draws.rs`: both see what the left eye sees |
 //! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/source.rs`: `culls_once` is ignored |
 //! | ST-3 | `passes/tests/suite/eyes.rs`, rays at random | `draw/eyes.rs`: no step back |
-//! | ST-3 | `cameras::what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
+//! | ST-3 | `cameras::what_both_eyes_share_is_drawn_once` | `expand/eyes/split.rs`: `PassEyes::Both` runs for each |
 //! | ST-3 | `cameras::shadow_maps_of_each_eyes_own_give_what_shared_ones_give` | `draw/cascades.rs`: no maps of eyes' views |
 //! | ST-4 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: `gl_Layer = 0` |
 //! | ST-4 | `agreement::texels_are_fetched_exactly` | `shaders/layers.rs`: the left eye's layer |
@@ -26,7 +26,7 @@
 //! | ST-9 | `agreement::nothing_bleeds_from_one_eye_into_the_other` | `blur.frag`: without `uv_clamp` |
 //! | ST-9 | `agreement::texels_are_fetched_exactly` | `shaders/macros.rs`: `half` doesn't know the eye that is named |
 //! | ST-9 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `eyes/at_once.rs`: one eye's target in both |
-//! | ST-9 | `eyes::a_shader_that_does_not_ask_for_its_half_is_reported_at_its_pass` | `expand/halves.rs`: `check` returns |
+//! | ST-9 | `eyes::a_shader_that_does_not_ask_for_its_half_is_reported_at_its_pass` | `expand/shader/stereo.rs`: `check_halves` returns |
 //! | ST-10 | `agreement::texels_are_fetched_exactly` | `shaders/macros.rs`: `half` is the left one |
 //! | ST-11 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: 0.49 of the width |
 //! | ST-12 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `prepare/variant.rs`: no `eyes` in a variant |

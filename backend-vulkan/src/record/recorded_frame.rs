@@ -1,0 +1,37 @@
+//! What was recorded for a frame.
+
+use super::frame_resources::HeldResources;
+use std::time::Duration;
+
+/// A recorded frame.
+#[derive(Default)]
+pub(crate) struct RecordedFrame {
+    /// By pass.
+    pub(crate) counts: Vec<Counts>,
+    pub(super) kept: HeldResources,
+    /// How long that took.
+    pub(crate) took: Duration,
+}
+
+impl RecordedFrame {
+    /// Begins another frame, which finds the memory of this one. The device must be done with the frame.
+    pub(crate) fn begin(&mut self) {
+        self.counts.clear();
+        self.kept.begin();
+    }
+
+    /// Ends the frame, which took so long.
+    pub(crate) fn end(&mut self, took: Duration) {
+        self.kept.end();
+        self.took = took;
+    }
+}
+
+/// Draws and culled objects that were recorded for a pass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    /// As in [`super::PassReport`].
+    pub(crate) draws: u32,
+    /// As in [`super::PassReport`].
+    pub(crate) culled: u32,
+}

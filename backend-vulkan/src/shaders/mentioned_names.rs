@@ -1,0 +1,175 @@
+//! The names in a GLSL text that decide how it is compiled for a pass.
+
+use super::files::{ShaderFiles, SourceFile};
+use super::text;
+use framewright_graph::base::FilePath;
+use std::collections::BTreeSet;
+
+/// Beginning of macros that stand for the type of a sampled image.
+pub(super) const TEXTURE: &str = "TEXTURE_";
+
+/// Beginning of macros that are there if a pass samples the image that they name.
+pub(super) const HAS: &str = "HAS_";
+
+/// Beginning of macros that stand for the number of components of a sampled image's format.
+pub(super) const COMPONENTS: &str = "COMPONENTS_";
+
+/// Beginning of macros that are there if a pass reads the image that they name locally.
+pub(super) const LOCAL: &str = "LOCAL_READ_";
+
+/// Ending of macros that stand for the part in use of a sampled image.
+pub(super) const PART: &str = "_st";
+
+/// Names that a stage's text and its included files mention outside comments: behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and,
+/// for its samplers, before [`PART`]. Each name stands once, in order. A name that the stage declares is its own.
+pub(super) struct MentionedNames {
+    pub(super) adapting: Vec<String>,
+    pub(super) optional: Vec<String>,
+    pub(super) counted: Vec<String>,
+    pub(super) parts: Vec<String>,
+    /// Whether the text asks which eye it draws for.
+    pub(super) eye: bool,
+    /// Macros that would be defined, but for the stage's own declarations of the same names.
+    pub(super) own: Vec<String>,
+}
+
+/// Macros whose names say all, and stand for no image.
+const FIXED: [&str; 3] = ["DEPTH_ONLY", "ALPHA_TO_COVERAGE", "eye_index"];
+
+impl MentionedNames {
+    /// The names that a stage mentions. Shipped files that it includes are given the same for both eyes where one is drawn for:
+    /// they don't ask.
+    pub(super) fn by_stage(files: &ShaderFiles, stage: &SourceFile) -> MentionedNames {
+        let included = text::included(files, stage);
+        let own = included.iter().filter(|file| matches!(file.path, FilePath::Own(_)));
+        let eye = std::iter::once(stage)
+            .chain(own)
+            .any(|file| text::words(&text::without_comments(&file.text)).any(|word| word == "eye_index"));
+        let all: Vec<&str> = std::iter::once(stage).chain(&included).map(|file| &*file.text).collect();
+        let mut mentioned = MentionedNames::by(&all.join("\n"));
+        mentioned.eye &= eye;
+        mentioned
+    }
+
+    /// The names that `text` mentions.
+    fn by(text: &str) -> MentionedNames {
+        let text = text::without_comments(text);
+        let in_order: Vec<&str> = text::words(&text).collect();
+        let sampled = in_order.windows(2).filter(|pair| pair[0].contains("sampler") || pair[0].starts_with(TEXTURE));
+        let sampled: BTreeSet<&str> = sampled.map(|pair| pair[1]).collect();
+        let words: BTreeSet<&str> = in_order.into_iter().collect();
+        let is_macro = |word: &&str| {
+            [TEXTURE, HAS, COMPONENTS, LOCAL].iter().any(|beginning| word.starts_with(beginning))
+                || word.ends_with(PART)
+                || FIXED.contains(word)
+        };
+        let own: BTreeSet<&str> = words.iter().copied().filter(is_macro).filter(|word| declares(&text, word)).collect();
+        let words = || words.iter().filter(|word| !own.contains(**word));
+        let behind =
+            |beginning: &str| words().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
+        let parts = words().filter_map(|word| word.strip_suffix(PART));
+        let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
+        let eye = words().any(|word| *word == "eye_index");
+        let (adapting, optional, counted) = (behind(TEXTURE), behind(HAS), behind(COMPONENTS));
+        let own = own.into_iter().map(str::to_owned).collect();
+        MentionedNames { adapting, optional, counted, parts, eye, own }
+    }
+}
+
+/// Words before a name that are no type: behind a qualifier the name is a type itself.
+const NO_TYPES: [&str; 24] = [
+    "return",
+    "else",
+    "case",
+    "uniform",
+    "const",
+    "in",
+    "out",
+    "inout",
+    "highp",
+    "mediump",
+    "lowp",
+    "flat",
+    "smooth",
+    "noperspective",
+    "centroid",
+    "sample",
+    "precise",
+    "invariant",
+    "coherent",
+    "volatile",
+    "restrict",
+    "readonly",
+    "writeonly",
+    "shared",
+];
+
+/// Whether a text without comments declares `name`, as a variable, a parameter, a member or a function, or defines it as a
+/// macro without asking first whether there is one.
+fn declares(text: &str, name: &str) -> bool {
+    // A line that goes on is one line.
+    let text = &*text.replace("\\\r\n", "   ").replace("\\\n", "  ");
+    let letter = |letter: char| letter == '_' || letter.is_ascii_alphanumeric();
+    let before = text.match_indices(name).filter_map(|(at, _)| {
+        let behind = text[at + name.len()..].chars().next();
+        let (before, whole) = (&text[..at], !text[..at].ends_with(letter) && !behind.is_some_and(letter));
+        let line = before.rsplit('\n').next().unwrap_or(before);
+        // A directive before it is no type.
+        let code = before[..before.len() - line.len()].lines().rev().find(|line| !line.trim().is_empty());
+        let own = line.trim().is_empty() && code.is_some_and(|line| line.trim_start().starts_with('#'));
+        whole.then(|| (line.trim_start(), if own { "" } else { before.trim_end() }))
+    });
+    let (mut asked, mut defined) = (false, false);
+    for (line, before) in before {
+        let word = before.rsplit(|it| !letter(it)).next().unwrap_or("");
+        match line.strip_prefix('#') {
+            Some(directive) if directive.trim_start().starts_with("define") && word == "define" => defined = true,
+            Some(directive) => asked |= !directive.trim_start().starts_with("define"),
+            // Any other word before it, or the brackets of an array, are a type.
+            None if NO_TYPES.contains(&word) => {}
+            None if !word.is_empty() || before.ends_with(']') => return true,
+            None => {}
+        }
+    }
+    defined && !asked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MentionedNames;
+
+    #[test]
+    fn a_macro_that_only_a_comment_mentions_adapts_nothing() {
+        let text = "// TEXTURE_a\nuniform TEXTURE_b b; /* TEXTURE_c\nTEXTURE_d */ uniform TEXTURE_e/**/e; // TEXTURE_f";
+        assert_eq!(MentionedNames::by(text).adapting, ["b", "e"]);
+        assert_eq!(MentionedNames::by("uniform TEXTURE_b b; /* TEXTURE_c").adapting, ["b"]);
+    }
+
+    #[test]
+    fn only_what_is_sampled_has_a_part() {
+        let text = "uniform sampler2D a; uniform TEXTURE_b b; in vec2 c; vec2 c_st = c * a_st.xy + b_st.zw; // d_st sampler2D d";
+        assert_eq!(MentionedNames::by(text).parts, ["a", "b"]);
+        assert_eq!(MentionedNames::by("usampler2DArray a ; vec4 x = e_st;").parts, [""; 0]);
+    }
+
+    #[test]
+    fn a_name_that_the_text_declares_is_its_own() {
+        let own = |text: &str| MentionedNames::by(text).own;
+        assert_eq!(own("vec4 blur(sampler2D a, vec4 a_st) { return a_st; }"), ["a_st"]);
+        assert_eq!(own("uniform Params { highp vec4 a_st; int[2] COMPONENTS_a; };"), ["COMPONENTS_a", "a_st"]);
+        assert_eq!(own("#define HAS_a 1\n#ifdef DEPTH_ONLYS\nconst bool DEPTH_ONLY = true;"), ["DEPTH_ONLY", "HAS_a"]);
+        for asks in [
+            "#ifndef a_st\n#define a_st vec4(1, 1, 0, 0)\n#endif",
+            "#if COMPONENTS_a == 1 && defined(HAS_a)",
+            "#if defined HAS_a || \\\n    defined HAS_b\nfloat c;\n#endif",
+            "vec2 c = b +\n#ifdef OTHER\na_st.xy;\n#else\n\na_st.zw;\n#endif",
+            "vec4 f() { return a_st; }",
+            "f(a, a_st, b * a_st, (a_st), eye_index)",
+            "#define SCALE a_st.xy",
+            "layout(binding = 0) uniform TEXTURE_a a;",
+        ] {
+            assert_eq!(own(asks), [""; 0], "{asks}");
+        }
+        assert_eq!(MentionedNames::by("uniform sampler2D a; vec4 f(vec4 a_st) { return a_st; }").parts, [""; 0]);
+    }
+}

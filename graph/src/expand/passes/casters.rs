@@ -1,0 +1,76 @@
+//! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
+
+use super::state::State;
+use crate::base::Diagnostic;
+use crate::expand::mistakes::used_here;
+use crate::frame::{Cascade, DepthTarget, Metres, Share, ViewIndex};
+use crate::language::{self, Pipeline};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+/// A pass that draws casters.
+struct Casters<'f> {
+    pass: &'f language::Pass,
+    cascade: Cascade,
+    target: &'f DepthTarget,
+}
+
+/// Reports, once for each use of a fragment and each pass outside of fragments, cascades that can't be looked up with the
+/// first of their view, and those that no pass draws.
+pub(in crate::expand) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diagnostic>) {
+    let mut views: BTreeMap<ViewIndex, Vec<Casters<'_>>> = BTreeMap::new();
+    for (pass, state) in pipeline.passes.iter().zip(states) {
+        if let State::On(lowered) = state
+            && let Some(cascade) = lowered.work.draw().and_then(|(draw, _)| draw.cascade())
+            && let Some(target) = &lowered.depth
+        {
+            views.entry(pass.view).or_default().push(Casters { pass, cascade, target });
+        }
+    }
+    for all in views.values() {
+        let first = &all[0];
+        let mut said = HashSet::new();
+        for casters in all {
+            let Some(wrong) = differs(first, casters) else { continue };
+            if casters.pass.instance.is_none_or(|instance| said.insert(instance)) {
+                errors.push(wrong);
+                let wrong = errors.len() - 1;
+                used_here(pipeline, casters.pass.instance, &mut errors[wrong..]);
+            }
+        }
+        let drawn: BTreeSet<u8> = all.iter().map(|casters| casters.cascade.index).collect();
+        if let Some(missing) = (0..first.cascade.of).find(|index| !drawn.contains(index)) {
+            let message = format!("no pass draws cascade {missing} of {}", first.cascade.of);
+            let wrong = Diagnostic::new(first.pass.name.span, message).remark(first.cascade.in_words());
+            errors.push(wrong.help("all cascades of a view are drawn: `repeat` a pass as often as there are"));
+            let wrong = errors.len() - 1;
+            used_here(pipeline, first.pass.instance, &mut errors[wrong..]);
+        }
+    }
+}
+
+/// The difference that keeps a pass's cascade from being looked up with the first pass's.
+fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
+    let (name, before) = (&other.pass.name, &first.pass.name);
+    if cut(&first.cascade) != cut(&other.cascade) {
+        let message = format!("pass `{}` draws cascades otherwise than pass `{}`", name.text, before.text);
+        let wrong = Diagnostic::new(name.span, message).remark(other.cascade.in_words());
+        let wrong = if name.span == before.span { wrong } else { wrong.label(before.span, first.cascade.in_words()) };
+        return Some(
+            wrong.help("all cascades of a view are of one number and reach, with ends of one kind: give both the same"),
+        );
+    }
+    if first.target.image != other.target.image {
+        let wrong = Diagnostic::new(other.target.span, "all cascades of a view are layers of one image");
+        return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", before.text)));
+    }
+    let (index, layer) = (other.cascade.index, other.target.range.base_layer);
+    (u32::from(index) != layer).then(|| {
+        let wrong = Diagnostic::new(other.target.span, format!("cascade {index} belongs into layer {index}"));
+        wrong.remark(format!("layer {layer}")).help("shaders look each cascade up in the layer of its number")
+    })
+}
+
+/// How a view is cut.
+fn cut(cascade: &Cascade) -> (u8, Option<Metres>, Share) {
+    (cascade.of, cascade.reach, cascade.logarithmic)
+}

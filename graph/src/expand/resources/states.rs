@@ -1,0 +1,35 @@
+//! States in which images and buffers come in and go out: the meaning of the words.
+
+use crate::base::Diagnostic;
+use crate::language::State as Described;
+use crate::ron::Spanned;
+use crate::vulkan::states::{StateTime, Subject, contradiction};
+use crate::vulkan::{AccessKind, Format, Layout, State};
+
+/// The state that the file asks for, or `None` after a mistake was reported.
+pub(in crate::expand) fn lower(
+    state: Spanned<Described>,
+    of: Subject<'_>,
+    when: StateTime,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<State> {
+    let lowered = match state.value {
+        Described::Word(word) => meaning(word, of.format, when),
+        Described::Named(state) => state,
+    };
+    let Some((message, help)) = contradiction(&lowered, of, when) else { return Some(lowered) };
+    errors.push(Diagnostic::new(state.span, message).help(help));
+    None
+}
+
+/// The state that a word stands for. The program writes a buffer before the frame, and reads it afterwards.
+fn meaning(word: AccessKind, format: Option<Format>, when: StateTime) -> State {
+    let layout = match format {
+        None => Layout::Undefined,
+        Some(format) if format.is_depth() && word == AccessKind::Sampled => Layout::DepthStencilReadOnlyOptimal,
+        Some(_) => word.layout(),
+    };
+    let host = word == AccessKind::Host;
+    let accesses = word.accesses(!host || when == StateTime::After, !host || when == StateTime::Before);
+    State { stages: word.stages(), accesses, layout }
+}

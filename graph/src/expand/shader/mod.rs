@@ -1,0 +1,22 @@
+//! What a pass gives meets what its shader declares.
+//!
+//! ```text
+//! variant ─► interfaces ─► sampled_images (arrays, compared_depth) ─► local ─► storage ─► supplied_resources ─► params
+//! ```
+//! `variant` says how the shader is compiled, `interfaces` finds it. The files behind them check one kind of
+//! declaration each. `coverage`, `rotation` and `stereo` find out what else the frame must know of a shader.
+
+mod arrays;
+mod compared_depth;
+pub(super) mod coverage;
+mod interfaces;
+pub(super) mod local;
+pub(super) mod params;
+pub(super) mod rotation;
+pub(super) mod sampled_images;
+pub(super) mod stereo;
+pub(super) mod storage;
+pub(super) mod supplied_resources;
+pub(super) mod variant;
+
+pub(super) use interfaces::{CheckedShaders, missing};

@@ -1,0 +1,160 @@
+//! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
+
+use super::interfaces::CheckedShaders;
+use crate::base::{Diagnostic, OutsideChoice, suggestion};
+use crate::device::Need;
+use crate::expand::resources::Resources;
+use crate::frame::Draw;
+use crate::language;
+use crate::ron::Name;
+use crate::shader::{
+    Binding, DrawInterface, LayoutFault, PASS_SET, ShaderInterface, SuppliedResource, VertexLayout, resource_needs,
+};
+use std::sync::Arc;
+
+/// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
+pub(in crate::expand) fn check(
+    resources: &Resources<'_>,
+    shaders: &mut CheckedShaders<'_>,
+    pass: &language::Pass,
+    (path, interface): (&Arc<str>, &ShaderInterface),
+    errors: &mut Vec<Diagnostic>,
+) {
+    let Some(shader) = pass.shader() else { return };
+    let own = pass.work.draws(Draw::has_own_vertices);
+    if own {
+        own_attributes(resources, pass, shader, interface, errors);
+    }
+    let Some(brought) = shaders.brought_along_first(pass, path) else { return };
+    if !own {
+        attributes(shader, interface, &brought, errors);
+    }
+    for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
+        resource(shader, binding, &brought.supplied, errors);
+    }
+}
+
+/// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
+pub(in crate::expand) fn needs(
+    shaders: &mut CheckedShaders<'_>,
+    pass: &language::Pass,
+    interface: &ShaderInterface,
+) -> Vec<Need> {
+    // A compute shader that reads nothing of what is brought along has nothing of it bound.
+    let dispatched = pass.work.is_dispatch();
+    let binds = !dispatched || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
+    let brought = binds.then(|| shaders.brought_along(pass)).flatten();
+    let supplied = brought.iter().flat_map(|brought| &brought.supplied);
+    let mut needs = interface.needs.clone();
+    needs.append(&mut resource_needs(interface, supplied, pass.color.len()));
+    needs
+}
+
+/// A pass that brings its own vertices names their buffer, if and only if its shader declares attributes. The buffer holds as
+/// many vertices as are drawn; which of them indices ask for is not known, nor how many an indirect draw asks for.
+fn own_attributes(
+    resources: &Resources<'_>,
+    pass: &language::Pass,
+    shader: &Name,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
+    match (interface.vertex_inputs.first(), &pass.vertex) {
+        (Some(input), None) => {
+            let message = format!(
+                "shader `{}` {} the vertex attribute `{}`, and pass `{}` has no buffer of vertices",
+                shader.text,
+                input.verb(),
+                input.name,
+                pass.name.text
+            );
+            let help =
+                if input.used { "add `vertex: \"…\"`" } else { "remove it in the shader, or add `vertex: \"…\"`" };
+            errors.push(Diagnostic::new(shader.span, message).help(help));
+        }
+        (None, Some(part)) => {
+            let message = format!("shader `{}` reads no vertex attributes", shader.text);
+            errors.push(Diagnostic::new(part.buffer.span, message).help("remove `vertex`, or name it in `storage`"));
+        }
+        (Some(_), Some(part)) => match VertexLayout::of(&interface.vertex_inputs, 1) {
+            Ok(layout) => {
+                let stride = layout.strides[0];
+                let counts = pass.work.draw().filter(|_| pass.index.is_none()).and_then(Draw::counts);
+                let (count, what) = match counts {
+                    Some([count, _]) => (count, format!("{count} vertices of {stride} bytes")),
+                    None => (1, format!("the attributes of one vertex of shader `{}`", shader.text)),
+                };
+                let bytes = u64::from(count) * u64::from(stride);
+                resources.holds(&part.buffer, bytes, &what, part.buffer.span, errors);
+            }
+            Err(LayoutFault { message, .. }) => {
+                errors.push(Diagnostic::new(shader.span, format!("shader `{}`: {message}", shader.text)));
+            }
+        },
+        (None, None) => {}
+    }
+}
+
+fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, errors: &mut Vec<Diagnostic>) {
+    let Name { text: shader, span } = shader;
+    for input in &interface.vertex_inputs {
+        let (name, ty) = (&input.name, &input.ty);
+        if !brought.attributes.iter().any(|attribute| attribute.name == **name) {
+            let verb = input.verb();
+            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}`, which doesn't exist");
+            let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)))
+                .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
+            let unknown = Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+            errors.push(Diagnostic { help, ..unknown });
+        } else if !input.is_float() {
+            let part = if input.component == 0 { "" } else { " from another component than the first on" };
+            let verb = input.verb();
+            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}` as `{ty}`{part}");
+            let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`, each at a location of its own";
+            errors.push(Diagnostic::new(*span, message).help(help));
+        }
+    }
+}
+
+/// A suggestion for a name in the shader, not in the pipeline.
+fn in_the_shader(help: Option<String>) -> Option<String> {
+    help.map(|help| format!("in the shader: {help}"))
+}
+
+fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], errors: &mut Vec<Diagnostic>) {
+    let (Name { text: shader, span }, name) = (shader, &binding.name);
+    let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
+    let here = |message: String| Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+    let Some(there) = supplied.iter().find(|there| there.name == **name) else {
+        let help = in_the_shader(suggestion(name, supplied.iter().map(|there| &*there.name)))
+            .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
+        let unknown = here(format!("{wanted}, which the draw source doesn't bring along"));
+        errors.push(Diagnostic { help, ..unknown });
+        return;
+    };
+    if (there.set, there.binding) != (binding.set, binding.binding) {
+        let message = format!("{wanted}, but `{name}` is at set {}, binding {}", there.set, there.binding);
+        errors.push(
+            here(message)
+                .help(format!("in the shader: write `layout(set = {}, binding = {})`", there.set, there.binding)),
+        );
+    } else if there.kind.is(&binding.kind) && binding.count() > there.count {
+        let message =
+            format!("{wanted} as an array of {}, and the draw source brings along {}", binding.count(), there.count);
+        errors.push(here(message).help(format!("in the shader: declare at most {}", there.count)));
+    } else if !there.is(binding) {
+        errors.push(here(format!("{wanted} as something else than it is: {}", there.kind.words())));
+    }
+}
+
+/// Reports a custom pass that the program doesn't record.
+pub(in crate::expand) fn custom(shaders: &CheckedShaders<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    let Some(Name { text, span }) = pass.work.callback() else { return };
+    let Some(known) = shaders.custom_passes() else { return };
+    if !known.contains(text) {
+        let message = format!("nobody records `{text}`, which the custom pass `{}` asks for", pass.name.text);
+        let help = suggestion(text, known.iter().map(|known| &**known))
+            .or_else(|| Some("the program that draws the pipeline records no custom passes".to_owned()));
+        errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
+    }
+}

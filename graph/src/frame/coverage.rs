@@ -1,0 +1,75 @@
+//! Which draws keep the contents of their targets, and which replace every texel, so that earlier contents don't matter. All that
+//! depends on it asks here: `expand/shader/coverage.rs` finds out what a shader may leave as it was.
+
+use super::{Blend, ColorTarget, DepthTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, StencilState, Work};
+use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};
+
+impl Pass {
+    /// Whether `target`, a part of `image`, needs its earlier contents: it is neither cleared nor covered.
+    pub(crate) fn keeps_color(&self, target: &ColorTarget, image: &Image) -> bool {
+        target.clear.is_none() && !self.covers_color(target, image)
+    }
+
+    /// Whether one plane of `target`, a part of `image`, needs its earlier contents.
+    pub(crate) fn keeps_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
+        let clears = match plane == Aspects::STENCIL {
+            true => target.stencil.is_some_and(|stencil| stencil.clear.is_some()),
+            false => target.clear.is_some(),
+        };
+        !clears && !self.covers_plane(target, plane, image)
+    }
+
+    /// Whether the draw into `target`, a part of `image`, replaces every texel.
+    fn covers_color(&self, target: &ColorTarget, image: &Image) -> bool {
+        target.blend == Blend::Replace && self.reaches_every_texel(image, target.range)
+    }
+
+    /// Whether the draw into one plane of `target`, a part of `image`, replaces every texel.
+    fn covers_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
+        let sets = |stencil: StencilState| matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
+        let written = if plane == Aspects::STENCIL { target.stencil.is_some_and(sets) } else { target.write };
+        // A test reads the planes, whatever is promised.
+        written && target.passes() && self.reaches_every_texel(image, target.range)
+    }
+
+    /// Whether it draws a fragment that passes all tests at every sample, or is promised to. A triangle reaches only one of several
+    /// layers.
+    fn reaches_every_texel(&self, image: &Image, range: Subresources) -> bool {
+        let full_screen = matches!(self.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. });
+        let fills = full_screen && !self.alpha_to_coverage && self.untouched.is_none();
+        image.part(range).layers == 1 && (self.covers || fills && self.depth.as_ref().is_none_or(DepthTarget::passes))
+    }
+}
+
+impl Frame {
+    /// The words of the file by which the pass `pass` promises to set all that it writes of `image`, if it is believed by them.
+    #[must_use]
+    pub fn promise(&self, pass: &str, image: &str) -> Option<&'static str> {
+        let at = self.passes.iter().position(|it| *it.name == *pass)?;
+        let (earlier, pass) = (&self.passes[..at], &self.passes[at]);
+        let index = ImageIndex(u32::try_from(self.images.iter().position(|it| *it.name == *image)?).ok()?);
+        let of = Resource::Image(index);
+        let writes = |pass: &Pass| {
+            pass.accesses().any(|it| it.resource() == of && it.writes(pass, self.images.get(index.0 as usize)))
+        };
+        let held = || self.images[index.0 as usize].lifetime.has_contents(of) || earlier.iter().any(writes);
+        if pass.covers && pass.attachments().any(|(target, _)| target == index) {
+            Some("covers: true")
+        } else if pass.storage.iter().any(|it| it.image == index && it.write && !it.read) && held() {
+            Some("access: Write")
+        } else if matches!(pass.work, Work::Custom { .. })
+            && pass.transfers.iter().any(|it| it.write && it.resource == of)
+        {
+            Some("writes")
+        } else {
+            None
+        }
+    }
+}
+
+impl DepthTarget {
+    /// Whether fragments pass all its tests.
+    fn passes(&self) -> bool {
+        self.test == CompareOp::Always && self.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always)
+    }
+}
