@@ -8,7 +8,7 @@ use super::shaders::SharedShaders;
 use super::space::Space;
 use crate::system::counted::Progress;
 use crate::system::interrupt;
-use framewright_graph::base::{Diagnostic, Span};
+use framewright_graph::base::{Code, Diagnostic, Span};
 use framewright_graph::plan::Totals;
 use framewright_vulkan::ShaderLibrary;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_in_whichever_half_it_was_found() {
-        let diagnostic = Diagnostic::nowhere("wrong");
+        let diagnostic = Diagnostic::nowhere(Code::OWN_MISTAKE, "wrong");
         let identity = Identity { plan: 7, shape: 1 };
         let fine = VerifiedPlan { identity, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];

@@ -1,7 +1,7 @@
 //! Halves of one image for two eyes: checks that the shader of a pass supports them, as far as the shader tells.
 
 use super::resources::Resources;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::frame::EyeForm;
 use crate::language;
 use crate::shader::{ShaderInterface, Unturned};
@@ -21,7 +21,7 @@ pub(super) fn check(
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&Unturned::FragCoord)) else { return };
     let name = &resources.declared(target.index).name.text;
     let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
-    let wrong = Diagnostic::new(shader.span, message);
+    let wrong = Diagnostic::new(Code::EYE_HALF, shader.span, message);
     let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));
     errors.push(wrong.help("`frag_coord()` of `include/rotation.glsl` is the place in the eye's own picture"));
 }

@@ -2,7 +2,7 @@
 
 use super::resources::Resources;
 use super::shader::Checked;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::frame::{Face, Pass};
 use crate::language;
 use crate::shader::{PASS_SET, ShaderInterface, Variant};
@@ -51,7 +51,7 @@ pub(super) fn check(
                 "declare it `subpassInput` where `LOCAL_READ_{name}` is defined, as it is on devices with local reads; or \
                  leave `own_pixel` out"
             );
-            errors.push(Diagnostic::new(span, message).help(help));
+            errors.push(Diagnostic::new(Code::OWN_PIXEL, span, message).help(help));
         }
     }
 }

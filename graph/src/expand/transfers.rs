@@ -2,7 +2,7 @@
 
 use super::resources::Resources;
 use super::{fills, parts};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::check::images::Declaration;
 use crate::frame::check::transfers::looks_beyond;
 use crate::frame::check::{Checked, Place};
@@ -51,7 +51,11 @@ pub(super) fn draw_part(of: &OfFile<'_>, lowered: &mut Pass, errors: &mut Vec<Di
         let message = format!("{why}, and a blit would mix in texels beyond that part");
         let help =
             format!("draw it: `draw: FullScreen(\"copy\"), sample: {{\"source\": \"{}\"}}, color: […]`", one.name);
-        return errors.push(Diagnostic::new(target.span, message).label(source.span, one.name.to_string()).help(help));
+        return errors.push(
+            Diagnostic::new(Code::BLIT_OF_PART, target.span, message)
+                .label(source.span, one.name.to_string())
+                .help(help),
+        );
     }
     lowered.work = Work::Forward { from, to, because: why.clone() };
     lowered.transfers.clear();
@@ -66,6 +70,8 @@ pub(super) fn fill(resources: &Resources<'_>, to: &Part, value: Spanned<Fill>, e
     };
     let Some(name) = name else { return };
     if let Err((message, help)) = fills::typed(value.value, resources.filled(to)) {
-        errors.push(Diagnostic::new(value.span, format!("`{name}` can't be filled: {message}")).help(help));
+        errors.push(
+            Diagnostic::new(Code::FILL_UNFIT, value.span, format!("`{name}` can't be filled: {message}")).help(help),
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::resources::Resources;
 use super::transfers::OfFile;
 use super::{coverage, fills, parts, transfers};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work, check};
 use crate::language::{self, Groups as Described, MOST_GROUPS};
 use crate::ron::{Name, Spanned};
@@ -117,7 +117,7 @@ pub(super) fn holds(
     let Some(there) = resources.buffer(buffer.index) else { return };
     if there.bytes < bytes {
         let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
-        errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
+        errors.push(Diagnostic::new(Code::BUFFER_SIZE_UNFIT, span, message).label(there.span, "declared here"));
     }
 }
 
@@ -133,7 +133,7 @@ fn dispatch_fits(
         Described::Indirect { buffer, offset } => {
             if !offset.is_multiple_of(4) {
                 let message = format!("counts of a dispatch stand at a multiple of 4 bytes, not at {offset}");
-                errors.push(Diagnostic::new(groups.span, message));
+                errors.push(Diagnostic::new(Code::GROUPS, groups.span, message));
             }
             // VkDispatchIndirectCommand.
             let what = format!("the counts of a dispatch at byte {offset}, up to their end,");
@@ -142,8 +142,11 @@ fn dispatch_fits(
         Described::Texels(part) => {
             parts::range(resources, part, errors);
             if let Some(previous) = part.previous {
-                errors
-                    .push(Diagnostic::new(previous.span, "an image has one size in all frames: leave `previous` out"));
+                errors.push(Diagnostic::new(
+                    Code::EARLIER_FRAME,
+                    previous.span,
+                    "an image has one size in all frames: leave `previous` out",
+                ));
             }
         }
         Described::Count(_) | Described::Invocations(_) => {}
@@ -160,7 +163,7 @@ fn dispatch_fits(
                 pass.name.text
             );
             let help = "give the shader larger workgroups, or each invocation more to do";
-            errors.push(Diagnostic::new(groups.span, message).help(help));
+            errors.push(Diagnostic::new(Code::GROUPS, groups.span, message).help(help));
         }
     }
 }
