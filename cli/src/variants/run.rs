@@ -8,7 +8,7 @@ use super::shaders::SharedShaders;
 use super::space::Space;
 use crate::system::counted::Progress;
 use crate::system::interrupt;
-use framewright_graph::base::{Code, Diagnostic, Span};
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::plan::Totals;
 use framewright_vulkan::ShaderLibrary;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -180,6 +180,7 @@ impl Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use framewright_graph::base::Code;
 
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_in_whichever_half_it_was_found() {

@@ -244,7 +244,10 @@ impl ImageCheck<'_> {
         if image.format.is_depth() || image.format.numeric() == Numeric::Srgb {
             let what = if image.format.is_depth() { "depth" } else { "sRGB colour" };
             let message = format!("`{}` holds {what} ({}), which no shader can store", image.name, image.format);
-            errors.push(here(Code::STORAGE_IMAGE, message).help("store into an image of another format, and copy, blit or draw from there"));
+            errors.push(
+                here(Code::STORAGE_IMAGE, message)
+                    .help("store into an image of another format, and copy, blit or draw from there"),
+            );
             return;
         }
         if image.samples > 1 || shape.multisampled {
@@ -266,7 +269,9 @@ impl ImageCheck<'_> {
         {
             let message =
                 format!("shader `{shader}` declares `{name}` as {format}, but `{}` is {}", image.name, image.format);
-            errors.push(here(Code::STORAGE_IMAGE, message).help("the format in the shader's `layout(…)` is the image's own"));
+            errors.push(
+                here(Code::STORAGE_IMAGE, message).help("the format in the shader's `layout(…)` is the image's own"),
+            );
         }
     }
 }

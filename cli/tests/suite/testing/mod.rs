@@ -50,7 +50,7 @@ impl Outcome {
 
     /// Standard error, without codes of mistakes unless `expected` has one: a test that is about words says nothing of the code.
     fn said(&self, expected: &str) -> String {
-        if expected.contains(" [E") { self.err.clone() } else { without_codes(&self.err) }
+        if expected.contains("[E") { self.err.clone() } else { without_codes(&self.err) }
     }
 }
 

@@ -43,7 +43,7 @@ room! {
     /// There is no image of that name.
     ///
     /// Passes use images that `images` or `textures` declares: that is where their format and size stand.
-    /// Wrong: `color: ["colour"]`, with `images: [(name: "color", format: Color8)]`.
+    /// Wrong: `color: ["colour"]`, with `images: [(name: "color", format: Color)]`.
     /// Mended: `color: ["color"]`.
     UNKNOWN_IMAGE = 207,
 

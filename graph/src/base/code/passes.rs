@@ -29,7 +29,7 @@ room! {
     /// How many workgroups run isn't said, or is more than can run.
     ///
     /// `groups: Texels("image")` runs the shader for each texel of an image, `Count(8, 8, 1)` so many workgroups, and
-    /// `Indirect(buffer: "…")` those that a buffer has, at a multiple of 4 bytes.
+    /// `Indirect("counts")` those that a buffer has, at a multiple of 4 bytes.
     GROUPS = 705,
 
     /// A pass draws into one image twice.

@@ -27,8 +27,8 @@ room! {
     ///
     /// What is opened by `(`, `[`, `{`, `"`, `'` or `/*` must be closed. The place that opened it is shown: the mistake is often there,
     /// far above the end of the file.
-    /// Wrong: `(name: "sky, draw: Scene)`.
-    /// Mended: `(name: "sky", draw: Scene)`.
+    /// Wrong: `(name: "sky, draw: Opaque)`.
+    /// Mended: `(name: "sky", draw: Opaque)`.
     NOT_CLOSED = 104,
 
     /// The text is not RON.
@@ -68,8 +68,8 @@ room! {
     /// A field is missing.
     ///
     /// Some fields have no default, because no value would be right for most files. The message names those that are missing.
-    /// Wrong: `images: [(format: Color8)]`.
-    /// Mended: `images: [(name: "color", format: Color8)]`.
+    /// Wrong: `images: [(format: Color)]`.
+    /// Mended: `images: [(name: "color", format: Color)]`.
     FIELD_MISSING = 110,
 
     /// A field is given twice.
