@@ -127,6 +127,9 @@ pub(crate) enum Error {
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
+    /// There is no such code.
+    #[error("there is no code `{}`{}", text::escape(code), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
+    UnknownCode { code: String, help: Option<String> },
     /// A pass that no scene draws.
     #[error(
         "nobody records `{}`, which the custom pass `{}` asks for\nhelp: the program that draws the pipeline records it; `framewright check --interface` checks a pipeline for such a program",
@@ -315,15 +318,15 @@ impl Error {
         Error::Mistakes { mistakes: Box::new(Mistakes { sources, diagnostics: options::named(diagnostics), exit }) }
     }
 
-    /// The text to print. Mistakes of a pipeline have headings of their own.
+    /// The text to print: the first line ends with the code. Mistakes of a pipeline have headings and codes of their own.
     #[must_use]
     pub(crate) fn shown(&self) -> String {
-        let headed = match self {
-            Error::Mistakes { .. } => true,
-            Error::Scene(problem) => matches!(**problem, SceneError::Text { .. }),
-            _ => false,
-        };
-        if headed { self.to_string().trim_end().to_owned() } else { format!("error: {self}") }
+        let text = self.to_string();
+        let Some(code) = self.code() else { return text.trim_end().to_owned() };
+        match text.split_once('\n') {
+            Some((first, more)) => format!("error: {first} [{code}]\n{more}"),
+            None => format!("error: {text} [{code}]"),
+        }
     }
 
     /// Whether it is about the pipeline, or what the command line asks of it.
@@ -407,6 +410,7 @@ impl Error {
             | Error::ReadAndWritten { .. }
             | Error::OtherResults { .. }
             | Error::NoName { .. }
+            | Error::UnknownCode { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
                 Exit::Interrupted

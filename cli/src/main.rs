@@ -5,6 +5,7 @@ mod command_line;
 mod commands;
 mod drawing;
 mod error;
+mod error_code;
 mod files;
 mod findings;
 mod inspection;

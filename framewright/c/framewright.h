@@ -95,6 +95,8 @@ typedef struct {
     uint32_t line;
     // The column in characters, from 1.
     uint32_t column;
+    // The stable code of the rule that is broken, such as "E0207": docs/codes.md explains it.
+    const char *code;
 } FramewrightMistake;
 
 // How to open a device. 0 in a field is its default.

@@ -2,7 +2,7 @@
 
 use crate::assets::Assets;
 use crate::error::Error;
-use framewright_graph::base::{Diagnostic, Sources, Span};
+use framewright_graph::base::{Code, Diagnostic, Sources, Span};
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::plan::{Pass, Plan};
 use framewright_passes::draw::SceneDrawSource;
@@ -65,7 +65,8 @@ pub fn check_cameras(plan: &Plan, frame: Option<&Frame>, scene: &Scene) -> Resul
             let wanted = view.camera.as_deref().unwrap_or_default();
             let message = format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name);
             let span = frame.and_then(|frame| frame.views.get(at)).map_or(Span::NONE, |view| view.span);
-            Diagnostic::new(span, message).help("name a camera of the scene, or leave `camera` out: the scene's own")
+            Diagnostic::new(Code::UNKNOWN_CAMERA, span, message)
+                .help("name a camera of the scene, or leave `camera` out: the scene's own")
         })
         .collect();
     if diagnostics.is_empty() { Ok(()) } else { Err(wrong(frame, diagnostics)) }
@@ -84,7 +85,7 @@ fn of_texture(frame: Option<&Frame>, error: Error) -> Error {
     if let Error::Vulkan(framewright_vulkan::Error::Texture { image, path, problem }) = &error
         && let Some(declared) = frame.and_then(|frame| frame.images.iter().find(|it| *it.name == **image))
     {
-        return wrong(frame, vec![Diagnostic::new(declared.span, format!("`{path}` {problem}"))]);
+        return wrong(frame, vec![Diagnostic::new(Code::TEXTURE_FILE, declared.span, format!("`{path}` {problem}"))]);
     }
     error
 }

@@ -2,6 +2,7 @@
 
 mod cache;
 mod cancel;
+mod code;
 pub(crate) mod convert;
 mod debug_words;
 mod error;

@@ -3,9 +3,8 @@
 use super::bound::Bound;
 use super::{Budget, Limit};
 use crate::error::Error;
-use crate::findings::OVER_BUDGET;
 use crate::system::Exit;
-use framewright_graph::base::{Diagnostic, Place, Sources, Span};
+use framewright_graph::base::{Code, Diagnostic, Place, Sources, Span};
 use framewright_graph::dataflow::{Dataflow, Node};
 use framewright_graph::plan::Plan;
 
@@ -47,7 +46,7 @@ fn breach(
     let (words, unit) = bound.words();
     let number = |number: f64| if unit.is_empty() { number.to_string() } else { format!("{number:.2}") };
     let [found, most_words] = [found, most].map(number);
-    let message = format!("{OVER_BUDGET}{words} {found}{unit}, and at most {most_words}{unit} are allowed");
+    let message = format!("the budget is exceeded: {words} {found}{unit}, and at most {most_words}{unit} are allowed");
     let step = bound.broken_by(plan, most);
     let of_step = || flow.nodes.iter().filter(|node| Some(node.step.0 as usize) == step);
     // A resolve that a scope carries is not what its first pass says.
@@ -64,8 +63,8 @@ fn breach(
     }
     let place = node.and_then(|node| node.at.as_ref()).and_then(|place| span(sources, place));
     match place {
-        Some(place) => Diagnostic::new(place, message).remark(remark).label(limit.span, "the limit"),
-        None => Diagnostic::new(limit.span, message).remark(remark),
+        Some(place) => Diagnostic::new(Code::OVER_BUDGET, place, message).remark(remark).label(limit.span, "the limit"),
+        None => Diagnostic::new(Code::OVER_BUDGET, limit.span, message).remark(remark),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::files::inputs::{self, FileRole};
 use crate::planning::device;
 use crate::system::Exit;
 use framewright::Pipeline;
-use framewright_graph::base::{self, Diagnostic, ReadFiles, Span};
+use framewright_graph::base::{self, Code, Diagnostic, ReadFiles, Span};
 use framewright_graph::language::Document;
 use ron::Options;
 use ron::extensions::Extensions;
@@ -96,7 +96,7 @@ fn parse(text: &str, file: u32, pipeline: &Document) -> Result<Budget, Vec<Diagn
     let BudgetFile { version, limits } = ron::from_str(text).map_err(|error| vec![wrong(file, text, 0, &error)])?;
     if version != VERSION {
         let message = format!("this is version {version} of budgets, and this program reads version {VERSION}");
-        return Err(vec![Diagnostic::new(span(file, text, 0, text.len()), message)]);
+        return Err(vec![Diagnostic::new(Code::VERSION, span(file, text, 0, text.len()), message)]);
     }
     let mut mistakes = Vec::new();
     let mut budget = Budget::default();
@@ -122,7 +122,7 @@ fn limit(entry: &LimitEntry, span: Span, pipeline: &Document) -> Result<Limit, D
     let mut settings = Vec::new();
     for (name, value) in &entry.settings {
         if !known().any(|known| known == name) {
-            let unknown = Diagnostic::new(span, format!("the pipeline has no setting `{name}`"));
+            let unknown = Diagnostic::new(Code::UNKNOWN_SETTING, span, format!("the pipeline has no setting `{name}`"));
             return Err(match base::nearest(name, known()) {
                 Some(near) => unknown.help(format!("did you mean `{near}`?")),
                 None => unknown,
@@ -133,16 +133,26 @@ fn limit(entry: &LimitEntry, span: Span, pipeline: &Document) -> Result<Limit, D
             ron::Value::Number(value) => value.into_f64().to_string(),
             ron::Value::String(value) => value.clone(),
             _ => {
-                return Err(Diagnostic::new(span, format!("the value of `{name}` is a number, a text, true or false")));
+                return Err(Diagnostic::new(
+                    Code::BUDGET_LIMIT,
+                    span,
+                    format!("the value of `{name}` is a number, a text, true or false"),
+                ));
             }
         };
         settings.push((name.clone(), value));
     }
     if entry.bounds().next().is_none() {
-        return Err(Diagnostic::new(span, "the limit bounds nothing").help("add for example `resolves: 3`"));
+        return Err(
+            Diagnostic::new(Code::BUDGET_LIMIT, span, "the limit bounds nothing").help("add for example `resolves: 3`")
+        );
     }
     if let Some((bound, most)) = entry.bounds().find(|(_, most)| !most.is_finite() || *most < 0.0) {
-        return Err(Diagnostic::new(span, format!("a bound on {} can't be {most}", bound.words().0)));
+        return Err(Diagnostic::new(
+            Code::BUDGET_LIMIT,
+            span,
+            format!("a bound on {} can't be {most}", bound.words().0),
+        ));
     }
     // A shipped profile is named as `--device` names it; another device by its own name.
     let profiles = device::all().unwrap_or_default();
@@ -164,7 +174,12 @@ fn wrong(file: u32, text: &str, start: usize, error: &ron::error::SpannedError) 
     };
     let [from, to] = [offset(&error.span.start), offset(&error.span.end)];
     let help = "a budget is `Budget(version: 1, limits: [(resolves: 3, memory_mib: 64), …])`; docs/command.md lists the bounds";
-    Diagnostic::new(span(file, text, from, to.max(from)), format!("this is no budget: {}", error.code)).help(help)
+    Diagnostic::new(
+        Code::BUDGET_FILE,
+        span(file, text, from, to.max(from)),
+        format!("this is no budget: {}", error.code),
+    )
+    .help(help)
 }
 
 fn span(file: u32, text: &str, start: usize, end: usize) -> Span {

@@ -49,7 +49,7 @@ pub(crate) enum Command {
     /// Print the differences between two Plans: what another file, setting or device does to passes, resolves, barriers and memory.
     /// Needs no GPU.
     Diff(DiffArguments),
-    /// Print why a pass, an image, a resolve or a barrier is in a Plan, or isn't. Needs no GPU.
+    /// Print why a pass, an image, a resolve or a barrier is in a Plan, or isn't, or what the code of a mistake means. Needs no GPU.
     ///
     /// A file that ends with .json is a Plan, which is verified first.
     Explain(ExplainArguments),
@@ -386,7 +386,7 @@ impl Command {
             Command::Check(check) => (&check.pipeline, None),
             Command::Inspect(inspect) => (&inspect.pipeline, inspect.capture.then_some("`--capture` draws")),
             Command::Diff(diff) => (&diff.pipeline, None),
-            Command::Explain(explain) => (&explain.pipeline, None),
+            Command::Explain(ExplainArguments::Thing(thing)) => (&thing.pipeline, None),
             Command::Run(run) => (&run.pipeline, Some("`run` draws")),
             Command::Serve(serve) => (&serve.pipeline, Some("`serve` draws")),
             Command::Window(window) => (&window.pipeline, None),

@@ -1,6 +1,7 @@
 //! Findings of a check, with their places.
 
 use crate::system::text;
+use framewright_graph::base::Code;
 use serde_json::Value;
 
 /// A thing that was checked: a device, or variants that have a mistake in common.
@@ -62,9 +63,6 @@ impl Kind {
     }
 }
 
-/// The beginning of the message of a breach.
-pub(crate) const OVER_BUDGET: &str = "the budget is exceeded: ";
-
 impl Case {
     /// A case with these mistakes, as `base::to_json` has them.
     pub(crate) fn new(name: impl Into<String>, mistakes: &Value) -> Case {
@@ -88,7 +86,8 @@ impl Case {
 impl Finding {
     fn of(mistake: &Value) -> Finding {
         let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
-        let message = text(mistake, "message");
+        let mut message = text(mistake, "message");
+        message.extend(mistake["code"].as_str().map(|code| format!(" [{code}]")));
         let labels = mistake["labels"].as_array().into_iter().flatten();
         let mut places: Vec<(FilePlace, String)> =
             labels.filter_map(|label| Some((FilePlace::of(label)?, text(label, "text")))).collect();
@@ -100,7 +99,7 @@ impl Finding {
             more.extend(Some(remark).filter(|remark| !remark.is_empty()));
         }
         more.extend(mistake["help"].as_str().map(|help| format!("help: {help}")));
-        let kind = if message.starts_with(OVER_BUDGET) { Kind::Budget } else { Kind::Mistake };
+        let kind = if mistake["code"] == Code::OVER_BUDGET.to_string() { Kind::Budget } else { Kind::Mistake };
         Finding { kind, message, more, place, related: places }
     }
 

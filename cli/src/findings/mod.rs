@@ -5,7 +5,7 @@ mod github;
 mod junit;
 mod sarif;
 
-pub(crate) use finding::{Case, OVER_BUDGET};
+pub(crate) use finding::Case;
 
 use crate::command_line::args::CheckFormat;
 

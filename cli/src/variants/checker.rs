@@ -8,7 +8,7 @@ use super::space::Choice;
 use crate::budget::Budget;
 use crate::system::interrupt;
 use framewright::Choices;
-use framewright_graph::base::{Diagnostic, Sources};
+use framewright_graph::base::{Code, Diagnostic, Sources};
 use framewright_graph::compile::{Compiler, Options, heap_size, shaders};
 use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand;
@@ -154,7 +154,7 @@ impl<'a> VariantChecker<'a> {
         let CheckedPipeline { pipeline, sources, choices, axes, .. } = self.subject;
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
         let stereo = device.map_or(Ok(Stereo::Off), |device| choices.stereo_on(device));
-        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why.to_string())])?;
+        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(Code::STEREO_UNSUPPORTED, why.to_string())])?;
         let choices = Choices { set: axes.settings(choice), facts: Some(axes.facts(choice)), ..choices.clone() };
         let inputs = choices.inputs(stereo, device);
         expand::expand_reading(pipeline, Arc::clone(sources), &inputs, &mut self.shaders, Some(reads))
@@ -162,7 +162,10 @@ impl<'a> VariantChecker<'a> {
 }
 
 fn own_mistake(violation: &str) -> Diagnostic {
-    Diagnostic::nowhere(format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"))
+    Diagnostic::nowhere(
+        Code::OWN_MISTAKE,
+        format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"),
+    )
 }
 
 #[cfg(test)]

@@ -106,10 +106,10 @@ fn parts_of(fact: Fact) -> Vec<Fact> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::base::Diagnostic;
+    use framewright_graph::base::{Code, Diagnostic};
 
     fn verdict(words: &str) -> Verdict {
-        Err(vec![Diagnostic::nowhere(words)])
+        Err(vec![Diagnostic::nowhere(Code::OWN_MISTAKE, words)])
     }
 
     fn words(found: Option<Verdict>) -> Option<String> {

@@ -180,10 +180,11 @@ impl Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use framewright_graph::base::Code;
 
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_in_whichever_half_it_was_found() {
-        let diagnostic = Diagnostic::nowhere("wrong");
+        let diagnostic = Diagnostic::nowhere(Code::OWN_MISTAKE, "wrong");
         let identity = Identity { plan: 7, shape: 1 };
         let fine = VerifiedPlan { identity, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];

@@ -11,6 +11,7 @@ mod cache;
 mod captures;
 mod choosing;
 mod ci_recipes;
+mod codes;
 mod compare;
 mod converged;
 mod deferred;

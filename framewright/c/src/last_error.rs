@@ -17,6 +17,8 @@ pub struct FramewrightMistake {
     pub line: u32,
     /// The column in characters, from 1.
     pub column: u32,
+    /// The stable code of the rule that is broken, such as "E0207": docs/codes.md explains it.
+    pub code: *const c_char,
 }
 
 /// The last error of a thread. The mistakes point into the texts.
@@ -56,8 +58,15 @@ impl LastError {
         let Some((sources, diagnostics)) = diagnostics else { return last };
         for diagnostic in diagnostics {
             let message = text(&diagnostic.message);
-            let mut mistake = FramewrightMistake { message: message.as_ptr(), file: ptr::null(), line: 0, column: 0 };
-            last.texts.push(message);
+            let code = text(&diagnostic.code.to_string());
+            let mut mistake = FramewrightMistake {
+                message: message.as_ptr(),
+                file: ptr::null(),
+                line: 0,
+                column: 0,
+                code: code.as_ptr(),
+            };
+            last.texts.extend([message, code]);
             if let Some(place) = diagnostic.labels.first().and_then(|label| sources.place(label.span)) {
                 let file = text(&place.file);
                 mistake = FramewrightMistake { file: file.as_ptr(), line: place.line, column: place.column, ..mistake };

@@ -1,7 +1,7 @@
 //! Mistakes in a file: the message, its places, and the help.
 
-use super::Span;
 use super::shorten::bounded;
+use super::{Code, Span};
 use std::ops::Range;
 use std::panic::Location;
 
@@ -16,10 +16,10 @@ pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
 }
 
 /// One mistake.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Its kind. Code that looks for a mistake asks this; the message is for people.
-    pub kind: MistakeKind,
+    /// The rule that is broken. Programs tell mistakes apart by it; the message is for people.
+    pub code: Code,
     /// The check that reports it, by its place in this program. What one check reports at one place is one mistake, whatever names and
     /// numbers the message has.
     pub check: Option<&'static Location<'static>>,
@@ -35,56 +35,6 @@ pub struct Diagnostic {
     pub choice: Option<OutsideChoice>,
     /// Whether nothing is wrong with the files: the machine doesn't let one be read, or lacks something.
     pub of_machine: bool,
-}
-
-/// The kind of a mistake: what the program itself tells mistakes apart by. A stable code of a mistake belongs to its kind.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum MistakeKind {
-    /// Any other.
-    #[default]
-    Other,
-    /// Nothing has the name that stands at the primary place.
-    UnknownName(NameKind),
-}
-
-/// What a name that nothing has was to name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NameKind {
-    /// A setting.
-    Setting,
-    /// A preset.
-    Preset,
-    /// A view.
-    View,
-    /// An image or texture.
-    Image,
-    /// A buffer.
-    Buffer,
-    /// An image, texture or buffer.
-    ImageOrBuffer,
-    /// A pass.
-    Pass,
-    /// Whatever an expression can name.
-    Value,
-    /// Another thing.
-    Other,
-}
-
-impl NameKind {
-    /// Its word in messages.
-    pub(crate) const fn word(self) -> &'static str {
-        match self {
-            NameKind::Setting => "setting",
-            NameKind::Preset => "preset",
-            NameKind::View => "view",
-            NameKind::Image => "image",
-            NameKind::Buffer => "buffer",
-            NameKind::ImageOrBuffer => "image or buffer",
-            NameKind::Pass => "pass",
-            NameKind::Value => "value",
-            NameKind::Other => "thing",
-        }
-    }
 }
 
 /// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
@@ -149,23 +99,30 @@ impl Diagnostic {
     /// A mistake that stands in no file.
     #[must_use]
     #[track_caller]
-    pub fn nowhere(message: impl Into<String>) -> Diagnostic {
-        let check = Some(Location::caller());
-        Diagnostic { message: short(message.into()), check, ..Diagnostic::default() }
+    pub fn nowhere(code: Code, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            code,
+            check: Some(Location::caller()),
+            message: short(message.into()),
+            labels: Vec::new(),
+            quotes: Vec::new(),
+            help: None,
+            choice: None,
+            of_machine: false,
+        }
     }
 
     /// A mistake at `span`.
     #[must_use]
     #[track_caller]
-    pub fn new(span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::nowhere(message).at(span)
+    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::nowhere(code, message).at(span)
     }
 
-    /// Nothing has this name.
+    /// No `what` has this name.
     #[track_caller]
-    pub(crate) fn unknown_name(sought: NameKind, name: &str) -> Diagnostic {
-        let message = format!("there is no {} named `{name}`", sought.word());
-        Diagnostic { kind: MistakeKind::UnknownName(sought), ..Diagnostic::nowhere(message) }
+    pub(crate) fn unknown_name(code: Code, what: &str, name: &str) -> Diagnostic {
+        Diagnostic::nowhere(code, format!("there is no {what} named `{name}`"))
     }
 
     /// With this primary place, if it has none.

@@ -5,7 +5,7 @@ use super::{Diagnostic, Label, MOST_KEPT, Quote, Sources, Span};
 use serde_json::{Value, json};
 use std::ops::Range;
 
-/// Mistakes as a JSON list. Each has `message`, `help` (or null) and `labels`, and of its primary place, unless no file
+/// Mistakes as a JSON list. Each has `code`, `message`, `help` (or null) and `labels`, and of its primary place, unless no file
 /// is involved, `file` as the user named it, `line` and `column` from 1, and `end` with `line` and `column` of the first
 /// character after it. Columns count characters. Messages, remarks and help are escaped as in
 /// [`render`](super::render()); the file's name is not. At most 256 are told; a last one without a place says so.
@@ -29,6 +29,7 @@ fn one(sources: &Sources, diagnostic: &Diagnostic) -> Value {
         .collect();
     labels.extend(diagnostic.quotes.iter().map(quoted));
     let mut value = diagnostic.labels.first().map_or_else(|| json!({}), |label| place(sources, label));
+    value["code"] = json!(diagnostic.code.to_string());
     value["message"] = json!(shown(&diagnostic.message));
     value["help"] = json!(diagnostic.help.as_deref().map(shown_lines));
     value["labels"] = json!(labels);

@@ -1,6 +1,7 @@
 //! Tools for everything else: places in source text, mistakes and how they are shown, near names, numbers, paths.
 
 pub mod amount;
+mod code;
 mod diagnostic;
 mod encoding;
 mod file_path;
@@ -14,7 +15,8 @@ mod shorten;
 mod source;
 mod text;
 
-pub use diagnostic::{Diagnostic, Label, MistakeKind, NameKind, OutsideChoice, Quote};
+pub use code::{Code, Room};
+pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
 pub(crate) use diagnostic::{MOST_KEPT, keep};
 pub use encoding::{NoText, other_encoding, text_of, without_mark};
 pub use file_path::{FilePath, for_shell};

@@ -1,4 +1,4 @@
-//! Mistakes as text: `error: …`, `file:line:column`, the offending text underlined, the help.
+//! Mistakes as text: `error: … [E0207]`, `file:line:column`, the offending text underlined, the help.
 
 use super::shorten::bounded;
 use super::{Diagnostic, MOST_KEPT, Quote, Sources};
@@ -58,7 +58,7 @@ pub(super) fn shown_lines(text: &str) -> String {
     bounded(text).lines().map(escape).collect::<Vec<_>>().join("\n")
 }
 
-/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, the help. The first 20 are
+/// Renders mistakes as text: `error: … [E0207]`, `file:line:column`, the offending text underlined, the help. The first 20 are
 /// shown, and the others counted. Ends with a line break unless there are no mistakes.
 #[must_use]
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
@@ -79,7 +79,8 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
 }
 
 fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
-    let mut group = Group::with_title(Level::ERROR.primary_title(shown(&diagnostic.message)));
+    let mut group =
+        Group::with_title(Level::ERROR.primary_title(format!("{} [{}]", shown(&diagnostic.message), diagnostic.code)));
     for window in windows(sources, diagnostic) {
         if window.lines.len() > LARGEST_WINDOW {
             let origin = Origin::path(window.path).line(window.line).char_column(window.column);

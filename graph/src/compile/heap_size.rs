@@ -1,6 +1,6 @@
 //! Whether a device has the memory that a Plan takes.
 
-use crate::base::{Diagnostic, Span, amount};
+use crate::base::{Code, Diagnostic, Span, amount};
 use crate::device::{ImageDescriptor, MemoryEstimate, MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::{Image, Plan};
@@ -27,7 +27,7 @@ pub fn too_large(plan: &Plan, frame: &Frame, device: &Profile) -> Option<Diagnos
         amount::bytes(heap),
         amount::largest(parts)
     );
-    Some(Diagnostic::new(span, message).help(help))
+    Some(Diagnostic::new(Code::TOO_MUCH_MEMORY, span, message).help(help))
 }
 
 /// Where the image or buffer of this name is declared. Inserted images have its name and a suffix: "color (resolved)".

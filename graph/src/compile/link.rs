@@ -2,7 +2,7 @@
 //! is kept and whether all passes are needed.
 
 use super::parts::Parts;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::frame::check::contents::{Contents, MissingContents, NOTHING};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Resource};
 use std::ops::Range;
@@ -41,7 +41,7 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<FrameLinks, Vec<D
         if contents.output(output.resource, output.span).is_some() {
             let message = format!("output `{}` is never written", frame.name(output.resource));
             let help = "let a pass write it, or take it out of `outputs`";
-            errors.push(Diagnostic::new(output.span, message).help(help));
+            errors.push(Diagnostic::new(Code::NEVER_WRITTEN, output.span, message).help(help));
         }
         kept.push(parts.of(output.resource));
     }
@@ -49,7 +49,7 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<FrameLinks, Vec<D
     for (number, of) in twice {
         let pass = &frame.passes[number as usize - 1];
         let message = format!("`{}` writes `{}` in two ways at once", pass.name, frame.name(of));
-        errors.push(Diagnostic::new(pass.span, message));
+        errors.push(Diagnostic::new(Code::WRITTEN_IN_TWO_WAYS, pass.span, message));
     }
     if !errors.is_empty() {
         return Err(errors);
@@ -66,12 +66,14 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<FrameLinks, Vec<D
 /// Says that a pass needs what nothing has written, once for all planes.
 fn unwritten(frame: &Frame, pass: &str, found: &MissingContents, errors: &mut Vec<Diagnostic>) {
     let name = frame.name(found.of);
-    let (message, help) = if found.writes {
-        (format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched"), "clear it")
+    let (code, message, help) = if found.writes {
+        let message = format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched");
+        (Code::NOT_CLEARED, message, "clear it")
     } else {
-        (format!("`{pass}` reads `{name}` before anything has written it"), "a pass reads what passes above it wrote")
+        let message = format!("`{pass}` reads `{name}` before anything has written it");
+        (Code::READ_BEFORE_WRITTEN, message, "a pass reads what passes above it wrote")
     };
-    let wrong = Diagnostic::new(found.span, message).help(help);
+    let wrong = Diagnostic::new(code, found.span, message).help(help);
     if errors.last() != Some(&wrong) {
         errors.push(wrong);
     }

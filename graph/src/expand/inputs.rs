@@ -1,6 +1,6 @@
 //! Inputs beside the file: settings, scene facts, size, device, eyes.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::device::Profile;
 use crate::frame::{Allowances, Stereo};
 use crate::language::{Facts, LARGEST_SIZE, Reads, Surroundings};
@@ -50,8 +50,9 @@ pub(super) fn surroundings<'a>(inputs: &Inputs<'a>, reads: Option<&'a Reads>) ->
 pub(super) fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
     let [width, height] = extent;
     if extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
-        errors.push(Diagnostic::nowhere(format!(
-            "the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed"
-        )));
+        errors.push(Diagnostic::nowhere(
+            Code::SIZE_OUTSIDE,
+            format!("the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed"),
+        ));
     }
 }

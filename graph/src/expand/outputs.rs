@@ -2,7 +2,7 @@
 
 use super::inputs::Inputs;
 use super::resources::Resources;
-use crate::base::{Diagnostic, Span, suggestion};
+use crate::base::{Code, Diagnostic, Span, suggestion};
 use crate::frame::check::images::wrong_encoding;
 use crate::frame::{Eye, ImageIndex, Output, Resource};
 use crate::language::{self, Pipeline, State};
@@ -33,7 +33,7 @@ pub(super) fn outputs(resources: &Resources<'_>, inputs: &Inputs<'_>, errors: &m
             Resource::Image(image) => Some(&resources.declared(image).name.text),
             Resource::Buffer(_) => None,
         });
-        let wrong = Diagnostic::new(span, message);
+        let wrong = Diagnostic::new(Code::NOTHING_TO_ROTATE, span, message);
         errors.push(match images.into_iter().next() {
             Some(image) => wrong.help(format!("say `format: Output` of `{image}`")),
             None => wrong.help("let an image leave the frame"),
@@ -71,13 +71,15 @@ pub(super) fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Out
             .collect();
         if found.is_empty() {
             let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
-            errors
-                .push(Diagnostic { help, ..Diagnostic::nowhere(format!("there is no image named `{name}` to dump")) });
+            errors.push(Diagnostic {
+                help,
+                ..Diagnostic::nowhere(Code::UNKNOWN_IMAGE, format!("there is no image named `{name}` to dump"))
+            });
         }
         for (index, eye) in found {
             if let language::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
                 let why = format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path);
-                errors.push(Diagnostic::nowhere(why));
+                errors.push(Diagnostic::nowhere(Code::TEXTURE_WRITTEN, why));
                 continue;
             }
             let Ok(index) = u32::try_from(index) else { continue };

@@ -1,6 +1,6 @@
 //! Values of settings: the user's choice where it is allowed, else the choice of a file or a preset, else the default.
 
-use crate::base::{Diagnostic, NameKind, shown_number, suggestion};
+use crate::base::{Code, Diagnostic, shown_number, suggestion};
 use crate::expression::Value;
 use crate::language::{ChosenBy, ChosenValue, Document, Setting, SettingKind};
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut
         let Some(at) = index.get(name.as_str()) else {
             let help = suggestion(name, settings.iter().map(|setting| &*setting.name.text))
                 .or_else(|| Some("this pipeline has no settings".to_owned()));
-            errors.push(Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Setting, name) });
+            errors.push(Diagnostic { help, ..Diagnostic::unknown_name(Code::UNKNOWN_SETTING, "setting", name) });
             continue;
         };
         let setting = &settings[*at];
@@ -58,7 +58,7 @@ fn not_allowed(setting: &Setting, text: &str, value: Option<&Value>) -> Diagnost
         Some(value) => setting.kind.instead_of(value),
         None => format!("it is {}", setting.kind.allowed()),
     };
-    Diagnostic::new(setting.name.span, format!("setting `{name}` doesn't allow `{text}`"))
+    Diagnostic::new(Code::VALUE_NOT_ALLOWED, setting.name.span, format!("setting `{name}` doesn't allow `{text}`"))
         .remark("declared here")
         .help(help)
 }

@@ -5,7 +5,7 @@ use super::functions::{Callee, Function};
 use super::program::Expression;
 use super::program::{Binary, Operation, Program, shown};
 use super::types::{Type, Value, WantedTypes};
-use crate::base::{Diagnostic, MistakeKind, NameKind, Span, nearest, suggestion, without_quotes};
+use crate::base::{Code, Diagnostic, Span, nearest, suggestion, without_quotes};
 use crate::vulkan::{Format, vulkans_name};
 
 /// Binds the names of a program, and checks its types and its value's.
@@ -93,9 +93,8 @@ impl Check<'_> {
                     None => {
                         let message = format!("there is nothing named {}", shown(name));
                         let help = unknown(name, self.declarations, wanted, alone);
-                        let unknown = self.program.text.mistake(range.clone(), message);
-                        let kind = MistakeKind::UnknownName(NameKind::Value);
-                        self.errors.push(Diagnostic { kind, help, ..unknown });
+                        let unknown = self.program.text.mistake(Code::UNKNOWN_VALUE, range.clone(), message);
+                        self.errors.push(Diagnostic { help, ..unknown });
                         Name::Unknown(self.errors.len() - 1)
                     }
                 },
@@ -165,7 +164,7 @@ impl Check<'_> {
                 let quoted = self.program.quoted(node);
                 let message = format!("{quoted} is a list of {}: it takes an index", symbol.ty.several());
                 let help = format!("write `{}[…]`, counted from 0", quoted.trim_matches('`'));
-                self.report(node, message, symbol.declared, Some(help));
+                self.report(Code::INDEX, node, message, symbol.declared, Some(help));
                 NodeType::Unknown
             }
             Name::Reported | Name::Unknown(_) => NodeType::Unknown,
@@ -184,7 +183,7 @@ impl Check<'_> {
             Name::Reported | Name::Unknown(_) => return NodeType::Unknown,
         };
         let message = format!("{} is no list: it takes no index", shown(&self.program.names[name as usize].0));
-        self.report(node, message, declared, None);
+        self.report(Code::INDEX, node, message, declared, None);
         NodeType::Unknown
     }
 
@@ -219,7 +218,13 @@ impl Check<'_> {
         let (Some(left_type), Some(right_type)) = (left.ty, right.ty) else { return };
         if left_type.meet(right_type).is_none() {
             let (left, right) = (self.is(left.node, left_type), self.is(right.node, right_type));
-            self.report(node, format!("these can't be compared: {left}, and {right}"), Span::NONE, None);
+            self.report(
+                Code::WRONG_TYPE,
+                node,
+                format!("these can't be compared: {left}, and {right}"),
+                Span::NONE,
+                None,
+            );
         }
     }
 
@@ -242,7 +247,7 @@ impl Check<'_> {
         let message = format!("{} {name} is never {}", symbol.origin.words(), self.program.quoted(text.node));
         let quoted: Vec<String> = choices.into_iter().map(|choice| format!("'{choice}'")).collect();
         let help = suggestion(&format!("'{found}'"), quoted.iter().map(String::as_str));
-        self.report(text.node, message, symbol.declared, help);
+        self.report(Code::NEVER_EQUAL, text.node, message, symbol.declared, help);
     }
 
     /// A name that nothing has is compared with a text: it may be a near name, or a text without its quotes.
@@ -296,7 +301,7 @@ impl Check<'_> {
         let Some(met) = first_type.meet(second_type) else {
             let (first, second) = (self.is(first.node, first_type), self.is(second.node, second_type));
             let message = format!("the values of `if` have different types: {first}, and {second}");
-            self.report(node, message, Span::NONE, None);
+            self.report(Code::WRONG_TYPE, node, message, Span::NONE, None);
             return NodeType::Unknown;
         };
         self.program.nodes[node as usize].operation = Operation::If { widen: met == Type::Number };
@@ -376,7 +381,7 @@ impl Check<'_> {
             }
             _ => None,
         };
-        self.report(node, message, declared, help);
+        self.report(Code::WRONG_TYPE, node, message, declared, help);
     }
 
     /// "`levels` is a whole number"
@@ -384,8 +389,8 @@ impl Check<'_> {
         format!("{} is {}", self.program.quoted(node), ty.words())
     }
 
-    fn report(&mut self, node: u32, message: String, declared: Span, help: Option<String>) {
-        let mistake = self.program.text.mistake(self.program.range(node), message);
+    fn report(&mut self, code: Code, node: u32, message: String, declared: Span, help: Option<String>) {
+        let mistake = self.program.text.mistake(code, self.program.range(node), message);
         let mistake = if declared.file().is_some() { mistake.label(declared, "declared here") } else { mistake };
         self.errors.push(Diagnostic { help, ..mistake });
     }

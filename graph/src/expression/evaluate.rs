@@ -6,7 +6,7 @@ use super::functions::Function;
 use super::program::Expression;
 use super::program::{Binary, Operation, shown};
 use super::types::{Type, Value};
-use crate::base::{Diagnostic, Span, shown_number};
+use crate::base::{Code, Diagnostic, Span, shown_number};
 use crate::frame::ImageIndex;
 
 /// The value of an expression, and the decisions behind it.
@@ -303,8 +303,8 @@ impl Run<'_> {
     /// A fault of `node` for people; none if it was reported already.
     fn explain(&self, node: u32, fault: Fault) -> Option<Diagnostic> {
         let program = &self.expression.program;
-        let at = |part: u32, message: String| {
-            program.text.mistake(program.range(part), message).remark(self.shown_within(part))
+        let at = |code: Code, part: u32, message: String| {
+            program.text.mistake(code, program.range(part), message).remark(self.shown_within(part))
         };
         let declared = |mistake: Diagnostic, declared: Span, remark: &str| match declared.file() {
             Some(_) => mistake.label(declared, remark),
@@ -312,22 +312,34 @@ impl Run<'_> {
         };
         Some(match fault {
             Fault::Trouble { trouble, operands: [first, second] } => match trouble {
-                Trouble::DivisionByZero => at(second, "division by zero".to_owned()),
-                Trouble::Overflow => at(node, "this is too large for a whole number of 64 bits".to_owned()),
-                Trouble::NotFinite => at(node, "this is too large for a number of 64 bits".to_owned()),
-                Trouble::NoRoot(value) => at(first, format!("{} has no square root", shown_number(value))),
-                Trouble::NoLogarithm(value) => at(first, format!("{} has no logarithm", shown_number(value))),
+                Trouble::DivisionByZero => at(Code::ARITHMETIC, second, "division by zero".to_owned()),
+                Trouble::Overflow => {
+                    at(Code::ARITHMETIC, node, "this is too large for a whole number of 64 bits".to_owned())
+                }
+                Trouble::NotFinite => {
+                    at(Code::ARITHMETIC, node, "this is too large for a number of 64 bits".to_owned())
+                }
+                Trouble::NoRoot(value) => {
+                    at(Code::ARITHMETIC, first, format!("{} has no square root", shown_number(value)))
+                }
+                Trouble::NoLogarithm(value) => {
+                    at(Code::ARITHMETIC, first, format!("{} has no logarithm", shown_number(value)))
+                }
                 Trouble::NoPower(base, exponent) => {
                     let [base, exponent] = [base, exponent].map(shown_number);
-                    at(node, format!("{base} has no power {exponent}"))
+                    at(Code::ARITHMETIC, node, format!("{base} has no power {exponent}"))
                 }
-                Trouble::NotWhole(value) => {
-                    at(node, format!("{} is too large for a whole number of 64 bits", shown_number(value)))
-                }
+                Trouble::NotWhole(value) => at(
+                    Code::ARITHMETIC,
+                    node,
+                    format!("{} is too large for a whole number of 64 bits", shown_number(value)),
+                ),
                 Trouble::Bounds(low, high) => {
-                    at(node, format!("the lower bound {low} lies above the upper bound {high}"))
+                    at(Code::ARITHMETIC, node, format!("the lower bound {low} lies above the upper bound {high}"))
                 }
-                Trouble::Undeclared => at(node, "this has a value of another type than was declared".to_owned()),
+                Trouble::Undeclared => {
+                    at(Code::ARITHMETIC, node, "this has a value of another type than was declared".to_owned())
+                }
             },
             Fault::NoElement { at: index, index: part, length, declared: place } => {
                 let name = shown(program.element_name(node));
@@ -336,11 +348,11 @@ impl Run<'_> {
                     1 => format!("{name} has no element {index}: it has one, element 0"),
                     _ => format!("{name} has no element {index}: it has {length}, from 0 to {}", length - 1),
                 };
-                declared(at(part, message), place, "declared here")
+                declared(at(Code::NO_ELEMENT, part, message), place, "declared here")
             }
             Fault::Missing(MissingValue::Below(place)) => {
                 let message = format!("{} is not known yet", program.quoted(node));
-                declared(at(node, message), place, "declared here, further below")
+                declared(at(Code::NOT_KNOWN_YET, node, message), place, "declared here, further below")
             }
             Fault::Missing(MissingValue::Reported) => return None,
         })

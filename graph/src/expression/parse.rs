@@ -4,7 +4,7 @@ use super::functions::{CALLEES, Callee};
 use super::program::{Binary, Node, Operation, Program, Text, shown};
 use super::tokens::{self, Mistake, PlacedToken, Token};
 use super::types::Value;
-use crate::base::{Diagnostic, Span, nearest, suggestion};
+use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 use std::ops::Range;
 
 /// An expression has at most this many bytes.
@@ -17,11 +17,11 @@ pub const MOST_NESTED: usize = 64;
 pub(super) fn parse(text: &str, span: Span) -> Result<Program, Diagnostic> {
     if text.len() > LONGEST_TEXT {
         let message = format!("this expression has {} bytes; {LONGEST_TEXT} are allowed", text.len());
-        return Err(Diagnostic::new(span, message));
+        return Err(Diagnostic::new(Code::EXPRESSION_TOO_LONG, span, message));
     }
     let source = Text::new(text, span);
     let located = |mistake: Mistake| {
-        let diagnostic = source.mistake(bytes(&mistake.range), mistake.message);
+        let diagnostic = source.mistake(mistake.code, bytes(&mistake.range), mistake.message);
         match mistake.help {
             Some(help) => diagnostic.help(help),
             None => diagnostic,
@@ -189,7 +189,8 @@ impl<'a> Parser<'a> {
         inner: impl FnOnce(&mut Self) -> Result<T, Mistake>,
     ) -> Result<T, Mistake> {
         if self.depth == MOST_NESTED {
-            return Err(Mistake::new(range, format!("this is nested more than {MOST_NESTED} deep")));
+            let message = format!("this is nested more than {MOST_NESTED} deep");
+            return Err(Mistake::new(range, message).code(Code::EXPRESSION_TOO_LONG));
         }
         self.depth += 1;
         let result = inner(self);
@@ -276,7 +277,9 @@ impl<'a> Parser<'a> {
     }
 
     fn no_list(&self) -> Mistake {
-        Mistake::new(self.next.range.clone(), "this takes no index").help("only the name of a list does: `down[i - 1]`")
+        Mistake::new(self.next.range.clone(), "this takes no index")
+            .code(Code::INDEX)
+            .help("only the name of a list does: `down[i - 1]`")
     }
 
     /// Takes the sign that closes the bracket at `open`. Returns its end.
@@ -300,7 +303,8 @@ impl<'a> Parser<'a> {
                 Some(near) => Some(format!("did you mean `{}`?", near.form)),
                 None => suggestion(name, known),
             };
-            return Err(Mistake { help, ..Mistake::new(range, format!("there is no function named {}", shown(name))) });
+            let unknown = Mistake::new(range, format!("there is no function named {}", shown(name)));
+            return Err(Mistake { help, ..unknown.code(Code::UNKNOWN_FUNCTION) });
         };
         let first = self.nodes.len();
         let open = self.take()?.range;
@@ -311,7 +315,8 @@ impl<'a> Parser<'a> {
             let some = if *callee.takes.end() > *least { "at least " } else { "" };
             let values = if *least == 1 { "value" } else { "values" };
             let message = format!("`{name}` takes {some}{least} {values}, found {count}");
-            return Err(Mistake::new(whole, message).help(format!("write `{}`", callee.form)));
+            let wrong = Mistake::new(whole, message).code(Code::ARGUMENTS);
+            return Err(wrong.help(format!("write `{}`", callee.form)));
         }
         if let Some(skip) = skip {
             self.land(skip);
@@ -369,5 +374,5 @@ impl<'a> Parser<'a> {
 }
 
 fn too_large(range: Range<usize>, help: &str) -> Mistake {
-    Mistake::new(range, "this number is too large").help(help)
+    Mistake::new(range, "this number is too large").code(Code::NUMBER_TOO_LARGE).help(help)
 }

@@ -3,7 +3,7 @@
 use super::environment::Bound;
 use super::functions::Function;
 use super::types::{Type, Value};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -123,8 +123,8 @@ impl Text {
         self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
     }
 
-    pub(super) fn mistake(&self, range: Range<u32>, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::new(self.span(range), message)
+    pub(super) fn mistake(&self, code: Code, range: Range<u32>, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, self.span(range), message)
     }
 }
 

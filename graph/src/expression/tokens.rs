@@ -1,19 +1,26 @@
 //! Words and signs of an expression's text.
 
 use super::program::shown;
+use crate::base::Code;
 use std::ops::Range;
 
 /// A mistake in a text, and its bytes.
 #[derive(Debug)]
 pub(super) struct Mistake {
+    pub(super) code: Code,
     pub(super) range: Range<usize>,
     pub(super) message: String,
     pub(super) help: Option<String>,
 }
 
 impl Mistake {
+    /// Text that can't be understood, unless another code is given.
     pub(super) fn new(range: Range<usize>, message: impl Into<String>) -> Mistake {
-        Mistake { range, message: message.into(), help: None }
+        Mistake { code: Code::EXPRESSION_SYNTAX, range, message: message.into(), help: None }
+    }
+
+    pub(super) fn code(self, code: Code) -> Mistake {
+        Mistake { code, ..self }
     }
 
     pub(super) fn help(mut self, help: impl Into<String>) -> Mistake {

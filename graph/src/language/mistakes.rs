@@ -1,6 +1,6 @@
 //! Mistakes of a whole pipeline: in the order of its files, and never none.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 
 /// The first mistakes first: file by file as they were read, in each from top to bottom.
 pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
@@ -12,7 +12,7 @@ pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
 pub(crate) fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     if errors.is_empty() {
         let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";
-        errors.push(Diagnostic::nowhere(message));
+        errors.push(Diagnostic::nowhere(Code::OWN_MISTAKE, message));
     }
     errors
 }

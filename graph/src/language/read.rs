@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::mistakes::{in_order, never_none};
-use crate::base::{Diagnostic, FilePath, NoText, Sources, Span, text_of, without_mark};
+use crate::base::{Code, Diagnostic, FilePath, NoText, Sources, Span, text_of, without_mark};
 use crate::language::compose::extend;
 use crate::language::compose::files::{Files, FoundFile, LARGEST_FILE, NoFiles, no_pipeline};
 use crate::language::compose::layers::Layer;
@@ -63,7 +63,11 @@ pub fn read_extended(
             let text = String::from_utf8_lossy(&bytes[..valid]).into_owned();
             let file = sources.add(shown, &relative, text);
             let at = u32::try_from(valid).unwrap_or(u32::MAX);
-            let wrong = Diagnostic::new(Span::new(file, at, at), format!("this is not a text file: {why}"));
+            let wrong = Diagnostic::new(
+                Code::FILE_NOT_TEXT,
+                Span::new(file, at, at),
+                format!("this is not a text file: {why}"),
+            );
             Err(vec![wrong.help("a pipeline is RON text in UTF-8")])
         }
     }
@@ -122,5 +126,8 @@ fn read_all(
 }
 
 fn too_large(shown: &str, bytes: usize) -> Diagnostic {
-    Diagnostic::nowhere(format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"))
+    Diagnostic::nowhere(
+        Code::FILE_TOO_LARGE,
+        format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"),
+    )
 }

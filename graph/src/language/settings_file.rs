@@ -1,7 +1,7 @@
 //! Settings files: the choices of one user for a pipeline.
 
 use super::mistakes::in_order;
-use crate::base::{Diagnostic, Sources, Span};
+use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
 use crate::language::compose::files::LARGEST_FILE;
 use crate::language::compose::tables::VERSION;
@@ -40,12 +40,12 @@ pub(crate) fn read(
 ) -> Result<SettingsFile, Vec<Diagnostic>> {
     if text.len() > LARGEST_FILE {
         let message = format!("`{shown}` has {} bytes; a settings file has at most {LARGEST_FILE}", text.len());
-        return Err(vec![Diagnostic::nowhere(message)]);
+        return Err(vec![Diagnostic::nowhere(Code::FILE_TOO_LARGE, message)]);
     }
     let text: Arc<str> = text.into();
     let file = sources.add(shown, relative, text.clone());
     if text.trim().is_empty() {
-        let empty = Diagnostic::new(Span::new(file, 0, 0), "the file is empty");
+        let empty = Diagnostic::new(Code::FILE_EMPTY, Span::new(file, 0, 0), "the file is empty");
         return Err(vec![empty.help("a settings file is `Settings(version: 1, preset: \"…\", set: {\"…\": …})`")]);
     }
     let mut errors = Vec::new();
@@ -63,7 +63,7 @@ fn said(reader: &mut Reader, all: Leaf<'_>, settings: &[Setting], presets: &[Pre
         if number != SETTINGS_VERSION {
             let message = format!("this settings file is written in version {number}");
             reader.errors.clear();
-            reader.wrong(version, message, &format!("this program reads version {SETTINGS_VERSION}"));
+            reader.wrong(Code::VERSION, version, message, &format!("this program reads version {SETTINGS_VERSION}"));
             return None;
         }
     }

@@ -1,7 +1,7 @@
 //! A file as JSON, in the way that [`schema`](crate::language::schema()) describes.
 
 use super::{Leaf, Number, Shape};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use serde_json::{Map, Number as JsonNumber, Value, json};
 
 /// A value of a file as JSON.
@@ -44,14 +44,14 @@ fn value(leaf: Leaf<'_>, errors: &mut Vec<Diagnostic>) -> Value {
             for (key, value) in leaf.entries().into_iter().flatten() {
                 match key.words() {
                     Some(name) => entries.push((key, name.into_owned(), value)),
-                    None => errors.push(Diagnostic::new(key.span(), "keys in JSON are texts")),
+                    None => errors.push(Diagnostic::new(Code::NO_JSON_FORM, key.span(), "keys in JSON are texts")),
                 }
             }
             object(entries, errors)
         }
         Shape::Other => {
             if !leaf.is_broken() {
-                errors.push(Diagnostic::new(leaf.span(), "this has no form in JSON"));
+                errors.push(Diagnostic::new(Code::NO_JSON_FORM, leaf.span(), "this has no form in JSON"));
             }
             Value::Null
         }
@@ -66,7 +66,7 @@ fn object(entries: Vec<(Leaf<'_>, String, Leaf<'_>)>, errors: &mut Vec<Diagnosti
     let mut object = Map::new();
     for (at, name, leaf) in entries {
         if object.contains_key(&name) {
-            errors.push(Diagnostic::new(at.span(), format!("`{name}` stands here twice")));
+            errors.push(Diagnostic::new(Code::NO_JSON_FORM, at.span(), format!("`{name}` stands here twice")));
         }
         let value = value(leaf, errors);
         object.insert(name, value);

@@ -1,7 +1,7 @@
 //! Values that have a fixed form: `(name: …, …)` with known fields, and `(…, …)` of a known length.
 
 use super::{Leaf, MANY_MISTAKES, Row, Shape, Table};
-use crate::base::{Diagnostic, MOST_KEPT, keep, suggestion};
+use crate::base::{Code, Diagnostic, MOST_KEPT, keep, suggestion};
 use std::fmt::Display;
 
 /// A form that a value can have. [`fields!`](crate::fields) makes one of a struct.
@@ -126,7 +126,7 @@ pub fn slots<'t>(
             Some(_) => None,
         };
         if let Some(wrong) = wrong {
-            keep(errors, written(Diagnostic::new(leaf.span_of(word), wrong), what, known));
+            keep(errors, written(Diagnostic::new(Code::WRONG_SHAPE, leaf.span_of(word), wrong), what, known));
             return None;
         }
     }
@@ -138,10 +138,10 @@ pub fn slots<'t>(
                     _ => leaf,
                 };
                 let at = first.values().and_then(|mut values| values.next()).unwrap_or(leaf);
-                Diagnostic::new(at.span(), "expected the name of a field")
+                Diagnostic::new(Code::WRONG_SHAPE, at.span(), "expected the name of a field")
             }
-            (_, Some(word)) => Diagnostic::new(leaf.start(), format!("expected `{word}(…)`")),
-            (_, None) => written(Diagnostic::new(leaf.start(), "expected `(`"), what, known),
+            (_, Some(word)) => Diagnostic::new(Code::WRONG_SHAPE, leaf.start(), format!("expected `{word}(…)`")),
+            (_, None) => written(Diagnostic::new(Code::WRONG_SHAPE, leaf.start(), "expected `(`"), what, known),
         };
         keep(errors, error);
         return None;
@@ -154,7 +154,7 @@ pub fn slots<'t>(
         Some(only) if missing.is_empty() => format!("field {only}"),
         Some(last) => format!("fields {} and {last}", missing.join(", ")),
     };
-    keep(errors, Diagnostic::new(leaf.start(), format!("{what} lacks the {last}")));
+    keep(errors, Diagnostic::new(Code::FIELD_MISSING, leaf.start(), format!("{what} lacks the {last}")));
     None
 }
 
@@ -191,14 +191,17 @@ fn sort<'t>(
             None => {
                 let few = errors.len() <= MANY_MISTAKES;
                 let help = few.then(|| suggestion(text, known.rows.iter().map(|row| row.name))).flatten();
-                let unknown = Diagnostic::new(name.span(), format!("{what} has no field `{text}`"));
+                let unknown =
+                    Diagnostic::new(Code::UNKNOWN_FIELD, name.span(), format!("{what} has no field `{text}`"));
                 Some(Diagnostic { help, ..unknown })
             }
             Some(slot @ None) => {
                 *slot = Some(value);
                 continue;
             }
-            Some(Some(_)) => Some(Diagnostic::new(name.span(), format!("{what} has the field `{text}` twice"))),
+            Some(Some(_)) => {
+                Some(Diagnostic::new(Code::FIELD_TWICE, name.span(), format!("{what} has the field `{text}` twice")))
+            }
         };
         error.into_iter().for_each(|error| keep(errors, error));
         right = false;
@@ -219,7 +222,7 @@ impl<'t, const N: usize> FromLeaf<'t> for [Leaf<'t>; N] {
                 (found, _) => found.words(),
             };
             let error = format!("expected {what}, found {found}");
-            keep(errors, Diagnostic::new(leaf.span(), error));
+            keep(errors, Diagnostic::new(Code::WRONG_SHAPE, leaf.span(), error));
         }
         tuple
     }

@@ -2,7 +2,7 @@
 
 use super::node::Kind;
 use super::{escapes, numbers};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use std::ops::Range;
 
 /// Walks over a text. Mistakes are returned, not kept.
@@ -47,8 +47,8 @@ impl<'t> Lexer<'t> {
         Span::new(self.file, offset(range.start), offset(range.end))
     }
 
-    pub(crate) fn diagnostic(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::new(self.span(range), message)
+    pub(crate) fn diagnostic(&self, code: Code, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, self.span(range), message)
     }
 
     /// The character at `at`, as a range; empty at the end of the text.
@@ -59,7 +59,7 @@ impl<'t> Lexer<'t> {
     /// The text ends where more was expected; `open` is the bracket that is not closed.
     pub(crate) fn ends(&self, open: Option<usize>) -> Stop {
         let end = self.text.trim_end_matches(is_blank).len();
-        let ends = self.diagnostic(self.character(end), "the file ends in the middle of a value");
+        let ends = self.diagnostic(Code::NOT_CLOSED, self.character(end), "the file ends in the middle of a value");
         let ends = match open {
             Some(open) => ends.label(self.span(open..open + 1), "opened here"),
             None => ends,
@@ -68,7 +68,9 @@ impl<'t> Lexer<'t> {
     }
 
     fn open_quote(&self, quote: usize) -> Stop {
-        Stop::File(self.diagnostic(quote..quote + 1, "this text has no end").help("close it with a quote"))
+        Stop::File(
+            self.diagnostic(Code::NOT_CLOSED, quote..quote + 1, "this text has no end").help("close it with a quote"),
+        )
     }
 
     /// Passes over blanks and comments, of which there are none before most brackets and commas.
@@ -113,7 +115,7 @@ impl<'t> Lexer<'t> {
                         [b'/', b'*', ..] => (level, self.at) = (level + 1, self.at + 2),
                         [_, ..] => self.at += 1,
                         [] => {
-                            let open = self.diagnostic(start..start + 2, "this comment has no end");
+                            let open = self.diagnostic(Code::NOT_CLOSED, start..start + 2, "this comment has no end");
                             return Err(Stop::File(open.help("close it with `*/`, once for each `/*` within")));
                         }
                     }
@@ -121,7 +123,7 @@ impl<'t> Lexer<'t> {
             }
             _ => {
                 self.at += 1;
-                let alone = self.diagnostic(start..self.at, "unexpected character `/`");
+                let alone = self.diagnostic(Code::RON_SYNTAX, start..self.at, "unexpected character `/`");
                 return Err(Stop::Value(alone.help("a comment begins with `//` or `/*`")));
             }
         }
@@ -201,8 +203,11 @@ impl<'t> Lexer<'t> {
             Err(wrong) => {
                 let range = start + 1 + wrong.start..start + 1 + wrong.end;
                 let shown = self.text[range.clone()].escape_debug().to_string();
-                let wrong =
-                    self.diagnostic(range, format!("`{}` stands for no character", shown.replace("\\\\", "\\")));
+                let wrong = self.diagnostic(
+                    Code::RON_SYNTAX,
+                    range,
+                    format!("`{}` stands for no character", shown.replace("\\\\", "\\")),
+                );
                 let help =
                     "a `\\` begins an escape such as `\\n`, `\\\"` or `\\u{e4}`; write `\\\\` for the character itself";
                 Err(Stop::Value(wrong.help(help)))
@@ -233,7 +238,7 @@ impl<'t> Lexer<'t> {
         let meant = one.and_then(|one| if one.starts_with('\\') { escapes::undo(one).ok() } else { Some(one.into()) });
         self.at = from + 1;
         if meant.is_none_or(|meant| meant.chars().count() != 1) {
-            let wrong = self.diagnostic(start..from + 1, "this quote begins no single character");
+            let wrong = self.diagnostic(Code::RON_SYNTAX, start..from + 1, "this quote begins no single character");
             return Err(Stop::Value(wrong.help("texts stand in `\"`")));
         }
         self.at += length + 1;
@@ -253,6 +258,6 @@ impl<'t> Lexer<'t> {
         if plain || numbers::parse(text).is_some() {
             return Ok(Kind::Number);
         }
-        Err(Stop::Value(self.diagnostic(start..self.at, format!("`{text}` is no number"))))
+        Err(Stop::Value(self.diagnostic(Code::RON_SYNTAX, start..self.at, format!("`{text}` is no number"))))
     }
 }

@@ -1,7 +1,7 @@
 //! The names that a file gives, each once, and the search for those that it refers to.
 
 use super::{Leaf, Name, Reader};
-use crate::base::{Diagnostic, MistakeKind, NameKind, Span, nearest, without_quotes};
+use crate::base::{Code, Diagnostic, Span, nearest, without_quotes};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -15,9 +15,10 @@ impl Name {
 
 /// Names of one kind of thing, in file order.
 pub struct Names {
-    sought: NameKind,
     /// The word for one.
     what: &'static str,
+    /// The mistake that none has a name.
+    unknown: Code,
     given: Vec<Option<Name>>,
     index: HashMap<Arc<str>, usize>,
     /// Whether every name could be read.
@@ -25,16 +26,10 @@ pub struct Names {
 }
 
 impl Names {
-    /// No names yet, of such things.
+    /// No names yet, of things called `what`. `unknown`: the mistake that none of them has a name.
     #[must_use]
-    pub fn new(sought: NameKind) -> Names {
-        Names { sought, what: sought.word(), given: Vec::new(), index: HashMap::new(), complete: true }
-    }
-
-    /// No names yet, of other things called `what`.
-    #[must_use]
-    pub fn of(what: &'static str) -> Names {
-        Names { what, ..Names::new(NameKind::Other) }
+    pub fn new(what: &'static str, unknown: Code) -> Names {
+        Names { what, unknown, given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
     /// Makes room for `more` things.
@@ -49,7 +44,7 @@ impl Names {
             let first = *self.index.entry(name.text.clone()).or_insert(self.given.len());
             if first < self.given.len() {
                 let message = format!("`{}` is the name of more than one {}", name.text, self.what);
-                let again = Diagnostic::new(name.span, message).remark("again here");
+                let again = Diagnostic::new(Code::NAME_TAKEN, name.span, message).remark("again here");
                 reader.report(again.label(self.span(first), "first here"));
             }
         }
@@ -108,8 +103,7 @@ impl Names {
             return Some(*index);
         }
         if self.complete {
-            let kind = MistakeKind::UnknownName(self.sought);
-            let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
+            let unknown = Diagnostic::unknown_name(self.unknown, self.what, &name.text).at(name.span);
             let fitting = (0..).zip(&self.given).filter(|(at, _)| fits(*at));
             let names = fitting.filter_map(|(_, name)| name.as_ref().map(|name| &*name.text));
             let is_far = !reader.has_many() && nearest(&name.text, names.clone()).is_none();
@@ -118,7 +112,7 @@ impl Names {
                 Some(literal) => Some(without_quotes(literal, help)),
                 None => help,
             };
-            reader.report(Diagnostic { kind, help, ..unknown });
+            reader.report(Diagnostic { help, ..unknown });
         }
         None
     }

@@ -1,7 +1,7 @@
 //! Reads single values, and reports mistakes with their places.
 
 use super::{FromLeaf, Leaf, Name, Number, Shape, Words};
-use crate::base::{Diagnostic, keep, nearest, suggestion};
+use crate::base::{Code, Diagnostic, keep, nearest, suggestion};
 use crate::vulkan::vulkans_name;
 use std::fmt::Display;
 
@@ -25,23 +25,30 @@ impl Reader {
     }
 
     /// Reports `message` at `leaf`, unless `leaf` couldn't be read anyway.
-    pub fn wrong(&mut self, leaf: Leaf<'_>, message: impl Into<String>, help: &str) {
-        self.wrong_part(leaf, leaf.text(), message, help);
+    pub fn wrong(&mut self, code: Code, leaf: Leaf<'_>, message: impl Into<String>, help: &str) {
+        self.wrong_part(code, leaf, leaf.text(), message, help);
     }
 
     /// Reports `message` at a part of the text of `leaf`.
-    pub(crate) fn wrong_part(&mut self, leaf: Leaf<'_>, part: &str, message: impl Into<String>, help: &str) {
+    pub(crate) fn wrong_part(
+        &mut self,
+        code: Code,
+        leaf: Leaf<'_>,
+        part: &str,
+        message: impl Into<String>,
+        help: &str,
+    ) {
         if leaf.is_broken() {
             return;
         }
-        let diagnostic = Diagnostic::new(leaf.span_of(part), message);
+        let diagnostic = Diagnostic::new(code, leaf.span_of(part), message);
         self.report(if help.is_empty() { diagnostic } else { diagnostic.help(help) });
     }
 
     /// Reports that `leaf` has the wrong shape.
     pub fn expected(&mut self, leaf: Leaf<'_>, expected: &str) {
         let found = leaf.shape().words();
-        self.wrong(leaf, format!("expected {expected}, found {found}"), "");
+        self.wrong(Code::WRONG_SHAPE, leaf, format!("expected {expected}, found {found}"), "");
     }
 
     /// Tells the parts of a value apart, or reports why that can't be. `what` names it in messages: "pass `sky`".
@@ -65,22 +72,22 @@ impl Reader {
             return None;
         };
         let Some(text) = leaf.plain() else {
-            self.wrong(leaf, "names take no escapes", "write the characters themselves");
+            self.wrong(Code::NAME_FORM, leaf, "names take no escapes", "write the characters themselves");
             return None;
         };
         if text.is_empty() {
-            self.wrong(leaf, format!("the name of {what} is empty"), "");
+            self.wrong(Code::NAME_FORM, leaf, format!("the name of {what} is empty"), "");
             return None;
         }
         if text.len() > LONGEST_NAME {
             let message = format!("the name of {what} has {} bytes; {LONGEST_NAME} are allowed", text.len());
-            self.wrong(leaf, message, "");
+            self.wrong(Code::NAME_FORM, leaf, message, "");
             return None;
         }
         if let Some((at, control)) = text.char_indices().find(|(_, c)| c.is_control()) {
             let part = &text[at..at + control.len_utf8()];
             let message = format!("the name of {what} holds the control character {}", control.escape_unicode());
-            self.wrong_part(leaf, part, message, "");
+            self.wrong_part(Code::NAME_FORM, leaf, part, message, "");
             return None;
         }
         Some(Name { text: text.into(), span: leaf.span() })
@@ -103,12 +110,12 @@ impl Reader {
         let mut characters = name.text.chars();
         let first = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
         if !first || characters.any(|c| !(c.is_alphanumeric() || also(c))) {
-            self.wrong(leaf, format!("`{}` can't be the name of {what}", name.text), form);
+            self.wrong(Code::NAME_FORM, leaf, format!("`{}` can't be the name of {what}", name.text), form);
             return None;
         }
         if matches!(&*name.text, "scene" | "view" | "device" | "true" | "false") {
             let message = format!("`{}` is reserved and can't be the name of {what}", name.text);
-            self.wrong(leaf, message, "");
+            self.wrong(Code::NAME_FORM, leaf, message, "");
             return None;
         }
         Some(name)
@@ -124,7 +131,7 @@ impl Reader {
     ) -> Option<(&'static str, Option<Leaf<'t>>)> {
         let Shape::Word(word, rest) = leaf.shape() else {
             let found = leaf.shape().words();
-            self.wrong(leaf, format!("expected {what}, found {found}"), forms);
+            self.wrong(Code::WRONG_SHAPE, leaf, format!("expected {what}, found {found}"), forms);
             return None;
         };
         if let Some(known) = known.iter().find(|known| **known == word) {
@@ -133,7 +140,7 @@ impl Reader {
         let elsewhere = vulkans_name(word).filter(|format| known.contains(format));
         let near = elsewhere.or_else(|| nearest(word, known.iter().copied()));
         let help = near.map_or_else(|| forms.to_owned(), |near| format!("did you mean `{near}`?"));
-        self.wrong_part(leaf, word, format!("`{word}` is not {what}"), &help);
+        self.wrong_part(Code::UNKNOWN_WORD, leaf, word, format!("`{word}` is not {what}"), &help);
         None
     }
 
@@ -171,7 +178,7 @@ impl Reader {
     /// A word that stands alone; `Word()` is accepted too.
     pub fn bare(&mut self, word: &str, rest: Option<Leaf<'_>>) -> Option<()> {
         let Some(rest) = rest.filter(|rest| rest.tuple::<0>().is_none()) else { return Some(()) };
-        self.wrong(rest, format!("`{word}` takes nothing in parentheses"), "");
+        self.wrong(Code::PARENTHESES, rest, format!("`{word}` takes nothing in parentheses"), "");
         None
     }
 
@@ -179,7 +186,7 @@ impl Reader {
     pub fn inside<'t, T: FromLeaf<'t>>(&mut self, leaf: Leaf<'t>, rest: Option<Leaf<'t>>, form: &str) -> Option<T> {
         let Some(rest) = rest else {
             let message = format!("`{}` needs something in parentheses", leaf.text());
-            self.wrong(leaf, message, &format!("write `{form}`"));
+            self.wrong(Code::PARENTHESES, leaf, message, &format!("write `{form}`"));
             return None;
         };
         let before = self.errors.len();
@@ -247,7 +254,7 @@ impl Reader {
             (Some(Number::Real(number) | Number::Huge(number)), _) => number,
             (Some(Number::NotFinite), _) | (None, Shape::Word("NaN" | "inf", None)) => {
                 let expected = what.map_or_else(|| "expected".to_owned(), |what| format!("{what} is"));
-                self.wrong(leaf, format!("{expected} a finite number, found `{}`", leaf.text()), "");
+                self.wrong(Code::WRONG_SHAPE, leaf, format!("{expected} a finite number, found `{}`", leaf.text()), "");
                 return None;
             }
             (None, _) => {
@@ -256,7 +263,12 @@ impl Reader {
             }
         };
         if !number.is_finite() {
-            self.wrong(leaf, "this number is too large", "64-bit floating point reaches about 1.79e308");
+            self.wrong(
+                Code::NUMBER_TOO_LARGE,
+                leaf,
+                "this number is too large",
+                "64-bit floating point reaches about 1.79e308",
+            );
             return None;
         }
         Some(number)
@@ -266,9 +278,9 @@ impl Reader {
     pub fn integer(&mut self, leaf: Leaf<'_>) -> Option<i64> {
         match leaf.number() {
             Some(Number::Whole(number)) => return Some(number),
-            Some(Number::Huge(_)) => self.wrong(leaf, "this whole number is too large", ""),
+            Some(Number::Huge(_)) => self.wrong(Code::NUMBER_TOO_LARGE, leaf, "this whole number is too large", ""),
             Some(Number::Real(_) | Number::NotFinite) => {
-                self.wrong(leaf, format!("expected a whole number, found `{}`", leaf.text()), "");
+                self.wrong(Code::WRONG_SHAPE, leaf, format!("expected a whole number, found `{}`", leaf.text()), "");
             }
             None => self.expected(leaf, "a whole number"),
         }

@@ -5,7 +5,7 @@
 
 use super::lexer::{Lexer, Stop};
 use super::node::{Kind, Node};
-use crate::base::{Diagnostic, MOST_KEPT};
+use crate::base::{Code, Diagnostic, MOST_KEPT};
 
 /// Brackets are nested at most this deep.
 const DEEPEST: usize = 128;
@@ -73,13 +73,17 @@ impl Parser<'_, '_> {
         }
         if self.lexer.byte().is_none() {
             let whole = self.lexer.character(0);
-            return Err(Stop::File(self.lexer.diagnostic(whole, "the file holds no value, only blanks and comments")));
+            return Err(Stop::File(self.lexer.diagnostic(
+                Code::FILE_EMPTY,
+                whole,
+                "the file holds no value, only blanks and comments",
+            )));
         }
         self.value()?;
         self.lexer.blanks()?;
         if self.lexer.at < self.lexer.text.len() {
             let more = self.lexer.character(self.lexer.at);
-            self.report(self.lexer.diagnostic(more, "something stands after the last bracket"))?;
+            self.report(self.lexer.diagnostic(Code::RON_SYNTAX, more, "something stands after the last bracket"))?;
         }
         Ok(())
     }
@@ -90,9 +94,11 @@ impl Parser<'_, '_> {
         if let Some(long) = self.lexer.long.clone()
             && self.lexer.text.get(long.end..at).is_some_and(|between| between.trim().is_empty())
         {
-            let open = self
-                .lexer
-                .diagnostic(long.start..long.start + 1, "this text runs over several lines, and makes no sense there");
+            let open = self.lexer.diagnostic(
+                Code::NOT_CLOSED,
+                long.start..long.start + 1,
+                "this text runs over several lines, and makes no sense there",
+            );
             let open = error.labels.iter().fold(open, |open, label| open.label(label.span, error.message.clone()));
             return Err(Stop::File(open.help("is its closing quote missing?")));
         }
@@ -122,8 +128,11 @@ impl Parser<'_, '_> {
                     let word = self.lexer.word();
                     let name = &self.lexer.rest()[..word];
                     if !EXTENSIONS.contains(&name) {
-                        let unknown =
-                            self.lexer.diagnostic(from..from + word, format!("RON has no extension `{name}`"));
+                        let unknown = self.lexer.diagnostic(
+                            Code::RON_SYNTAX,
+                            from..from + word,
+                            format!("RON has no extension `{name}`"),
+                        );
                         let known = EXTENSIONS.map(|name| format!("`{name}`")).join(", ");
                         return Err(Stop::File(unknown.help(format!("there are {known}"))));
                     }
@@ -160,7 +169,7 @@ impl Parser<'_, '_> {
     }
 
     fn no_attribute(&self, start: usize) -> Stop {
-        let wrong = self.lexer.diagnostic(start..start + 1, "this is no attribute of RON");
+        let wrong = self.lexer.diagnostic(Code::RON_SYNTAX, start..start + 1, "this is no attribute of RON");
         Stop::File(
             wrong.help("attributes are `#![enable(implicit_some)]`, `#![type = \"…\"]` and `#![schema = \"…\"]`"),
         )
@@ -198,7 +207,11 @@ impl Parser<'_, '_> {
         if length == 0 {
             let found = self.lexer.character(start);
             let shown = self.lexer.text[found.clone()].escape_debug().to_string();
-            return Err(Stop::Value(self.lexer.diagnostic(found, format!("expected a value, found `{shown}`"))));
+            return Err(Stop::Value(self.lexer.diagnostic(
+                Code::RON_SYNTAX,
+                found,
+                format!("expected a value, found `{shown}`"),
+            )));
         }
         self.lexer.at += length;
         let end = self.lexer.at;
@@ -246,7 +259,7 @@ impl Parser<'_, '_> {
     fn brackets(&mut self, kind: Kind, closing: u8, item: Item) -> Result<(), Stop> {
         let open = self.lexer.at;
         if self.depth == DEEPEST {
-            let deep = self.lexer.diagnostic(open..open + 1, "brackets are nested too deeply");
+            let deep = self.lexer.diagnostic(Code::NESTED_TOO_DEEPLY, open..open + 1, "brackets are nested too deeply");
             return Err(Stop::File(deep.help("no file needs more than a dozen levels")));
         }
         self.depth += 1;
@@ -296,7 +309,7 @@ impl Parser<'_, '_> {
                 Some(byte) => {
                     if !comma_missed {
                         let here = self.lexer.character(self.lexer.at);
-                        let wrong = self.lexer.diagnostic(here, "expected a comma");
+                        let wrong = self.lexer.diagnostic(Code::RON_SYNTAX, here, "expected a comma");
                         self.report_misplaced(wrong, open, closing)?;
                     }
                     comma_missed = true;
@@ -336,7 +349,7 @@ impl Parser<'_, '_> {
 
     fn other_bracket(&self, open: usize, closing: u8) -> Stop {
         let here = self.lexer.character(self.lexer.at);
-        let wrong = self.lexer.diagnostic(here, format!("expected `{}`", char::from(closing)));
+        let wrong = self.lexer.diagnostic(Code::NOT_CLOSED, here, format!("expected `{}`", char::from(closing)));
         Stop::File(wrong.label(self.lexer.span(open..open + 1), "opened here"))
     }
 
@@ -348,7 +361,11 @@ impl Parser<'_, '_> {
                 self.lexer.at += self.lexer.word();
                 if self.lexer.at == start {
                     let found = self.lexer.character(start);
-                    return Err(Stop::Misplaced(self.lexer.diagnostic(found, "expected the name of a field")));
+                    return Err(Stop::Misplaced(self.lexer.diagnostic(
+                        Code::RON_SYNTAX,
+                        found,
+                        "expected the name of a field",
+                    )));
                 }
                 self.word(start, self.lexer.at);
             }
@@ -357,7 +374,7 @@ impl Parser<'_, '_> {
         self.lexer.blanks()?;
         if self.lexer.byte() != Some(b':') {
             let found = self.lexer.character(self.lexer.at);
-            return Err(Stop::Misplaced(self.lexer.diagnostic(found, "expected a colon")));
+            return Err(Stop::Misplaced(self.lexer.diagnostic(Code::RON_SYNTAX, found, "expected a colon")));
         }
         self.lexer.at += 1;
         self.lexer.blanks()?;

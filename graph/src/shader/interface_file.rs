@@ -1,7 +1,7 @@
 //! The file of a draw source's interfaces.
 
 use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, SuppliedKind, SuppliedResource};
-use crate::base::{Diagnostic, Sources, Span};
+use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
 use crate::ron::{Leaf, Names, Reader, Tree};
@@ -95,12 +95,12 @@ pub(super) fn read(
 ) -> Result<DrawInterfaces, Vec<Diagnostic>> {
     if text.len() > LARGEST_INTERFACE {
         let message = format!("`{shown}` has {} bytes; an interface has at most {LARGEST_INTERFACE}", text.len());
-        return Err(vec![Diagnostic::nowhere(message)]);
+        return Err(vec![Diagnostic::nowhere(Code::FILE_TOO_LARGE, message)]);
     }
     let text: Arc<str> = text.into();
     let file = sources.add(shown, relative, text.clone());
     if text.trim().is_empty() {
-        return Err(vec![Diagnostic::new(Span::new(file, 0, 0), "the file is empty").help(FORM)]);
+        return Err(vec![Diagnostic::new(Code::FILE_EMPTY, Span::new(file, 0, 0), "the file is empty").help(FORM)]);
     }
     let mut reader = Reader::default();
     let tree = Tree::read(file, text, &mut reader.errors);
@@ -121,7 +121,7 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         if number != VERSION {
             reader.errors.clear();
             let message = format!("this interface is written in version {number}");
-            reader.wrong(version, message, &format!("this program reads version {VERSION}"));
+            reader.wrong(Code::VERSION, version, message, &format!("this program reads version {VERSION}"));
             return None;
         }
     }
@@ -139,12 +139,17 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         let attributes = attributes.filter(|_| !interface.attributes.is_empty());
         let vertices = attributes.or_else(|| stride.filter(|_| interface.vertex_stride > 0));
         if let Some(leaf) = vertices.filter(|_| kinds.contains(&DrawKind::Compute)) {
-            reader.wrong(leaf, "compute passes have no vertices", "give `Compute` an entry of its own");
+            reader.wrong(
+                Code::INTERFACE_FILE,
+                leaf,
+                "compute passes have no vertices",
+                "give `Compute` an entry of its own",
+            );
         }
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
-    let mut names = Names::of("custom pass");
+    let mut names = Names::new("custom pass", Code::CUSTOM_UNKNOWN);
     for leaf in reader.list(custom, "the custom passes")? {
         let name = reader.outside_name(leaf, "a custom pass");
         names.give(reader, name);
@@ -157,13 +162,13 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>
     let mut kinds = Vec::new();
     let leaves = reader.list(leaf, "kinds of draws").unwrap_or_default();
     if leaves.is_empty() {
-        reader.wrong(leaf, "an entry of `draws` is for one kind of draw at least", KINDS);
+        reader.wrong(Code::INTERFACE_FILE, leaf, "an entry of `draws` is for one kind of draw at least", KINDS);
     }
     for leaf in leaves {
         let Some(kind) = kind(reader, leaf) else { continue };
         match seen.get(&kind) {
             Some(first) => reader.report(
-                Diagnostic::new(leaf.span(), format!("`{kind}` stands here twice"))
+                Diagnostic::new(Code::LISTED_TWICE, leaf.span(), format!("`{kind}` stands here twice"))
                     .remark("again here")
                     .label(*first, "first here"),
             ),
@@ -216,7 +221,7 @@ fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
     }
     for fault in interface.faults() {
         let Some(leaf) = places.of(fault.at) else { continue };
-        let mut wrong = Diagnostic::new(leaf.span(), fault.message);
+        let mut wrong = Diagnostic::new(Code::INTERFACE_FILE, leaf.span(), fault.message);
         if let Some(first) = fault.first.and_then(|first| places.of(first)) {
             wrong = wrong.remark("again here").label(first.span(), "first here");
         }
@@ -275,7 +280,7 @@ fn number(reader: &mut Reader, leaf: Leaf<'_>, what: &str) -> Option<u32> {
     let number = reader.integer(leaf)?;
     let small = u32::try_from(number).ok();
     if small.is_none() {
-        reader.wrong(leaf, format!("{what} can't be {number}"), "");
+        reader.wrong(Code::NUMBER_OUTSIDE, leaf, format!("{what} can't be {number}"), "");
     }
     small
 }

@@ -4,6 +4,7 @@
 mod alpha_to_coverage;
 mod both_eyes;
 mod chosen_formats;
+mod codes;
 mod compile_graphs;
 mod compile_raster;
 mod custom_passes;

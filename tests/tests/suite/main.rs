@@ -1,5 +1,6 @@
 //! The tests of the whole. `cargo test -p framewright-tests --test suite drawn::` runs those that draw.
 
+mod codes;
 mod debug_text;
 mod drawn;
 mod expanding_again;

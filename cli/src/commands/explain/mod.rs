@@ -1,8 +1,9 @@
 //! `framewright explain`: why something is in a Plan, or isn't, in a few lines. Without a GPU.
 
+mod codes;
 mod subject;
 
-use crate::command_line::explaining::ExplainArguments;
+use crate::command_line::explaining::{ExplainArguments, ThingArguments};
 use crate::command_line::values::AnswerFormat;
 use crate::error::Error;
 use crate::planning::{self, plan_file};
@@ -24,18 +25,27 @@ struct Answer<'a> {
     read_on: Vec<String>,
 }
 
-/// Explains a thing.
+/// Explains a code, or a thing in a Plan.
 ///
 /// # Errors
-/// If the pipeline, the scene or the profile is wrong, or there is no such thing in the Plan.
+/// If the pipeline, the scene or the profile is wrong, or there is no such code or thing.
 pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
+    let answer = match arguments {
+        ExplainArguments::Code { code, format } => codes::explained(code, *format)?,
+        ExplainArguments::Thing(arguments) => explained(arguments)?,
+    };
+    text::print(&answer).map_err(Error::Print)?;
+    Ok(Exit::Fine)
+}
+
+fn explained(arguments: &ThingArguments) -> Result<String, Error> {
     let read = ReadFiles::default();
     let plan = plan(arguments, &read)?;
     let thing = arguments.thing.as_str();
     let Explanation { explanations, read_on } = subject::explained(&plan, thing)
         .ok_or_else(|| Error::NothingToExplain { thing: thing.to_owned(), help: subject::names_near(&plan, thing) })?;
     let read_on: Vec<String> = read_on.into_iter().map(str::to_owned).collect();
-    let answer = match arguments.format {
+    Ok(match arguments.format {
         AnswerFormat::Human => {
             let told: Vec<String> = explanations.iter().map(|one| text::escape_lines(&one.draw())).collect();
             format!("{}\nread on: {}\n", told.join("\n"), read_on.join("; "))
@@ -43,14 +53,12 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Result<Exit, Error> {
         AnswerFormat::Json => {
             text::json(&Answer { format_version: 1, thing, device: &plan.device.name, explanations, read_on })?
         }
-    };
-    text::print(&answer).map_err(Error::Print)?;
-    Ok(Exit::Fine)
+    })
 }
 
 /// The Plan in a file, or that of a pipeline.
-fn plan(arguments: &ExplainArguments, read: &ReadFiles) -> Result<Plan, Error> {
-    let ExplainArguments { pipeline, subject, .. } = arguments;
+fn plan(arguments: &ThingArguments, read: &ReadFiles) -> Result<Plan, Error> {
+    let ThingArguments { pipeline, subject, .. } = arguments;
     if plan_file::is_one(&pipeline.file) {
         plan_file::nothing_chosen(pipeline, subject, None)?;
         return plan_file::read(&pipeline.file, read);

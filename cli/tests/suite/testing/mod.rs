@@ -37,16 +37,31 @@ impl Outcome {
     /// Asserts that standard error is exactly `expected`.
     #[track_caller]
     pub(crate) fn says(self, expected: &str) -> Outcome {
-        assert_eq!(self.err.trim_end(), expected.trim(), "\n--- stderr was\n{}", self.err);
+        assert_eq!(self.said(expected).trim_end(), expected.trim(), "\n--- stderr was\n{}", self.err);
         self
     }
 
     /// Asserts that standard error holds `expected`.
     #[track_caller]
     pub(crate) fn mentions(self, expected: &str) -> Outcome {
-        assert!(self.err.contains(expected), "`{expected}` is not in\n{}", self.err);
+        assert!(self.said(expected).contains(expected), "`{expected}` is not in\n{}", self.err);
         self
     }
+
+    /// Standard error, without codes of mistakes unless `expected` has one: a test that is about words says nothing of the code.
+    fn said(&self, expected: &str) -> String {
+        if expected.contains("[E") { self.err.clone() } else { without_codes(&self.err) }
+    }
+}
+
+/// A text without the codes of mistakes.
+pub(crate) fn without_codes(text: &str) -> String {
+    let mut parts = text.split(" [E");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |shown, part| match part.split_once(']') {
+        Some((number, after)) if number.len() == 4 && number.bytes().all(|it| it.is_ascii_digit()) => shown + after,
+        _ => shown + " [E" + part,
+    })
 }
 
 /// The command, in a folder of its own: no test sees another's files.

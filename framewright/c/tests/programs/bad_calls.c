@@ -136,7 +136,7 @@ static void pipelines(const FramewrightDevice *device) {
     WRONG(framewright_renderer_open(device, "mine.ron", NULL, &renderer), MISTAKES, "mine.ron:3:14");
     const FramewrightMistake *mistake = framewright_last_mistake(0);
     HOLDS(mistake != NULL && strcmp(mistake->file, "mine.ron") == 0 && mistake->line == 3 && mistake->column == 14);
-    HOLDS(mistake->message[0] != 0 && framewright_last_mistake(1) == NULL);
+    HOLDS(mistake->message[0] != 0 && strcmp(mistake->code, "E0501") == 0 && framewright_last_mistake(1) == NULL);
 }
 
 static void renderers(FramewrightRenderer *renderer, const FramewrightScene *scene) {

@@ -3,7 +3,7 @@
 
 use super::access;
 use super::adapter::Adapter;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::compile::model::{InitialContents, InsertedDraw, OpKind, PhysicalIndex, Use};
 use crate::frame::{ImageIndex, ViewIndex};
 use crate::plan::{AttachmentKind, InsertionCause};
@@ -71,7 +71,8 @@ impl Adapter<'_> {
                         "sample a layer of `{name}` as `sampler2DMS`, give each layer an image of its own, or {one}"
                     ),
                 };
-                self.errors.push(Diagnostic::new(span, message).label(at, "drawn here").help(help));
+                self.errors
+                    .push(Diagnostic::new(Code::RESOLVE_IMPOSSIBLE, span, message).label(at, "drawn here").help(help));
                 return None;
             }
         };

@@ -2,7 +2,7 @@
 
 use super::access;
 use super::adapter::Adapter;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::compile::model::{OpKind, PhysicalIndex, Use};
 use crate::device::ImageDescriptor;
 use crate::frame::{Image, ImageIndex, NoteKind, Pass, Resource};
@@ -107,7 +107,11 @@ impl Adapter<'_> {
             || target_image.layers > 1
         {
             let message = format!("{why}, but {} can't be drawn into {}", held.format, target_image.format);
-            self.errors.push(Diagnostic::new(pass.span, message).help(self.alike(pass, &held, target_image)));
+            self.errors.push(Diagnostic::new(Code::FORWARD_IMPOSSIBLE, pass.span, message).help(self.alike(
+                pass,
+                &held,
+                target_image,
+            )));
             return;
         }
         let rotation = self.rotation(source);

@@ -2,7 +2,7 @@
 
 use super::access;
 use super::adapter::Adapter;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
 use crate::frame::{Face, ImageIndex, NoteKind, Pass, SampledImage};
 use crate::vulkan::{Aspects, Subresources};
@@ -139,7 +139,7 @@ impl Adapter<'_> {
                  where its sample count is 1 ({1} were asked for)",
                 sampled.binding, declared.samples
             );
-            self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+            self.errors.push(Diagnostic::new(Code::SINGLE_SAMPLES, sampled.span, message).help(help));
             return None;
         }
         if count > 1 {
@@ -166,7 +166,7 @@ impl Adapter<'_> {
         );
         let help = "let a pass draw it into an image with 1 sample and `lifetime: History`, and sample an earlier frame of that \
             one; or declare it `sampler2DMS` in the shader";
-        self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+        self.errors.push(Diagnostic::new(Code::RESOLVE_IMPOSSIBLE, sampled.span, message).help(help));
         false
     }
 
@@ -189,7 +189,7 @@ impl Adapter<'_> {
             let name = &declared.name;
             let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
             self.errors.push(
-                Diagnostic::new(sampled.span, message)
+                Diagnostic::new(Code::DEPTH_FEEDBACK, sampled.span, message)
                     .help(format!("test it without writing: say `depth: (image: \"{name}\", write: false)`")),
             );
         }

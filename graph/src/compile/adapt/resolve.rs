@@ -5,7 +5,7 @@
 
 use super::access;
 use super::adapter::Adapter;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::compile::fit::drawn_together;
 use crate::compile::model::{InsertedDraw, OpKind, PhysicalIndex, ResolveShader, Use};
 use crate::compile::parts::join;
@@ -67,7 +67,9 @@ impl Adapter<'_> {
             "sample it as `usampler2DMS`, choose a depth format without stencil, or {}",
             self.one_sample(image)
         );
-        self.errors.push(Diagnostic::new(span, format!("{because}; stencil can't be resolved")).help(help));
+        self.errors.push(
+            Diagnostic::new(Code::RESOLVE_IMPOSSIBLE, span, format!("{because}; stencil can't be resolved")).help(help),
+        );
     }
 
     /// Help for an image that must have one sample: it has as many as what is drawn together with it.
@@ -127,7 +129,7 @@ impl Adapter<'_> {
             let help =
                 format!("give each layer of `{}` an image of its own, or {}", declared.name, self.one_sample(image));
             let message = format!("{because}; an image of several layers can't be resolved, whichever of them is read");
-            self.errors.push(Diagnostic::new(span, message).help(help));
+            self.errors.push(Diagnostic::new(Code::RESOLVE_IMPOSSIBLE, span, message).help(help));
         }
         declared.layers > 1
     }

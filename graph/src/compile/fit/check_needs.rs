@@ -1,6 +1,6 @@
 //! What shaders and states ask of the device, and how large buffers are that shaders see, against the device's features and limits.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::device::{Abilities, Limit, NeedKind, Profile};
 use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass};
 use crate::plan::{Note, NoteKind};
@@ -33,7 +33,7 @@ fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: 
     for need in &pass.needs {
         if let Some(what) = need.unmet(&abilities) {
             let message = format!("the shader of `{}` can't be used on {name}: {what}", pass.name);
-            errors.push(Diagnostic::new(pass.span, message));
+            errors.push(Diagnostic::new(Code::SHADER_NEEDS, pass.span, message));
         }
         if let NeedKind::Unjudged(words) = &need.kind {
             tell(format!("whether {} is valid SPIR-V isn't known: {words}", need.place));
@@ -60,7 +60,7 @@ fn states(frame: &Frame, device: &Profile, errors: &mut Vec<Diagnostic>) {
         if let Some(missing) = features.find(|feature| !device.has_feature(feature)) {
             let message =
                 format!("the state of `{name}` needs the feature {missing}, which `{}` doesn't have", device.name);
-            errors.push(Diagnostic::new(span, message));
+            errors.push(Diagnostic::new(Code::STATE_NEEDS, span, message));
         }
     }
 }
@@ -79,7 +79,7 @@ fn buffers(frame: &Frame, live: &[u32], device: &Profile, errors: &mut Vec<Diagn
     };
     for buffer in frame.buffers.iter().filter(|buffer| buffer.bytes > limits.buffer_bytes) {
         let message = wrong(format!("`{}` has {} bytes", buffer.name, buffer.bytes), Limit::BufferBytes);
-        errors.push(Diagnostic::new(buffer.span, message));
+        errors.push(Diagnostic::new(Code::BUFFER_TOO_LARGE, buffer.span, message));
     }
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         for used in &pass.buffers {
@@ -92,7 +92,8 @@ fn buffers(frame: &Frame, live: &[u32], device: &Profile, errors: &mut Vec<Diagn
             if buffer.bytes > limits.of(limit) && buffer.bytes <= limits.buffer_bytes {
                 let what =
                     format!("`{}` has {} bytes, and `{}` sees it as a {what}", buffer.name, buffer.bytes, pass.name);
-                let wrong = Diagnostic::new(used.span, wrong(what, limit)).label(buffer.span, "declared here");
+                let wrong = Diagnostic::new(Code::BUFFER_TOO_LARGE, used.span, wrong(what, limit))
+                    .label(buffer.span, "declared here");
                 errors.push(wrong.help("make it smaller, or have several buffers"));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::formats::Formats;
 use super::needs::{Needs, Supports};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::compile::model::Negotiated;
 use crate::device::Profile;
 use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource};
@@ -35,7 +35,7 @@ pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> R
         let (targets, most) = (pass.color.len(), device.max_color_attachments);
         if targets > most as usize {
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
-            errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
+            errors.push(Diagnostic::new(Code::TOO_MANY_TARGETS, pass.span, message).help("split the pass"));
         }
         if multisampled && pass.work.keeps_samples() {
             copied_together(frame, pass, &mut together);
@@ -111,19 +111,19 @@ fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'
         let message = format!("`{}` is {size}", declared.name);
         let least = if declared.shape == Shape::D3 { "1×1×1" } else { "1×1" };
         let help = format!("`{}` has images from {least} to {limit}", device.name);
-        errors.push(Diagnostic::new(declared.span, message).help(help));
+        errors.push(Diagnostic::new(Code::IMAGE_TOO_LARGE, declared.span, message).help(help));
     }
     let layers = declared.made_layers();
     if layers > device.max_layers {
         let message = format!("`{}` has {layers} layers", declared.name);
         let help = format!("`{}` has images of up to {} layers", device.name, device.max_layers);
-        errors.push(Diagnostic::new(declared.span, message).help(help));
+        errors.push(Diagnostic::new(Code::IMAGE_TOO_LARGE, declared.span, message).help(help));
     }
     let supported = supports.of(declared.format).map_or(Usage::empty(), |support| support.usage);
     if !supported.contains(used) {
         let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
         let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
-        let mut wrong = Diagnostic::new(declared.span, message);
+        let mut wrong = Diagnostic::new(Code::FORMAT_UNSUPPORTED, declared.span, message);
         let mut stored = frame.passes.iter().flat_map(|pass| &pass.storage).filter(|it| it.image.0 as usize == image);
         if let Some(storage) = stored.next().filter(|_| !supported.contains(Usage::STORAGE)) {
             wrong = wrong.label(storage.span, "a shader stores it here");
@@ -157,7 +157,8 @@ fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors:
             "`{}` can't {what} `{}`: `{}` can't do that with {}",
             pass.name, image.name, supports.device.name, image.format
         );
-        errors.push(Diagnostic::new(span, message).label(image.span, "declared here").help(help));
+        errors
+            .push(Diagnostic::new(Code::FORMAT_OPERATION, span, message).label(image.span, "declared here").help(help));
     };
     let support = |image: ImageIndex| supports.of(frame.images[image.0 as usize].format);
     for sampled in pass.sampled.iter().filter(|sampled| sampled.sampler.is_linear()) {

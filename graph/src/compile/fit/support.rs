@@ -2,7 +2,7 @@
 //! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
 use super::needs::Supports;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::compile::model::{AdaptedFrame, MemorySource, OpKind, PhysicalIndex, PhysicalResource};
 use crate::compile::scope::{ScopedSteps, Step, resource_name};
 use crate::device::{ImageDescriptor, Profile};
@@ -61,7 +61,7 @@ fn refusal(
     let missing = missing.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
     let message = format!("`{name}` can't be {} on `{}`: no {missing}", image.format, device.name);
     let help = format!("it takes that since {}; choose another format", why(adapted, resource, at));
-    Diagnostic::new(span, message).help(help)
+    Diagnostic::new(Code::FORMAT_UNSUPPORTED, span, message).help(help)
 }
 
 /// Why a resource has its usages: an inserted operation that uses it, or where it comes from and goes.

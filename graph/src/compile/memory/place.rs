@@ -2,7 +2,7 @@
 
 use super::intervals::Intervals;
 use super::pack::{Block, MeasuredBlocks, Packing};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::compile::model::{AdaptedFrame, Kind, PhysicalIndex};
 use crate::compile::options::Options;
 use crate::compile::steps::NEVER;
@@ -143,7 +143,9 @@ pub(in crate::compile) fn place(
     let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
-        return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
+        return Err(vec![
+            Diagnostic::new(Code::TOO_MUCH_MEMORY, Span::NONE, message).help("make them smaller or fewer"),
+        ]);
     }
     members.iter_mut().for_each(|members| members.blocks.reserve_exact(members.count));
     let block = |placement: &Placement, [first, last]: [u32; 2]| {

@@ -8,7 +8,7 @@ mod separate_outputs;
 mod turn_search;
 
 use super::cull;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource};
 use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
@@ -18,7 +18,9 @@ use turn_search::{Hindrance, TurnSearch, becomes, degrees};
 pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
     if let Some(image) = frame.images.iter().find(|image| image.rotation.turns()) {
         let message = format!("`{}` is turned, which only the compiler does", image.name);
-        return Err(vec![Diagnostic::new(image.span, message).help("set the rotation of an output")]);
+        return Err(vec![
+            Diagnostic::new(Code::TURNED_IMAGE, image.span, message).help("set the rotation of an output"),
+        ]);
     }
     if !frame.outputs.iter().any(|output| output.rotation.turns()) {
         return Ok(None);
@@ -43,7 +45,7 @@ impl Turner {
     fn output(&mut self, output: &Output) {
         let Resource::Image(image) = output.resource else {
             let message = "a buffer leaves the frame rotated: only images can".to_owned();
-            return self.errors.push(Diagnostic::new(output.span, message));
+            return self.errors.push(Diagnostic::new(Code::ROTATION_UNFIT, output.span, message));
         };
         let declared = &self.frame.images[image.0 as usize];
         if declared.rotation == output.rotation {
@@ -51,7 +53,7 @@ impl Turner {
         }
         if let Some(what) = unfit(declared) {
             let message = format!("`{}` leaves the frame {}, and {what}", declared.name, degrees(output.rotation));
-            return self.errors.push(Diagnostic::new(output.span, message));
+            return self.errors.push(Diagnostic::new(Code::ROTATION_UNFIT, output.span, message));
         }
         let hindrance = match self.together(&self.frame, image, output.rotation, true) {
             Ok(together) => return self.turn(&together, output.rotation),
@@ -62,7 +64,9 @@ impl Turner {
         if before(declared).is_some_and(|before| before != Layout::Undefined) {
             let (because, at) = hindrance;
             let message = format!("`{}` is handed in {}, and {because}", declared.name, degrees(output.rotation));
-            return self.errors.push(Diagnostic::new(output.span, message).label(at, "needs it upright"));
+            return self
+                .errors
+                .push(Diagnostic::new(Code::ROTATION_UNFIT, output.span, message).label(at, "needs it upright"));
         }
         if let Some(split) = separate_outputs::where_drawn_anew(&self.frame, &self.live, image) {
             match self.together(&split, image, output.rotation, true) {

@@ -1,6 +1,6 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource};
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
@@ -142,7 +142,12 @@ impl TurnSearch<'_> {
              and from that into `{name}`"
         );
         Hindrance::Wrong(Box::new(
-            Diagnostic::new(pass.span, format!("{what}; it draws into `{name}`, which is {degrees}")).help(help),
+            Diagnostic::new(
+                Code::SHADER_SEES_ROTATION,
+                pass.span,
+                format!("{what}; it draws into `{name}`, which is {degrees}"),
+            )
+            .help(help),
         ))
     }
 
@@ -158,7 +163,7 @@ impl TurnSearch<'_> {
             "`{}` draws into `{name}`, which leaves the frame {degrees}, and into `{other}`, which doesn't",
             pass.name
         );
-        let wrong = Diagnostic::new(own.span, message).label(span, "stays upright");
+        let wrong = Diagnostic::new(Code::ROTATION_UNFIT, own.span, message).label(span, "stays upright");
         Hindrance::Wrong(Box::new(wrong.help(format!(
             "let it draw into an image of its own in place of `{name}`, and another pass from that into `{name}`"
         ))))

@@ -1,6 +1,6 @@
 //! Images that hold both eyes' parts are used for both eyes at once.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo};
 use crate::vulkan::Shape;
 use std::collections::HashSet;
@@ -28,7 +28,11 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     let eyes = |image: ImageIndex| frame.images[image.0 as usize].eyes;
     let mut wrong = |image: ImageIndex, span: Span, what: &str| {
         let name = &frame.images[image.0 as usize].name;
-        errors.push(Diagnostic::new(span, format!("`{}` {what} `{name}`, which holds both eyes' parts", pass.name)));
+        errors.push(Diagnostic::new(
+            Code::BOTH_EYES,
+            span,
+            format!("`{}` {what} `{name}`, which holds both eyes' parts", pass.name),
+        ));
     };
     let own = pass.attachments().next().and_then(|(image, _)| eyes(image));
     for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some()) {

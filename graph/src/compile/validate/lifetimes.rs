@@ -1,6 +1,6 @@
 //! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{StateTime, Subject, contradiction};
 use crate::vulkan::{Layout, State};
@@ -15,7 +15,7 @@ pub(super) fn check<'s>(lifetime: &Lifetime, span: Span, of: impl FnOnce() -> Su
 }
 
 fn mistake(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnostic> {
-    let wrong = |what: String| Diagnostic::new(span, format!("`{}` {what}", of.name));
+    let wrong = |what: String| Diagnostic::new(Code::LIFETIME, span, format!("`{}` {what}", of.name));
     match lifetime {
         Lifetime::Transient => None,
         Lifetime::History { frames, .. } if *frames == 0 || *frames > MOST_HISTORY => {
@@ -59,8 +59,11 @@ pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)>
 /// The mistake in a state in which an image or buffer comes or goes, if there is one.
 pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: StateTime) -> Option<Diagnostic> {
     if let Some((message, help)) = contradiction(state, of, when) {
-        return Some(Diagnostic::new(span, message).help(help));
+        return Some(Diagnostic::new(Code::STATE_UNFIT, span, message).help(help));
     }
     let odd = of.format.is_none() && state.layout != Layout::Undefined;
-    odd.then(|| Diagnostic::new(span, format!("`{}` is a buffer and has a layout", of.name)).help("write `UNDEFINED`"))
+    odd.then(|| {
+        Diagnostic::new(Code::STATE_UNFIT, span, format!("`{}` is a buffer and has a layout", of.name))
+            .help("write `UNDEFINED`")
+    })
 }

@@ -4,8 +4,8 @@ mod eyes;
 mod lifetimes;
 mod pass;
 
-use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, check};
+use crate::base::{Code, Diagnostic, Span};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, Stereo, check};
 use crate::vulkan::states::{StateTime, Subject};
 use pass::{Check, wrong_clear};
 
@@ -17,7 +17,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Vec::new();
     if frame.images.len().max(frame.buffers.len()).max(frame.passes.len()) > MOST {
         let message = format!("a frame has at most {MOST} images, buffers and passes each");
-        return Err(vec![Diagnostic::new(Span::NONE, message)]);
+        return Err(vec![Diagnostic::new(Code::FRAME_TOO_LARGE, Span::NONE, message)]);
     }
     let (mut has_eyes, mut has_files) = (false, false);
     for image in &frame.images {
@@ -28,15 +28,15 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         if errors.len() > before {
             continue;
         }
-        if let Some(what) = resolve_problem(image).or_else(|| eyes::image_problem(image, frame.stereo)) {
-            errors.push(Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
+        if let Some((code, what)) = problem(image, frame.stereo) {
+            errors.push(Diagnostic::new(code, image.span, format!("`{}` {what}", image.name)));
         } else if let Some(wrong) = lifetimes::check(&image.lifetime, image.span, || of_image(image)) {
             errors.push(wrong);
         }
     }
     for buffer in &frame.buffers {
-        let empty =
-            (buffer.bytes == 0).then(|| Diagnostic::new(buffer.span, format!("`{}` has no bytes", buffer.name)));
+        let empty = (buffer.bytes == 0)
+            .then(|| Diagnostic::new(Code::BUFFER_SIZE, buffer.span, format!("`{}` has no bytes", buffer.name)));
         errors.extend(empty.or_else(|| lifetimes::check(&buffer.lifetime, buffer.span, || of_buffer(buffer))));
     }
     if !errors.is_empty() {
@@ -73,9 +73,13 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
     errors.is_empty()
 }
 
-fn resolve_problem(image: &Image) -> Option<String> {
-    let resolve = image.resolve.as_ref().filter(|resolve| !resolve.way.fits(image.format));
-    resolve.map(|_| format!("can't be resolved as it says: it is {}", image.format))
+/// What is wrong with how an image is resolved, or holds eyes.
+fn problem(image: &Image, stereo: Stereo) -> Option<(Code, String)> {
+    let unfit = image.resolve.as_ref().is_some_and(|resolve| !resolve.way.fits(image.format));
+    if unfit {
+        return Some((Code::RESOLVE_UNFIT, format!("can't be resolved as it says: it is {}", image.format)));
+    }
+    eyes::image_problem(image, stereo).map(|what| (Code::BOTH_EYES, what))
 }
 
 /// Each view has a name of its own and a size, and each pass one of them.
@@ -84,15 +88,15 @@ fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         if view.extent.contains(&0) {
             let [width, height] = view.extent;
             let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
-            errors.push(Diagnostic::new(view.span, message));
+            errors.push(Diagnostic::new(Code::SIZE_OUTSIDE, view.span, message));
         }
         if frame.views[..number].iter().any(|other| other.name == view.name) {
-            errors.push(Diagnostic::new(view.span, format!("two views are named `{}`", view.name)));
+            errors.push(Diagnostic::new(Code::NAME_TAKEN, view.span, format!("two views are named `{}`", view.name)));
         }
     }
     for pass in frame.passes.iter().filter(|pass| pass.view.0 as usize >= frame.views.len().max(1)) {
         let message = format!("`{}` draws for view number {}, which does not exist", pass.name, pass.view.0);
-        errors.push(Diagnostic::new(pass.span, message));
+        errors.push(Diagnostic::new(Code::NO_SUCH_NUMBER, pass.span, message));
     }
 }
 
@@ -116,17 +120,21 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             }
         };
         let Some(subject) = subject else {
-            errors.push(Diagnostic::new(output.span, "an output does not exist".to_owned()));
+            errors.push(Diagnostic::new(Code::NO_SUCH_NUMBER, output.span, "an output does not exist".to_owned()));
             continue;
         };
         if std::mem::replace(&mut listed[number], true) {
-            errors.push(Diagnostic::new(output.span, format!("`{}` is an output twice", subject.name)));
+            errors.push(Diagnostic::new(
+                Code::LISTED_TWICE,
+                output.span,
+                format!("`{}` is an output twice", subject.name),
+            ));
         }
         if let Resource::Image(image) = output.resource
             && matches!(frame.images[image.0 as usize].lifetime, Lifetime::File(_))
         {
             let message = format!("`{}` is an output and comes from a file: no pass makes it", subject.name);
-            errors.push(Diagnostic::new(output.span, message));
+            errors.push(Diagnostic::new(Code::TEXTURE_WRITTEN, output.span, message));
         }
         if let Resource::Image(image) = output.resource
             && let image = &frame.images[image.0 as usize]
@@ -136,7 +144,7 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             let span = if output.span == Span::NONE { image.span } else { output.span };
             let message = format!("`{}` can't leave the frame: its size may change from frame to frame", subject.name);
             let help = "scale it into an image of a fixed size, and let that leave the frame";
-            errors.push(Diagnostic::new(span, message).help(help));
+            errors.push(Diagnostic::new(Code::DYNAMIC_SIZE, span, message).help(help));
         }
         errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.
@@ -158,7 +166,7 @@ fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
         Resource::Buffer(_) => {
             let message =
                 format!("`{}` is a buffer and has no encoding `{}`", frame.name(output.resource), encoding.name());
-            Some(Diagnostic::new(output.span, message).help("leave `encoding` out"))
+            Some(Diagnostic::new(Code::ENCODING, output.span, message).help("leave `encoding` out"))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Checks of one pass: its images and buffers, and its work.
 
 use super::lifetimes;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
 use crate::vulkan::{Stages, Subresources};
@@ -22,14 +22,14 @@ impl VisitAccess<'_> for Check<'_> {
             Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago(), access.span()),
         }
         if access.frames_ago() > 0 && matches!(access, Access::Transfer(used) if used.write) {
-            self.wrong(access.span(), "writes into an earlier frame");
+            self.wrong(Code::EARLIER_FRAME, access.span(), "writes into an earlier frame");
         }
     }
 }
 
 impl Check<'_> {
-    pub(super) fn wrong(&mut self, span: Span, what: &str) {
-        self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
+    pub(super) fn wrong(&mut self, code: Code, span: Span, what: &str) {
+        self.errors.push(Diagnostic::new(code, span, format!("`{}` {what}", self.pass.name)));
     }
 
     /// Whether all images and buffers exist, and the parts of them that are named.
@@ -43,7 +43,7 @@ impl Check<'_> {
     /// Images that come from a file are only sampled.
     pub(super) fn files(&mut self) {
         if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
-            self.wrong(span, &what);
+            self.wrong(Code::TEXTURE_WRITTEN, span, &what);
             if let Some(error) = self.errors.last_mut() {
                 error.help = Some(
                     "passes only sample a texture: declare an image and draw into that; the shader `copy` copies into it"
@@ -82,7 +82,7 @@ impl Check<'_> {
     }
 
     fn no_image(&mut self, index: ImageIndex, span: Span) {
-        self.wrong(span, &format!("names image number {}, which does not exist", index.0));
+        self.wrong(Code::NO_SUCH_NUMBER, span, &format!("names image number {}, which does not exist", index.0));
     }
 
     fn inside(&mut self, image: &Image, range: Subresources, span: Span) {
@@ -92,16 +92,18 @@ impl Check<'_> {
         if !planes || !inside(part.base_mip, part.mips, image.mips) {
             let what =
                 format!("names a part of `{}` that it doesn't have: it has {} mip levels", image.name, image.mips);
-            self.wrong(span, &what);
+            self.wrong(Code::NO_SUCH_PART, span, &what);
         } else if !inside(part.base_layer, part.layers, image.layers) {
             let what = format!("names a part of `{}` that it doesn't have: it has {} layers", image.name, image.layers);
-            self.wrong(span, &what);
+            self.wrong(Code::NO_SUCH_PART, span, &what);
         }
     }
 
     fn buffer(&mut self, index: u32, frames_ago: u32, span: Span) {
         match self.frame.buffers.get(index as usize) {
-            None => self.wrong(span, &format!("names buffer number {index}, which does not exist")),
+            None => {
+                self.wrong(Code::NO_SUCH_NUMBER, span, &format!("names buffer number {index}, which does not exist"))
+            }
             Some(buffer) => self.history(&buffer.lifetime, frames_ago, &buffer.name, span),
         }
     }
@@ -109,7 +111,11 @@ impl Check<'_> {
     fn history(&mut self, lifetime: &Lifetime, frames_ago: u32, name: &str, span: Span) {
         let most = if let Lifetime::History { frames, .. } = lifetime { *frames } else { 0 };
         if frames_ago > most {
-            self.wrong(span, &format!("reads `{name}` of {frames_ago} frames ago, and it keeps {most}"));
+            self.wrong(
+                Code::NOT_KEPT,
+                span,
+                &format!("reads `{name}` of {frames_ago} frames ago, and it keeps {most}"),
+            );
         }
     }
 
@@ -118,8 +124,10 @@ impl Check<'_> {
         let attached = !pass.color.is_empty() || pass.depth.is_some();
         let shaded = pass.work.shader_stages();
         match (attached, pass.work.is_draw()) {
-            (true, false) => return self.wrong(pass.span, "has attachments and doesn't draw"),
-            (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
+            (true, false) => return self.wrong(Code::PASS_PARTS, pass.span, "has attachments and doesn't draw"),
+            (false, true) => {
+                return self.wrong(Code::PASS_DOES_NOTHING, pass.span, "draws into nothing: it has no attachment");
+            }
             _ => {}
         }
         self.targets();
@@ -139,11 +147,15 @@ impl Check<'_> {
         }
         if let Some(image) = wrong_clear(self.frame, pass) {
             let Image { name, format, .. } = image;
-            return self.wrong(pass.span, &format!("clears `{name}` to what {format} doesn't hold"));
+            return self.wrong(Code::FILL_UNFIT, pass.span, &format!("clears `{name}` to what {format} doesn't hold"));
         }
         let counts = pass.buffers.iter().filter(|used| used.role.is_indirect()).count();
         if counts != usize::from(pass.work.is_indirect()) {
-            return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
+            return self.wrong(
+                Code::INDIRECT_COUNTS,
+                pass.span,
+                "needs one buffer of counts if it is indirect, and else none",
+            );
         }
         self.transfers();
     }
@@ -174,12 +186,16 @@ impl Check<'_> {
         check::transfers::check(frame, pass, &mut wrong);
         self.within(wrong);
         if let Some(why) = check::transfers::looks_beyond(frame, pass) {
-            self.errors.push(Diagnostic::new(pass.span, format!("{why}: texels beyond that part are mixed in")));
+            self.errors.push(Diagnostic::new(
+                Code::BLIT_OF_PART,
+                pass.span,
+                format!("{why}: texels beyond that part are mixed in"),
+            ));
         }
     }
 
     fn wrong_stages(&mut self, name: &str) {
-        self.wrong(self.pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
+        self.wrong(Code::STAGES, self.pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
     }
 
     /// Checks the accesses to storage images and to buffers: each reads or writes, and nothing else of the pass accesses the
@@ -188,16 +204,20 @@ impl Check<'_> {
         let pass = self.pass;
         for (at, storage) in pass.storage.iter().enumerate() {
             if !storage.read && !storage.write {
-                self.wrong(storage.span, &format!("neither reads nor writes `{}`", storage.binding));
+                self.wrong(Code::NO_ACCESS, storage.span, &format!("neither reads nor writes `{}`", storage.binding));
             }
             let image = &self.frame.images[storage.image.0 as usize];
             if image.samples > 1 {
-                self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
+                self.wrong(
+                    Code::STORAGE_IMAGE,
+                    storage.span,
+                    &format!("accesses `{}` as storage, which has several samples", image.name),
+                );
             }
             if image.allocated.is_some() {
                 let what =
                     format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
-                self.wrong(storage.span, &what);
+                self.wrong(Code::DYNAMIC_SIZE, storage.span, &what);
             }
             let meets =
                 |other: ImageIndex, range: Subresources| other == storage.image && image.overlap(range, storage.range);
@@ -206,7 +226,7 @@ impl Check<'_> {
             if others {
                 let message = format!("`{}` accesses `{}` as storage and in another way", pass.name, image.name);
                 let help = "access it once, for reading and writing";
-                self.errors.push(Diagnostic::new(storage.span, message).help(help));
+                self.errors.push(Diagnostic::new(Code::USED_TWICE, storage.span, message).help(help));
             }
         }
         for (at, used) in pass.buffers.iter().enumerate() {
@@ -216,11 +236,11 @@ impl Check<'_> {
             });
             let name = &self.frame.buffers[used.buffer.0 as usize].name;
             if twice {
-                self.wrong(used.span, &format!("writes `{name}` and accesses it in another way"));
+                self.wrong(Code::USED_TWICE, used.span, &format!("writes `{name}` and accesses it in another way"));
             } else if !used.role.reads() && !used.role.writes() {
-                self.wrong(used.span, &format!("neither reads nor writes `{name}`"));
+                self.wrong(Code::NO_ACCESS, used.span, &format!("neither reads nor writes `{name}`"));
             } else if used.role.writes() && used.frames_ago > 0 {
-                self.wrong(used.span, &format!("writes `{name}` of an earlier frame"));
+                self.wrong(Code::EARLIER_FRAME, used.span, &format!("writes `{name}` of an earlier frame"));
             }
         }
     }

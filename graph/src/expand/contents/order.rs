@@ -3,7 +3,7 @@
 use super::accesses;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
-use crate::base::{Diagnostic, Span, keep};
+use crate::base::{Code, Diagnostic, Span, keep};
 use crate::expand::mistakes;
 use crate::expand::passes::State;
 use crate::expand::resources::Resources;
@@ -114,7 +114,7 @@ impl Check<'_> {
         let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;
             let message = format!("{reader} needs {what}, but pass `{off}`, which fills it, is off ({because})");
-            let wrong = Diagnostic::new(span, message)
+            let wrong = Diagnostic::new(Code::WRITER_IS_OFF, span, message)
                 .remark("needed here")
                 .label(writer.span, "filled here, if the pass runs");
             match of {
@@ -134,17 +134,23 @@ impl Check<'_> {
             }
         } else if found.demand == Demand::Earlier {
             let message = format!("{reader} reads what an earlier frame left of {what}, but no pass writes it");
-            let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "declared here");
+            let wrong = Diagnostic::new(Code::HISTORY_NEVER_WRITTEN, span, message)
+                .remark("read here")
+                .label(declared.span, "declared here");
             wrong.help("each frame writes what has history anew")
         } else if let Some(writer) = self.writer_of(of, found.missing) {
             self.too_early(position, found, &what, writer)
         } else if let Some(Lifetime::Imported { .. }) = self.resources.lifetime(of) {
             let message = format!("{reader} reads {what}, which is handed in without contents, and no pass writes it");
-            let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "imported here");
+            let wrong = Diagnostic::new(Code::IMPORTED_WITHOUT_CONTENTS, span, message)
+                .remark("read here")
+                .label(declared.span, "imported here");
             wrong.help("`before: Undefined` says that there is nothing to read: say in which state it really is")
         } else {
             let message = format!("{reader} needs {what}, but no pass writes it");
-            let wrong = Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here");
+            let wrong = Diagnostic::new(Code::NEVER_WRITTEN, span, message)
+                .remark("needed here")
+                .label(declared.span, "declared here");
             self.removed(wrong, name)
         };
         keep(self.errors, diagnostic);
@@ -162,7 +168,8 @@ impl Check<'_> {
     /// A read that stands before the first write.
     fn too_early(&self, position: usize, found: &MissingContents, what: &str, writer: Writer) -> Diagnostic {
         let MissingContents { of, span, needed, .. } = *found;
-        let wrong = Diagnostic::new(span, format!("{what} is read before it is written")).remark("read here");
+        let wrong = Diagnostic::new(Code::READ_BEFORE_WRITTEN, span, format!("{what} is read before it is written"))
+            .remark("read here");
         if writer.position == position {
             let mut help = "a pass reads what stood there before the pass".to_owned();
             if let Some(previous) = self.previous(of) {
@@ -248,7 +255,8 @@ impl Check<'_> {
             Some(_) if !several => "; or say `covers: true` of the pass, which promises that it sets every texel",
             _ => "",
         };
-        let diagnostic = Diagnostic::new(span, message).help(format!("clear it: `{clear}`{promise}"));
+        let diagnostic =
+            Diagnostic::new(Code::NOT_CLEARED, span, message).help(format!("clear it: `{clear}`{promise}"));
         let mut diagnostic = self.removed(diagnostic, name);
         if let Some((writer, because)) = self.off_before(of, position) {
             let off = &self.resources.pipeline.passes[writer.position].name.text;

@@ -2,7 +2,7 @@
 
 use super::accesses::{self, Use};
 use super::writers::Writers;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::expand::passes::State;
 use crate::expand::resources::Resources;
 use crate::frame::Resource;
@@ -83,7 +83,7 @@ pub(super) fn report(resources: &Resources<'_>, circle: &[Need]) -> Diagnostic {
     let message = format!("passes wait for each other in a circle: {}", path.join(" → "));
     let mut labels = circle[..most].iter().map(|need| (need.span, remark(need)));
     let (span, text) = labels.next().unwrap_or((Span::NONE, String::new()));
-    let mut diagnostic = Diagnostic::new(span, message).remark(text);
+    let mut diagnostic = Diagnostic::new(Code::PASSES_IN_CIRCLE, span, message).remark(text);
     for (span, text) in labels {
         diagnostic = diagnostic.label(span, text);
     }

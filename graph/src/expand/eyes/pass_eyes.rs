@@ -1,6 +1,6 @@
 //! The eyes that each pass runs for, and what is wrong about them.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::Eye;
 use crate::language::{Forward, Image, ImagePart, ImageRef, PartRef, Pass, StandIn, Use};
 use crate::ron::Name;
@@ -37,7 +37,7 @@ pub(super) fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &m
     match (written, eyes.first(), shared, read) {
         (Some(written), _, Some((shared, span)), _) => {
             let message = format!("pass `{name}` runs once for each eye, and both would write this");
-            let wrong = Diagnostic::new(span, message);
+            let wrong = Diagnostic::new(Code::WRITTEN_BY_BOTH_EYES, span, message);
             let wrong = wrong.label(written.span, "each eye has its own");
             errors.push(wrong.help(match shared {
                 Some(image) => format!("say `per_eye: true` of `{}`, or write it in a pass of its own", image.text),
@@ -48,7 +48,8 @@ pub(super) fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &m
         (Some(written), Some((_, one)), ..) => {
             let message =
                 format!("pass `{name}` runs once for each eye, and both would write this one's `{}`", image(*one));
-            let wrong = Diagnostic::new(one.span, message).label(written.span, "each eye has its own");
+            let wrong = Diagnostic::new(Code::WRITTEN_BY_BOTH_EYES, one.span, message)
+                .label(written.span, "each eye has its own");
             errors.push(wrong.help(format!("write `\"{}\"` in place of `Eye(…)`: each eye's is meant", image(*one))));
             PassEyes::Each
         }
@@ -56,7 +57,7 @@ pub(super) fn whose(own: &[bool], pass: &Pass, images: &[Arc<Image>], errors: &m
         (None, Some((eye, _)), None, _) if eyes.iter().all(|(other, _)| other == eye) => PassEyes::One(*eye),
         (None, _, _, Some(read)) if !eyes.is_empty() || shared.is_some() => {
             let message = format!("pass `{name}` runs once, and each eye has a `{}` of its own", image(read));
-            let mut wrong = Diagnostic::new(read.span, message);
+            let mut wrong = Diagnostic::new(Code::EYE_UNSAID, read.span, message);
             let target = shared.map(|(_, span)| span).or_else(|| eyes.first().map(|(_, image)| image.span));
             if let Some(target) = target {
                 wrong = wrong.label(target, "what it writes is there once");
@@ -77,7 +78,11 @@ pub(super) fn foreign_eyes(own: &[bool], pass: &Pass, images: &[Arc<Image>], err
         let at = part.image.index.0 as usize;
         if part.eye.is_some() && !own[at] {
             let name = &images[at].name.text;
-            let wrong = Diagnostic::new(part.image.span, format!("`{name}` is the same for both eyes"));
+            let wrong = Diagnostic::new(
+                Code::SAME_FOR_BOTH_EYES,
+                part.image.span,
+                format!("`{name}` is the same for both eyes"),
+            );
             let wrong = wrong.label(images[at].name.span, "declared here");
             errors.push(
                 wrong.help(format!("write `\"{name}\"` in place of `Eye(…)`, or say `per_eye: true` of `{name}`")),
@@ -94,7 +99,7 @@ pub(super) fn handed_on_once(own: &[bool], pass: &Pass, images: &[Arc<Image>], e
         if from_own && !to_own {
             let [source, target] = [from, to].map(|image| &images[image.index.0 as usize].name.text);
             let message = format!("pass `{}` is off, and `{target}` would take each eye's `{source}`", pass.name.text);
-            let wrong = Diagnostic::new(from.span, message).label(to.span, "is there once");
+            let wrong = Diagnostic::new(Code::WRITTEN_BY_BOTH_EYES, from.span, message).label(to.span, "is there once");
             errors.push(wrong.help(format!("say `per_eye: true` of `{target}`, or forward what both eyes share")));
         }
     }

@@ -1,7 +1,7 @@
 //! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
 
 use super::state::State;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expand::mistakes::used_here;
 use crate::frame::{Cascade, DepthTarget, Metres, Share, ViewIndex};
 use crate::language::{self, Pipeline};
@@ -40,7 +40,7 @@ pub(in crate::expand) fn agree(pipeline: &Pipeline, states: &[State], errors: &m
         let drawn: BTreeSet<u8> = all.iter().map(|casters| casters.cascade.index).collect();
         if let Some(missing) = (0..first.cascade.of).find(|index| !drawn.contains(index)) {
             let message = format!("no pass draws cascade {missing} of {}", first.cascade.of);
-            let wrong = Diagnostic::new(first.pass.name.span, message).remark(first.cascade.in_words());
+            let wrong = Diagnostic::new(Code::CASCADES, first.pass.name.span, message).remark(first.cascade.in_words());
             errors.push(wrong.help("all cascades of a view are drawn: `repeat` a pass as often as there are"));
             let wrong = errors.len() - 1;
             used_here(pipeline, first.pass.instance, &mut errors[wrong..]);
@@ -53,19 +53,21 @@ fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     let (name, before) = (&other.pass.name, &first.pass.name);
     if cut(&first.cascade) != cut(&other.cascade) {
         let message = format!("pass `{}` draws cascades otherwise than pass `{}`", name.text, before.text);
-        let wrong = Diagnostic::new(name.span, message).remark(other.cascade.in_words());
+        let wrong = Diagnostic::new(Code::CASCADES, name.span, message).remark(other.cascade.in_words());
         let wrong = if name.span == before.span { wrong } else { wrong.label(before.span, first.cascade.in_words()) };
         return Some(
             wrong.help("all cascades of a view are of one number and reach, with ends of one kind: give both the same"),
         );
     }
     if first.target.image != other.target.image {
-        let wrong = Diagnostic::new(other.target.span, "all cascades of a view are layers of one image");
+        let wrong =
+            Diagnostic::new(Code::CASCADES, other.target.span, "all cascades of a view are layers of one image");
         return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", before.text)));
     }
     let (index, layer) = (other.cascade.index, other.target.range.base_layer);
     (u32::from(index) != layer).then(|| {
-        let wrong = Diagnostic::new(other.target.span, format!("cascade {index} belongs into layer {index}"));
+        let wrong =
+            Diagnostic::new(Code::CASCADES, other.target.span, format!("cascade {index} belongs into layer {index}"));
         wrong.remark(format!("layer {layer}")).help("shaders look each cascade up in the layer of its number")
     })
 }

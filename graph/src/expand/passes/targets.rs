@@ -1,6 +1,6 @@
 //! Targets of passes: formats that fit, targets that agree, and shaders that feed them.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expand::resources::{FrameImage, Resources, fills, parts};
 use crate::expand::shader::coverage;
 use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
@@ -20,16 +20,21 @@ pub(in crate::expand) fn fit(resources: &Resources<'_>, pass: &language::Pass, e
         if format.is_depth() {
             let message = format!("`{}` is a depth image ({format}) and can't be a colour target", image.image.name);
             errors.push(
-                Diagnostic::new(target.part.image.span, message).label(declared(target.part.image), "its format"),
+                Diagnostic::new(Code::TARGET_UNFIT, target.part.image.span, message)
+                    .label(declared(target.part.image), "its format"),
             );
         } else if format.is_integer() && target.blend.value != Blend::Replace {
             let message = format!("`{}` holds integers ({format}), which can't be blended", image.image.name);
-            errors.push(Diagnostic::new(target.blend.span, message).label(declared(target.part.image), "its format"));
+            errors.push(
+                Diagnostic::new(Code::BLEND_UNFIT, target.blend.span, message)
+                    .label(declared(target.part.image), "its format"),
+            );
         } else if let Some(clear) = target.clear
             && let Err((at, message, help)) = fills::held(clear.map(|number| number.value), format)
         {
             let message = format!("`{}` can't be cleared: {message}", image.image.name);
-            let wrong = Diagnostic::new(clear[at].span, message).label(declared(target.part.image), "its format");
+            let wrong = Diagnostic::new(Code::FILL_UNFIT, clear[at].span, message)
+                .label(declared(target.part.image), "its format");
             errors.push(wrong.help(help));
         }
     }
@@ -45,7 +50,8 @@ pub(in crate::expand) fn fit(resources: &Resources<'_>, pass: &language::Pass, e
         && !image.image.format.aspects().contains(Aspects::STENCIL)
     {
         let message = format!("`{}` has no stencil plane ({})", image.image.name, image.image.format);
-        let wrong = Diagnostic::new(stencil.span, message).label(declared(target.part.image), "its format");
+        let wrong =
+            Diagnostic::new(Code::PLANE, stencil.span, message).label(declared(target.part.image), "its format");
         errors.push(wrong.help(format!("say `format: DepthStencil` of `{}`", image.image.name)));
     }
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
@@ -58,7 +64,7 @@ pub(in crate::expand) fn fit(resources: &Resources<'_>, pass: &language::Pass, e
         {
             let message = format!("`{}` can't take what `{}` holds", to.image.name, from.image.name);
             errors.push(
-                Diagnostic::new(forward.from.span, message)
+                Diagnostic::new(Code::STAND_IN_UNFIT, forward.from.span, message)
                     .remark(format!("{} ({})", kind(from), from.image.format))
                     .label(forward.to.span, format!("{} ({})", kind(to), to.image.format)),
             );
@@ -97,7 +103,9 @@ fn drawn<'a>(resources: &'a Resources<'_>, part: &'a ImagePart, errors: &mut Vec
         let help = format!(
             "write `(image: \"{name}\", layer: 0)`: a draw reaches one layer; `layers: Rest` clears them all as well"
         );
-        errors.push(Diagnostic::new(part.image.span, message).label(declared, "declared here").help(help));
+        errors.push(
+            Diagnostic::new(Code::PART_UNSAID, part.image.span, message).label(declared, "declared here").help(help),
+        );
         return None;
     }
     Some(Target { image, range, span: part.image.span, samples_because: resolved.samples_because.as_deref() })
@@ -118,7 +126,7 @@ pub(in crate::expand) fn set(
         let message = format!("shader `{shader}` {what}{at}: its value would be undefined");
         if *refused {
             let help = "set it at the beginning of `main`; `discard` leaves texels as they were";
-            errors.push(Diagnostic::new(target.unwrap_or(*span), message).help(help));
+            errors.push(Diagnostic::new(Code::OUTPUT_UNSET, target.unwrap_or(*span), message).help(help));
         } else {
             let text = format!(
                 "{message} where a loop has no rounds, or an index leaves it; set it at the beginning of `main`"
@@ -170,7 +178,7 @@ pub(super) fn fed(
         };
         if let Some(why) = why {
             let message = format!("pass `{}` has no alpha that could say what is covered: {why}", pass.name.text);
-            errors.push(Diagnostic::new(span, message).help("leave `alpha_to_coverage` out"));
+            errors.push(Diagnostic::new(Code::ALPHA_TO_COVERAGE, span, message).help("leave `alpha_to_coverage` out"));
         }
     }
     for (location, target) in (0..).zip(&pass.color) {
@@ -183,7 +191,7 @@ pub(super) fn fed(
                 1 => "it writes one colour".to_owned(),
                 count => format!("it writes {count} colours"),
             };
-            errors.push(Diagnostic::new(target.part.image.span, message).help(help));
+            errors.push(Diagnostic::new(Code::OUTPUT_MISSING, target.part.image.span, message).help(help));
             continue;
         };
         let holds = Component::of(format);
@@ -193,14 +201,14 @@ pub(super) fn fed(
                 "shader `{shader}` writes {written} to `{}`, but `{name}` holds {held} ({format})",
                 output.name
             );
-            errors.push(Diagnostic::new(target.part.image.span, message));
+            errors.push(Diagnostic::new(Code::COMPONENT_TYPE, target.part.image.span, message));
         } else if output.components < format.components() {
             let message = format!(
                 "shader `{shader}` writes {} of the {} components of `{name}` ({format}): the others would be undefined",
                 output.components,
                 format.components()
             );
-            errors.push(Diagnostic::new(target.part.image.span, message));
+            errors.push(Diagnostic::new(Code::OUTPUT_MISSING, target.part.image.span, message));
         }
     }
 }

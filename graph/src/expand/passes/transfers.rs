@@ -1,6 +1,6 @@
 //! Copies, blits and fills as the file says them.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::frame::check::images::Declaration;
 use crate::frame::check::transfers::looks_beyond;
@@ -50,7 +50,11 @@ pub(super) fn draw_part(of: &FilePass<'_>, lowered: &mut Pass, errors: &mut Vec<
         let message = format!("{why}, and a blit would mix in texels beyond that part");
         let help =
             format!("draw it: `draw: FullScreen(\"copy\"), sample: {{\"source\": \"{}\"}}, color: […]`", one.name);
-        return errors.push(Diagnostic::new(target.span, message).label(source.span, one.name.to_string()).help(help));
+        return errors.push(
+            Diagnostic::new(Code::BLIT_OF_PART, target.span, message)
+                .label(source.span, one.name.to_string())
+                .help(help),
+        );
     }
     lowered.work = Work::Forward { from, to, because: why.clone() };
     lowered.transfers.clear();
@@ -70,6 +74,8 @@ pub(in crate::expand) fn fill(
     };
     let Some(name) = name else { return };
     if let Err((message, help)) = fills::typed(value.value, resources.filled(to)) {
-        errors.push(Diagnostic::new(value.span, format!("`{name}` can't be filled: {message}")).help(help));
+        errors.push(
+            Diagnostic::new(Code::FILL_UNFIT, value.span, format!("`{name}` can't be filled: {message}")).help(help),
+        );
     }
 }

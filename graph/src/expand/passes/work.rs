@@ -1,7 +1,7 @@
 //! The work of passes: draws, dispatches and their groups, copies, blits, fills; and whether it is possible.
 
 use super::transfers::{self, FilePass};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::coverage;
 use crate::frame::{Draw, Groups, Pass, Work, check};
@@ -116,7 +116,7 @@ fn dispatch_fits(
         Described::Indirect { buffer, offset } => {
             if !offset.is_multiple_of(4) {
                 let message = format!("counts of a dispatch stand at a multiple of 4 bytes, not at {offset}");
-                errors.push(Diagnostic::new(groups.span, message));
+                errors.push(Diagnostic::new(Code::GROUPS, groups.span, message));
             }
             // VkDispatchIndirectCommand.
             let what = format!("the counts of a dispatch at byte {offset}, up to their end,");
@@ -125,8 +125,11 @@ fn dispatch_fits(
         Described::Texels(part) => {
             parts::range(resources, part, errors);
             if let Some(previous) = part.previous {
-                errors
-                    .push(Diagnostic::new(previous.span, "an image has one size in all frames: leave `previous` out"));
+                errors.push(Diagnostic::new(
+                    Code::EARLIER_FRAME,
+                    previous.span,
+                    "an image has one size in all frames: leave `previous` out",
+                ));
             }
         }
         Described::Count(_) | Described::Invocations(_) => {}
@@ -143,7 +146,7 @@ fn dispatch_fits(
                 pass.name.text
             );
             let help = "give the shader larger workgroups, or each invocation more to do";
-            errors.push(Diagnostic::new(groups.span, message).help(help));
+            errors.push(Diagnostic::new(Code::GROUPS, groups.span, message).help(help));
         }
     }
 }

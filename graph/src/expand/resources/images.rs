@@ -2,7 +2,7 @@
 
 use super::follow::follow_all;
 use super::shapes;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::check::Property;
 use crate::frame::check::images::Declaration;
 use crate::frame::{self, Image, Lifetime, check};
@@ -122,7 +122,8 @@ fn asked(
             (false, false) => "write `Average` or `Weighted`",
         };
         let message = format!("`{}` can't be resolved so: it is {}", image.name, image.format);
-        let wrong = Diagnostic::new(resolve.span, message).label(described.format.span, "its format");
+        let wrong =
+            Diagnostic::new(Code::RESOLVE_UNFIT, resolve.span, message).label(described.format.span, "its format");
         errors.push(wrong.help(ways));
         return None;
     }

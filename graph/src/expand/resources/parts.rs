@@ -1,7 +1,7 @@
 //! Parts of images: the mip levels, layers and planes that a pass names, against those that there are.
 
 use super::table::Resources;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Image, check};
 use crate::language::{ImagePart, Selection};
 use crate::ron::Spanned;
@@ -21,7 +21,7 @@ pub(in crate::expand) fn range(
         Some(plane) if !image.format.aspects().contains(plane.value) => {
             let what = if plane.value == Aspects::DEPTH { "depth" } else { "stencil" };
             let message = format!("`{}` has no {what} plane ({})", image.name, image.format);
-            errors.push(Diagnostic::new(plane.span, message).label(declared.format.span, "its format"));
+            errors.push(Diagnostic::new(Code::PLANE, plane.span, message).label(declared.format.span, "its format"));
             Aspects::empty()
         }
         Some(plane) => plane.value,
@@ -53,7 +53,9 @@ fn selected(
     };
     let mut out_of_range = |span: Span, which: String| {
         let message = format!("`{}` has no {which}", image.name);
-        errors.push(Diagnostic::new(span, message).remark(there.clone()).label(declared, "declared here"));
+        errors.push(
+            Diagnostic::new(Code::NO_SUCH_PART, span, message).remark(there.clone()).label(declared, "declared here"),
+        );
         whole
     };
     if first >= all {

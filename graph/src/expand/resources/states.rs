@@ -1,6 +1,6 @@
 //! States in which images and buffers come in and go out: the meaning of the words.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::language::State as Described;
 use crate::ron::Spanned;
 use crate::vulkan::states::{StateTime, Subject, contradiction};
@@ -18,7 +18,7 @@ pub(in crate::expand) fn lower(
         Described::Named(state) => state,
     };
     let Some((message, help)) = contradiction(&lowered, of, when) else { return Some(lowered) };
-    errors.push(Diagnostic::new(state.span, message).help(help));
+    errors.push(Diagnostic::new(Code::STATE_UNFIT, state.span, message).help(help));
     None
 }
 

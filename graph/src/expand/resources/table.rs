@@ -2,7 +2,7 @@
 
 use super::follow::{follow, follow_all};
 use super::{fills, images, states};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::expand::inputs::Inputs;
 use crate::expand::mistakes::used_here;
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
@@ -99,7 +99,7 @@ impl<'a> Resources<'a> {
         let Some(there) = self.buffer(buffer.index) else { return };
         if there.bytes < bytes {
             let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
-            errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
+            errors.push(Diagnostic::new(Code::BUFFER_SIZE_UNFIT, span, message).label(there.span, "declared here"));
         }
     }
 
@@ -126,7 +126,7 @@ impl<'a> Resources<'a> {
             && *promised != lowered
         {
             let message = format!("`{}` is to be left in two states", name.text);
-            let wrong = Diagnostic::new(after.span, message).remark("one is asked for here");
+            let wrong = Diagnostic::new(Code::TWO_STATES, after.span, message).remark("one is asked for here");
             errors.push(wrong.label(name.span, "the other where it is imported").help("leave one of them out"));
             return None;
         }
@@ -167,7 +167,7 @@ fn bytes(
     let rounded = bytes.and_then(|bytes| bytes.checked_next_multiple_of(4)).filter(|bytes| *bytes <= most);
     if rounded.is_none() {
         let message = format!("buffer `{}` would be too large: {most} bytes are allowed", buffer.name.text);
-        errors.push(Diagnostic::new(buffer.bytes.span, message).remark(because));
+        errors.push(Diagnostic::new(Code::BUFFER_SIZE, buffer.bytes.span, message).remark(because));
     }
     rounded
 }
@@ -202,7 +202,7 @@ fn lifetime(
             Ok(value) => Some(value),
             Err((message, help)) => {
                 let message = format!("`{}` can't begin like this: {message}", of.name);
-                errors.push(Diagnostic::new(here(fill.span), message).help(help));
+                errors.push(Diagnostic::new(Code::FILL_UNFIT, here(fill.span), message).help(help));
                 None
             }
         }
@@ -227,7 +227,7 @@ fn lifetime(
         Described::File(file) if value.span == own => Lifetime::File(Arc::clone(file)),
         Described::File(_) => {
             let message = format!("`{}` can't live like a texture: its contents come from no file", of.name);
-            errors.push(Diagnostic::new(own, message).label(value.span, "the texture's file"));
+            errors.push(Diagnostic::new(Code::LIFETIME, own, message).label(value.span, "the texture's file"));
             return None;
         }
     })

@@ -1,6 +1,6 @@
 //! Arrays of images that a shader declares: a pass gives an image to each element.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{Binding, PASS_SET, ShaderInterface, element_of};
@@ -35,7 +35,7 @@ pub(super) fn misfit<'i>(
     };
     let message = format!("shader `{shader}` declares `{name}` {said}");
     let first = element.is_none_or(|element| element == at);
-    Some((&binding.name, first.then(|| Diagnostic::new(given.span, message).help(help))))
+    Some((&binding.name, first.then(|| Diagnostic::new(Code::BINDING_ARRAY, given.span, message).help(help))))
 }
 
 /// How a pipeline file gives something to a binding: `"source": "…"`, or `"taps": ["…", "…"]`.

@@ -1,6 +1,6 @@
 //! Depth that a sampler compares: pass and shader must both mean that, and the image must hold depth.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::Image;
 use crate::language;
 
@@ -24,18 +24,18 @@ pub(in crate::expand) fn check(
                 "`(image: \"{}\", compare: GreaterOrEqual)` gives 1 where the shader's depth is no farther than the image's",
                 image.name
             );
-            errors.push(Diagnostic::new(place, message).help(help));
+            errors.push(Diagnostic::new(Code::COMPARE, place, message).help(help));
         }
         Some(compare) if !compares => {
             let message = format!("shader `{shader}` reads `{name}`, and compares nothing with it");
             let help = format!("leave `compare` out, or declare `{name}` in the shader as `sampler2DShadow`");
-            errors.push(Diagnostic::new(compare.span, message).help(help));
+            errors.push(Diagnostic::new(Code::COMPARE, compare.span, message).help(help));
         }
         // That stencil and integers are no depth is said already.
         Some(_) if !image.format.is_depth() && !image.format.is_integer() => {
             let message =
                 format!("shader `{shader}` compares a depth with `{name}`, and `{}` holds colour", image.name);
-            errors.push(Diagnostic::new(place, message).label(format, "its format"));
+            errors.push(Diagnostic::new(Code::COMPARE, place, message).label(format, "its format"));
         }
         None | Some(_) => {}
     }

@@ -1,7 +1,7 @@
 //! A pass and its shader meet: shaders are found, and their needs are given.
 
 use super::arrays;
-use crate::base::{Diagnostic, FilePath, Sources};
+use crate::base::{Code, Diagnostic, FilePath, Sources};
 use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
 use crate::ron::Name;
@@ -176,7 +176,7 @@ pub(in crate::expand) fn missing(
         if let Some(UnbindableResource { what, instead, place }) = binding.kind.unbindable() {
             let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
             let message = format!("shader `{shader}` declares `{name}` as {what}{at}, which isn't supported");
-            errors.push(Diagnostic::new(*span, message).help(instead));
+            errors.push(Diagnostic::new(Code::SHADER_UNFIT, *span, message).help(instead));
             continue;
         }
         let missing = (0..binding.count()).find(|number| !is_given(&binding.element(*number)));
@@ -193,9 +193,12 @@ pub(in crate::expand) fn missing(
         errors.push(match arrays::last_before(pass, binding, missing) {
             Some(last) => {
                 let help = format!("`{name}` is an array of {}: `{entry}`", binding.count());
-                Diagnostic::new(last, message).remark("the last before it").label(*span, "the shader").help(help)
+                Diagnostic::new(Code::BINDING_MISSING, last, message)
+                    .remark("the last before it")
+                    .label(*span, "the shader")
+                    .help(help)
             }
-            None => Diagnostic::new(*span, message).help(format!("add `{field}: {{{entry}}}`")),
+            None => Diagnostic::new(Code::BINDING_MISSING, *span, message).help(format!("add `{field}: {{{entry}}}`")),
         });
     }
 }

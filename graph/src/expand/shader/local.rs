@@ -1,7 +1,7 @@
 //! Reads of images at a fragment's own position: devices with local reads let shaders read such images as input attachments.
 
 use super::interfaces::CheckedShaders;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::frame::{Face, Pass};
 use crate::language;
@@ -51,7 +51,7 @@ pub(in crate::expand) fn check(
                 "declare it `subpassInput` where `LOCAL_READ_{name}` is defined, as it is on devices with local reads; or \
                  leave `own_pixel` out"
             );
-            errors.push(Diagnostic::new(span, message).help(help));
+            errors.push(Diagnostic::new(Code::OWN_PIXEL, span, message).help(help));
         }
     }
 }

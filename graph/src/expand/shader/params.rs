@@ -1,6 +1,6 @@
 //! Parameters of a pass meet the members of its shader's block.
 
-use crate::base::{Diagnostic, nearest, shown_number, suggestion};
+use crate::base::{Code, Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
@@ -32,7 +32,7 @@ pub(in crate::expand) fn give(
             let unknown = format!("shader `{shader}` has no parameter named `{name}`");
             let help = suggestion(name, block.members.iter().map(|member| &*member.name))
                 .or_else(|| Some(format!("shader `{shader}` has no block named `{PARAMS}` in set {PASS_SET}")));
-            errors.push(Diagnostic { help, ..Diagnostic::new(param.name.span, unknown) });
+            errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_PARAM, param.name.span, unknown) });
             continue;
         };
         match convert(&param.value.value, &member.ty) {
@@ -43,7 +43,7 @@ pub(in crate::expand) fn give(
                     member.ty,
                     shown(param)
                 );
-                errors.push(Diagnostic { help, ..Diagnostic::new(param.value.span, message) });
+                errors.push(Diagnostic { help, ..Diagnostic::new(Code::PARAM_TYPE, param.value.span, message) });
             }
         }
     }
@@ -56,7 +56,7 @@ pub(in crate::expand) fn give(
                 Some(known) => format!("add `params: {{\"{name}\": {}}}`; its type is `{ty}`", known.form()),
                 None => format!("its type is `{ty}`, {NEITHER}"),
             };
-            errors.push(Diagnostic::new(*named, message).help(help));
+            errors.push(Diagnostic::new(Code::PARAM_MISSING, *named, message).help(help));
         }
     }
     given

@@ -2,7 +2,7 @@
 
 use super::interfaces::{declared_otherwise, shape_words};
 use super::{arrays, compared_depth, storage, variant};
-use crate::base::{Diagnostic, nearest, suggestion};
+use crate::base::{Code, Diagnostic, nearest, suggestion};
 use crate::expand::resources::{FrameImage, Resources, parts};
 use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, SampledImage};
@@ -129,19 +129,22 @@ pub(in crate::expand) fn check<'i>(
             if let Some(otherwise) = declared_otherwise(interface, name) {
                 let binding = arrays::binding(interface, name);
                 misspelt.extend(binding.map(|binding| &*binding.name));
-                errors.extend(otherwise.map(|help| Diagnostic::new(sample.binding.span, unknown).help(help)));
+                errors.extend(
+                    otherwise
+                        .map(|help| Diagnostic::new(Code::UNKNOWN_BINDING, sample.binding.span, unknown).help(help)),
+                );
                 continue;
             }
             misspelt.extend(nearest(name, names(interface)));
             let help = suggestion(name, names(interface))
                 .or_else(|| Some(format!("shader `{shader}` samples no images at all in set {PASS_SET}")));
-            errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });
+            errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_BINDING, sample.binding.span, unknown) });
             continue;
         };
         if declared.input {
             let message = format!("shader `{shader}` declares `{name}` as an input attachment where it is none");
             let help = format!("declare it `subpassInput` where `LOCAL_READ_{name}` is defined, and else `sampler2D`");
-            errors.push(Diagnostic::new(sample.binding.span, message).help(help));
+            errors.push(Diagnostic::new(Code::OWN_PIXEL, sample.binding.span, message).help(help));
             continue;
         }
         let Some(image) = resources.image(sample.part.image.index) else { continue };
@@ -187,7 +190,7 @@ pub(in crate::expand) fn check_left_out(
         } else {
             let unknown = format!("shader `{}` samples no image named `{}`", shader.text, binding.text);
             let help = suggestion(&binding.text, names(whole));
-            errors.push(Diagnostic { help, ..Diagnostic::new(binding.span, unknown) });
+            errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_BINDING, binding.span, unknown) });
         }
     }
 }
@@ -220,7 +223,7 @@ impl Check<'_> {
                 shape_words(self.declared.shape)
             );
             let help = format!("say which: `(image: \"{}\", layer: 0)`", image.name);
-            let wrong = Diagnostic::new(span, message);
+            let wrong = Diagnostic::new(Code::DIMENSION, span, message);
             errors.push(if layers > 1 { wrong.help(help) } else { wrong });
         }
     }
@@ -238,7 +241,10 @@ impl Check<'_> {
                 image.name, image.format
             );
             let declared = self.resources.declared(self.sample.part.image.index).format.span;
-            errors.push(Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format"));
+            errors.push(
+                Diagnostic::new(Code::COMPONENT_TYPE, self.sample.part.image.span, message)
+                    .label(declared, "its format"),
+            );
         }
     }
 
@@ -271,7 +277,7 @@ impl Check<'_> {
             let help = format!(
                 "write `\"{image_name}\"` in place of `{face}(…)`: `{name}` is a `{declaration}` in the shader"
             );
-            errors.push(Diagnostic::new(span, message).help(help));
+            errors.push(Diagnostic::new(Code::SINGLE_SAMPLES, span, message).help(help));
         } else if multisampled && self.image.image.samples == 1 {
             let message = format!(
                 "shader `{shader}` reads single samples of `{name}`, but `{image_name}` has {}",
@@ -281,7 +287,8 @@ impl Check<'_> {
                 "declare it `sampler2D`, or `TEXTURE_{name}`, which fits any number of samples; or give the image more"
             );
             let declared = self.resources.declared(self.sample.part.image.index).samples.span;
-            errors.push(Diagnostic::new(span, message).label(declared, "its samples").help(fewer));
+            errors
+                .push(Diagnostic::new(Code::SINGLE_SAMPLES, span, message).label(declared, "its samples").help(fewer));
         }
     }
 
@@ -291,7 +298,8 @@ impl Check<'_> {
         if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.part.aspects == Aspects::STENCIL) {
             let message = format!("`{}` is no depth: it is {}", image.name, image.format);
             let declared = self.resources.declared(self.sample.part.image.index).format.span;
-            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format");
+            let wrong =
+                Diagnostic::new(Code::TARGET_UNFIT, self.sample.part.image.span, message).label(declared, "its format");
             errors.push(wrong.help(format!("write `\"{}\"` in place of `DepthOnly(…)`", image.name)));
         }
     }
@@ -307,7 +315,11 @@ impl Check<'_> {
         };
         for filter in [self.sample.filter, self.sample.mip_filter].into_iter().flatten() {
             if filter.value == Filter::Linear {
-                errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
+                errors.push(Diagnostic::new(
+                    Code::LINEAR_FILTER,
+                    filter.span,
+                    format!("a linear filter can't be used: {why}"),
+                ));
             }
         }
     }
@@ -318,7 +330,7 @@ impl Check<'_> {
         let Some(address) = self.sample.address.filter(|_| single_samples) else { return };
         let why = format!("shader `{}` reads single samples of it, each by its number", self.shader);
         let message = format!("nothing lies beyond the edges of `{}`: {why}", self.image.image.name);
-        errors.push(Diagnostic::new(address.span, message).help("leave `address` out"));
+        errors.push(Diagnostic::new(Code::SINGLE_SAMPLES, address.span, message).help("leave `address` out"));
     }
 
     /// Reports a shader that samples an image of which only a part is in use, and doesn't ask for that part.
@@ -339,7 +351,8 @@ impl Check<'_> {
                 self.shader,
                 declared_name(name)
             );
-            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its size may change");
+            let wrong = Diagnostic::new(Code::PART_NOT_ASKED, self.sample.part.image.span, message)
+                .label(declared, "its size may change");
             errors.push(wrong.help("give it a fixed size, or declare an image of its own in the shader"));
             return;
         }
@@ -348,13 +361,15 @@ impl Check<'_> {
                 "shader `{}` samples `{name}` and doesn't ask which part of `{}` is in use",
                 self.shader, image.name
             );
-            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its size may change");
+            let wrong = Diagnostic::new(Code::PART_NOT_ASKED, self.sample.part.image.span, message)
+                .label(declared, "its size may change");
             let help = format!("include `include/part.glsl` and look it up by `uv_adjust(uv, {name}_st)`");
             errors.push(wrong.help(help));
         }
         if let Some(address) = self.sample.address.filter(|address| address.value != AddressMode::ClampToEdge) {
             let message = format!("`{}` is used in part, and beyond that it holds nothing", image.name);
-            let wrong = Diagnostic::new(address.span, message).label(declared, "its size may change");
+            let wrong =
+                Diagnostic::new(Code::PART_NOT_ASKED, address.span, message).label(declared, "its size may change");
             errors.push(wrong.help("write `Clamp`: it ends at the part's edges"));
         }
     }
@@ -370,7 +385,7 @@ impl Check<'_> {
             self.shader, image.name
         );
         let declared = self.resources.declared(self.sample.part.image.index).name.span;
-        let wrong = Diagnostic::new(self.sample.part.image.span, message);
+        let wrong = Diagnostic::new(Code::EYE_HALF, self.sample.part.image.span, message);
         let wrong = wrong.label(declared, "both eyes' pictures lie side by side in it");
         errors.push(wrong.help(format!(
             "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
@@ -383,7 +398,7 @@ impl Check<'_> {
         if let Some(own) = self.sample.own_pixel.filter(|own| own.value && element_of(name).is_some()) {
             let message =
                 format!("`{name}` is an element of an array, and no device reads those from its own position");
-            errors.push(Diagnostic::new(own.span, message).help("leave `own_pixel` out"));
+            errors.push(Diagnostic::new(Code::OWN_PIXEL, own.span, message).help("leave `own_pixel` out"));
         }
         if !own_pixel {
             return;
@@ -391,7 +406,10 @@ impl Check<'_> {
         let span = self.sample.own_pixel.map_or(self.sample.part.image.span, |own| own.span);
         let Some((target, range)) = lowered.attachments().next() else {
             let message = format!("pass `{}` draws no pixels, so it has no own ones", self.pass.name.text);
-            errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is for passes that draw"));
+            errors.push(
+                Diagnostic::new(Code::OWN_PIXEL, span, message)
+                    .help("leave `own_pixel` out: it is for passes that draw"),
+            );
             return;
         };
         let Some(target) = resources.image(target).map(|target| &target.image) else { return };
@@ -406,7 +424,7 @@ impl Check<'_> {
             let more =
                 size_words(own, image) + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
             let targets = format!("`{}` is {}", target.name, size_words(drawn, target));
-            errors.push(Diagnostic::new(span, message).remark(more).help(targets));
+            errors.push(Diagnostic::new(Code::OWN_PIXEL, span, message).remark(more).help(targets));
         }
     }
 }
@@ -415,7 +433,10 @@ impl Check<'_> {
 fn too_many_parts(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
     if let Some(surplus) = variant::in_part(resources, pass).nth(MOST_PARTS) {
         let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
-        errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
+        errors.push(
+            Diagnostic::new(Code::PART_NOT_ASKED, surplus.part.image.span, message)
+                .help("give some of them a fixed size"),
+        );
     }
 }
 
@@ -443,7 +464,7 @@ pub(super) fn dimension(
     if !fits {
         let message =
             format!("shader `{shader}` declares `{name}` as {}, but `{}` is {is}", shape_words(shape), image.name);
-        errors.push(Diagnostic::new(span, message).label(declared, "declared here"));
+        errors.push(Diagnostic::new(Code::DIMENSION, span, message).label(declared, "declared here"));
     }
     !fits
 }

@@ -1,6 +1,6 @@
 //! What draws for two eyes ask of shaders: the place within a half of an image, and a matrix for each eye.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::frame::{Draw, EyeForm, NoteKind, Remark};
 use crate::language;
@@ -21,7 +21,7 @@ pub(in crate::expand) fn check_halves(
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&UnturnedPart::FragCoord)) else { return };
     let name = &resources.declared(target.index).name.text;
     let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
-    let wrong = Diagnostic::new(shader.span, message);
+    let wrong = Diagnostic::new(Code::EYE_HALF, shader.span, message);
     let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));
     errors.push(wrong.help("`frag_coord()` of `include/rotation.glsl` is the place in the eye's own picture"));
 }

@@ -2,7 +2,7 @@
 
 use super::interfaces::{declared_otherwise, shape_words};
 use super::{arrays, sampled_images};
-use crate::base::{Diagnostic, Span, nearest, suggestion};
+use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
 use crate::language::{self, Part, StorageAccess};
@@ -123,13 +123,13 @@ pub(in crate::expand) fn check<'i>(
         let message = format!("shader `{shader}` has {what} named `{}`", name.text);
         if let Some(otherwise) = declared_otherwise(interface, &name.text) {
             misspelt.extend(of_pass(interface, &name.text).map(|binding| &*binding.name));
-            errors.extend(otherwise.map(|help| Diagnostic::new(name.span, message).help(help)));
+            errors.extend(otherwise.map(|help| Diagnostic::new(Code::UNKNOWN_BINDING, name.span, message).help(help)));
             return;
         }
         misspelt.extend(nearest(&name.text, names(interface)));
         let help = suggestion(&name.text, names(interface))
             .or_else(|| Some(format!("shader `{shader}` has none at all in set {PASS_SET}")));
-        errors.push(Diagnostic { help, ..Diagnostic::new(name.span, message) });
+        errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_BINDING, name.span, message) });
     };
     for storage in &pass.storage {
         let name = &storage.binding;
@@ -170,7 +170,7 @@ pub(in crate::expand) fn check<'i>(
             Some(_) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
                 errors.push(
-                    Diagnostic::new(name.span, message)
+                    Diagnostic::new(Code::PARAMS_AS_BUFFER, name.span, message)
                         .help(format!("leave it out; parameters are given by `{PARAMS}: {{\"…\": …}}`")),
                 );
             }
@@ -191,7 +191,7 @@ fn access_fits(
     if storage.part.previous().is_some() && writable {
         let message = format!("shader `{shader}` may write `{name}`, but what an earlier frame left can only be read");
         let help = "declare it `readonly` in the shader";
-        errors.push(Diagnostic::new(storage.binding.span, message).help(help));
+        errors.push(Diagnostic::new(Code::EARLIER_FRAME, storage.binding.span, message).help(help));
         return;
     }
     let Some(access) = storage.access else { return };
@@ -209,7 +209,9 @@ fn access_fits(
             }
         }
     };
-    errors.push(Diagnostic::new(access.span, format!("shader `{shader}` {message} `{name}`")).help(help));
+    errors.push(
+        Diagnostic::new(Code::STORAGE_ACCESS, access.span, format!("shader `{shader}` {message} `{name}`")).help(help),
+    );
 }
 
 struct ImageCheck<'a> {
@@ -231,22 +233,26 @@ impl ImageCheck<'_> {
         }
         if let Some(message) = sampled_images::layers_fit(shape, part.layers) {
             let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
-            errors.push(Diagnostic::new(span, message));
+            errors.push(Diagnostic::new(Code::DIMENSION, span, message));
         }
         if part.mips != 1 {
             return errors.push(parts::several_levels(self.resources, self.part, image, "the shader accesses"));
         }
-        let here =
-            |message: String| Diagnostic::new(self.part.image.span, message).label(declared.format.span, "its format");
+        let here = |code: Code, message: String| {
+            Diagnostic::new(code, self.part.image.span, message).label(declared.format.span, "its format")
+        };
         if image.format.is_depth() || image.format.numeric() == Numeric::Srgb {
             let what = if image.format.is_depth() { "depth" } else { "sRGB colour" };
             let message = format!("`{}` holds {what} ({}), which no shader can store", image.name, image.format);
-            errors.push(here(message).help("store into an image of another format, and copy, blit or draw from there"));
+            errors.push(
+                here(Code::STORAGE_IMAGE, message)
+                    .help("store into an image of another format, and copy, blit or draw from there"),
+            );
             return;
         }
         if image.samples > 1 || shape.multisampled {
             let message = format!("`{}` has {} samples; shaders store one value a texel", image.name, image.samples);
-            let wrong = Diagnostic::new(self.part.image.span, message);
+            let wrong = Diagnostic::new(Code::STORAGE_IMAGE, self.part.image.span, message);
             errors.push(wrong.label(declared.samples.span, "its samples"));
             return;
         }
@@ -257,13 +263,15 @@ impl ImageCheck<'_> {
                 "shader `{shader}` takes `{name}` for {wanted}, but `{}` holds {held} ({})",
                 image.name, image.format
             );
-            errors.push(here(message));
+            errors.push(here(Code::COMPONENT_TYPE, message));
         } else if let Some(format) = format
             && format != image.format
         {
             let message =
                 format!("shader `{shader}` declares `{name}` as {format}, but `{}` is {}", image.name, image.format);
-            errors.push(here(message).help("the format in the shader's `layout(…)` is the image's own"));
+            errors.push(
+                here(Code::STORAGE_IMAGE, message).help("the format in the shader's `layout(…)` is the image's own"),
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
 
 use super::interfaces::CheckedShaders;
-use crate::base::{Diagnostic, OutsideChoice, suggestion};
+use crate::base::{Code, Diagnostic, OutsideChoice, suggestion};
 use crate::device::Need;
 use crate::expand::resources::Resources;
 use crate::frame::Draw;
@@ -70,11 +70,14 @@ fn own_attributes(
             );
             let help =
                 if input.used { "add `vertex: \"…\"`" } else { "remove it in the shader, or add `vertex: \"…\"`" };
-            errors.push(Diagnostic::new(shader.span, message).help(help));
+            errors.push(Diagnostic::new(Code::VERTEX_ATTRIBUTES, shader.span, message).help(help));
         }
         (None, Some(part)) => {
             let message = format!("shader `{}` reads no vertex attributes", shader.text);
-            errors.push(Diagnostic::new(part.buffer.span, message).help("remove `vertex`, or name it in `storage`"));
+            errors.push(
+                Diagnostic::new(Code::VERTEX_ATTRIBUTES, part.buffer.span, message)
+                    .help("remove `vertex`, or name it in `storage`"),
+            );
         }
         (Some(_), Some(part)) => match VertexLayout::of(&interface.vertex_inputs, 1) {
             Ok(layout) => {
@@ -88,7 +91,11 @@ fn own_attributes(
                 resources.holds(&part.buffer, bytes, &what, part.buffer.span, errors);
             }
             Err(LayoutFault { message, .. }) => {
-                errors.push(Diagnostic::new(shader.span, format!("shader `{}`: {message}", shader.text)));
+                errors.push(Diagnostic::new(
+                    Code::VERTEX_ATTRIBUTES,
+                    shader.span,
+                    format!("shader `{}`: {message}", shader.text),
+                ));
             }
         },
         (None, None) => {}
@@ -104,14 +111,15 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
             let message = format!("shader `{shader}` {verb} the vertex attribute `{name}`, which doesn't exist");
             let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)))
                 .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
-            let unknown = Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+            let unknown =
+                Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).choice(OutsideChoice::DrawInterfaces);
             errors.push(Diagnostic { help, ..unknown });
         } else if !input.is_float() {
             let part = if input.component == 0 { "" } else { " from another component than the first on" };
             let verb = input.verb();
             let message = format!("shader `{shader}` {verb} the vertex attribute `{name}` as `{ty}`{part}");
             let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`, each at a location of its own";
-            errors.push(Diagnostic::new(*span, message).help(help));
+            errors.push(Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).help(help));
         }
     }
 }
@@ -124,7 +132,9 @@ fn in_the_shader(help: Option<String>) -> Option<String> {
 fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], errors: &mut Vec<Diagnostic>) {
     let (Name { text: shader, span }, name) = (shader, &binding.name);
     let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
-    let here = |message: String| Diagnostic::new(*span, message).choice(OutsideChoice::DrawInterfaces);
+    let here = |message: String| {
+        Diagnostic::new(Code::DRAW_SOURCE_LACKS, *span, message).choice(OutsideChoice::DrawInterfaces)
+    };
     let Some(there) = supplied.iter().find(|there| there.name == **name) else {
         let help = in_the_shader(suggestion(name, supplied.iter().map(|there| &*there.name)))
             .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
@@ -155,6 +165,6 @@ pub(in crate::expand) fn custom(shaders: &CheckedShaders<'_>, pass: &language::P
         let message = format!("nobody records `{text}`, which the custom pass `{}` asks for", pass.name.text);
         let help = suggestion(text, known.iter().map(|known| &**known))
             .or_else(|| Some("the program that draws the pipeline records no custom passes".to_owned()));
-        errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
+        errors.push(Diagnostic { help, ..Diagnostic::new(Code::CUSTOM_UNKNOWN, *span, message) });
     }
 }

@@ -1,7 +1,7 @@
 //! Images: shape, layers, mip levels and samples go together.
 
 use super::Property;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Image, Lifetime, SAMPLE_COUNTS};
 use crate::vulkan::{Encoding, Shape};
 
@@ -36,7 +36,7 @@ pub(crate) fn wrong_encoding(
     let Image { name, format, .. } = image;
     let wrong = || {
         let message = format!("`{name}` can't leave the frame as `{}`: it is {format}", encoding.name());
-        let wrong = Diagnostic::new(here, message).label(declared.at(Property::Format).0, "its format");
+        let wrong = Diagnostic::new(Code::ENCODING, here, message).label(declared.at(Property::Format).0, "its format");
         wrong.help(encoding.help(name))
     };
     (!encoding.fits(*format)).then(wrong)
@@ -51,66 +51,74 @@ pub(crate) const fn most_levels([width, height, depth]: [u32; 3]) -> u32 {
 pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec<Diagnostic>) {
     let Image { shape, format, extent, allocated, layers, mips, samples, .. } = *image;
     let [width, height, depth] = extent;
-    let wrong = |at: Property, what: String| {
+    let wrong = |code: Code, at: Property, what: String| {
         let message = format!("`{}` {what}", image.name);
         let (span, because) = declared.at(at);
-        Diagnostic::new(span, message).remark(because)
+        Diagnostic::new(code, span, message).remark(because)
     };
     let with = |wrong: Diagnostic, beside: Property, remark: &str| wrong.label(declared.at(beside).0, remark);
     if extent.contains(&0) {
         let what = format!("is {width}×{height}×{depth}; each side has at least 1 texel");
-        return errors.push(wrong(Property::Size, what));
+        return errors.push(wrong(Code::SIZE_OUTSIDE, Property::Size, what));
     }
     if mips != 1 && !(1..=most_levels(extent)).contains(&mips) {
         let most = most_levels(extent);
         let extent = if depth > 1 { format!("{width}×{height}×{depth}") } else { format!("{width}×{height}") };
         let what = format!("can't have {mips} mip levels: {extent} texels have {most}");
-        errors.push(wrong(Property::Mips, what).help("write `Full`: as many as there are"));
+        errors.push(wrong(Code::MIP_LEVELS, Property::Mips, what).help("write `Full`: as many as there are"));
     }
     if shape == Shape::Cube && width != height {
         let what = format!("is a cube, but its sides are {width}×{height}");
-        errors.push(wrong(Property::Size, what).help("the sides of a cube are square"));
+        errors.push(wrong(Code::SHAPE, Property::Size, what).help("the sides of a cube are square"));
     }
     if layers == 0 {
-        errors.push(wrong(Property::Layers, "has no layers".to_owned()));
+        errors.push(wrong(Code::SHAPE, Property::Layers, "has no layers".to_owned()));
     }
     if shape == Shape::Cube && !layers.is_multiple_of(6) {
         let what = format!("is a cube and can't have {layers} layers");
-        errors.push(wrong(Property::Layers, what).help("write `6`, or `12` for two cubes, and so on"));
+        errors.push(wrong(Code::SHAPE, Property::Layers, what).help("write `6`, or `12` for two cubes, and so on"));
     }
     if shape == Shape::D3 && layers > 1 {
         let what = format!("is three-dimensional and can't have {layers} layers");
-        errors.push(with(wrong(Property::Layers, what), Property::Shape, "its shape"));
+        errors.push(with(wrong(Code::SHAPE, Property::Layers, what), Property::Shape, "its shape"));
     }
     if shape == Shape::D3 && format.is_depth() {
         let what = format!("is three-dimensional and can't hold depth ({format})");
-        errors.push(with(wrong(Property::Format, what), Property::Shape, "its shape"));
+        errors.push(with(wrong(Code::SHAPE, Property::Format, what), Property::Shape, "its shape"));
     }
     if shape != Shape::D3 && depth > 1 {
-        errors.push(wrong(Property::Size, "has depth and is not three-dimensional".to_owned()));
+        errors.push(wrong(Code::SIZE_OUTSIDE, Property::Size, "has depth and is not three-dimensional".to_owned()));
     }
     if allocated.is_some_and(|[wide, high]| wide < width || high < height) {
-        errors.push(wrong(Property::Size, format!("is {width}×{height}, and has no room for that")));
+        errors.push(wrong(
+            Code::DYNAMIC_SIZE,
+            Property::Size,
+            format!("is {width}×{height}, and has no room for that"),
+        ));
     }
     let bent = [(shape != Shape::D2, Property::Shape, "its shape"), (mips > 1, Property::Mips, "its mip levels")];
     if allocated.is_some() {
         let outlives = (declared.outlives_frame(), Property::Lifetime, "its lifetime");
         if let Some((_, at, remark)) = bent.into_iter().chain([outlives]).find(|(hinders, ..)| *hinders) {
             let what = "changes its size, so it is transient, two-dimensional and has one mip level".to_owned();
-            errors.push(with(wrong(Property::Size, what), at, remark));
+            errors.push(with(wrong(Code::DYNAMIC_SIZE, Property::Size, what), at, remark));
         }
     }
     if !SAMPLE_COUNTS.contains(&samples) {
-        errors.push(wrong(Property::Samples, format!("has {samples} samples; 1, 2, 4, 8 or 16 are possible")));
+        errors.push(wrong(
+            Code::SAMPLE_COUNT,
+            Property::Samples,
+            format!("has {samples} samples; 1, 2, 4, 8 or 16 are possible"),
+        ));
     } else if samples > 1
         && let Some((_, at, remark)) = bent.into_iter().find(|(hinders, ..)| *hinders)
     {
         let what = format!("has {samples} samples, so it is two-dimensional and has one mip level");
-        errors.push(with(wrong(Property::Samples, what), at, remark));
+        errors.push(with(wrong(Code::SAMPLE_COUNT, Property::Samples, what), at, remark));
     }
     if let Lifetime::File(_) = image.lifetime
         && (layers > 1 || shape == Shape::Cube)
     {
-        errors.push(wrong(Property::Lifetime, "comes from a file and has layers".to_owned()));
+        errors.push(wrong(Code::LIFETIME, Property::Lifetime, "comes from a file and has layers".to_owned()));
     }
 }

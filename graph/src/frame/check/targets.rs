@@ -3,7 +3,7 @@
 use super::Property;
 use super::images::Declaration;
 use super::transfers::several_levels;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::Image;
 use crate::vulkan::{Shape, Subresources};
 
@@ -36,7 +36,7 @@ fn differ(name: &str, first: &Target<'_>, other: &Target<'_>, errors: &mut Vec<D
     let [shape, other_shape] = [first, other].map(|target| target.image.target_shape(target.range));
     let wrong = |what: &str| {
         let message = format!("pass `{name}` draws into {what}: `{}` and `{}`", one.name, another.name);
-        Diagnostic::new(other.span, message)
+        Diagnostic::new(Code::TARGETS_DIFFER, other.span, message)
     };
     if (shape.extent, shape.allocated) != (other_shape.extent, other_shape.allocated) {
         let wrong = wrong("images of different sizes").remark(size_words(other_shape.extent, another));
@@ -72,7 +72,8 @@ pub(crate) fn undrawable(
 ) -> Option<Diagnostic> {
     if image.shape == Shape::D3 {
         let message = format!("`{}` is three-dimensional and can't be drawn into", image.name);
-        let wrong = Diagnostic::new(here, message).label(declared.at(Property::Shape).0, "its shape");
+        let wrong =
+            Diagnostic::new(Code::TARGET_UNFIT, here, message).label(declared.at(Property::Shape).0, "its shape");
         return Some(wrong.help("let a dispatch store into it"));
     }
     let several = image.part(range).mips > 1;
@@ -84,7 +85,7 @@ pub(crate) fn undrawable(
 pub(crate) fn without_depth(image: &Image, declared: &impl Declaration, here: Span) -> Option<Diagnostic> {
     let wrong = || {
         let message = format!("`{}` has no depth ({})", image.name, image.format);
-        Diagnostic::new(here, message).label(declared.at(Property::Format).0, "its format")
+        Diagnostic::new(Code::TARGET_UNFIT, here, message).label(declared.at(Property::Format).0, "its format")
     };
     (!image.format.is_depth()).then(wrong)
 }

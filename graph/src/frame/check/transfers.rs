@@ -1,7 +1,7 @@
 //! Copies, blits and fills: both sides fit together.
 
 use super::{CheckContext, Place, Property};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Resource, TransferUse, Work};
 use crate::vulkan::{Aspects, Filter, Shape, Subresources};
 
@@ -13,18 +13,20 @@ pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<D
         (Work::Blit { filter }, [source, target]) if !source.write && target.write => {
             check.blit([source, target], *filter);
         }
-        (Work::Copy | Work::Blit { .. }, _) => check.wrong(pass.span, "it needs one source and one target"),
+        (Work::Copy | Work::Blit { .. }, _) => {
+            check.wrong(Code::PASS_PARTS, pass.span, "it needs one source and one target")
+        }
         (Work::Fill { value }, [target]) if target.write => {
             let format = check.side(target).map(|side| side.image.format);
             if let Some(what) = value.problem(format) {
-                check.wrong(target.span, format!("it fills with {what}"));
+                check.wrong(Code::FILL_UNFIT, target.span, format!("it fills with {what}"));
             }
         }
-        (Work::Fill { .. }, _) => check.wrong(pass.span, "it fills one image or buffer"),
+        (Work::Fill { .. }, _) => check.wrong(Code::PASS_PARTS, pass.span, "it fills one image or buffer"),
         (Work::Custom { .. }, _) => {}
         (Work::Draw { .. } | Work::Dispatch { .. } | Work::Forward { .. }, transfers) => {
             if !transfers.is_empty() {
-                check.wrong(pass.span, "it transfers and is no copy, blit, fill or custom pass");
+                check.wrong(Code::PASS_PARTS, pass.span, "it transfers and is no copy, blit, fill or custom pass");
             }
         }
     }
@@ -42,7 +44,7 @@ pub(crate) fn looks_beyond(checked: &impl CheckContext, pass: &Pass) -> Option<S
 /// A part of an image with several mip levels where one is needed, named at `here`. `declared`: where the image's are declared.
 pub(crate) fn several_levels(image: &Image, [here, declared]: [Span; 2], what: &str) -> Diagnostic {
     let name = &image.name;
-    Diagnostic::new(here, format!("`{name}` has {} mip levels: say which one {what}", image.mips))
+    Diagnostic::new(Code::PART_UNSAID, here, format!("`{name}` has {} mip levels: say which one {what}", image.mips))
         .label(declared, "declared here")
         .help(format!("write `(image: \"{name}\", mip: 0)`"))
 }
@@ -77,8 +79,8 @@ struct Check<'c, C> {
 }
 
 impl<'c, C: CheckContext> Check<'c, C> {
-    fn wrong(&mut self, at: Span, message: impl Into<String>) {
-        self.errors.push(Diagnostic::new(at, message));
+    fn wrong(&mut self, code: Code, at: Span, message: impl Into<String>) {
+        self.errors.push(Diagnostic::new(code, at, message));
     }
 
     /// A side as an image; `None` if it is a buffer, or nothing is known of it.
@@ -133,14 +135,14 @@ impl<'c, C: CheckContext> Check<'c, C> {
     fn buffers(&mut self, [source, target]: [&TransferUse; 2], from: &Buffer, to: &Buffer) {
         let fits = if C::OF_FILE { from.bytes == to.bytes } else { from.bytes <= to.bytes };
         if (source.resource, source.frames_ago) == (target.resource, target.frames_ago) {
-            self.wrong(target.span, "a buffer can't be copied to itself");
+            self.wrong(Code::TRANSFER_TO_ITSELF, target.span, "a buffer can't be copied to itself");
         } else if !fits {
             let message = format!(
                 "`{}` has {} bytes and `{}` has {}: a copy fills its target whole",
                 from.name, from.bytes, to.name, to.bytes
             );
             let help = format!("let one follow the other: say `bytes: Like(\"{}\")` of `{}`", from.name, to.name);
-            self.errors.push(Diagnostic::new(target.span, message).help(help));
+            self.errors.push(Diagnostic::new(Code::BUFFER_SIZE_UNFIT, target.span, message).help(help));
         }
     }
 
@@ -148,7 +150,8 @@ impl<'c, C: CheckContext> Check<'c, C> {
     fn apart(&mut self, [source, target]: [&TransferUse; 2], from: &Side<'_>, to: &Side<'_>) {
         let one = (source.resource, source.frames_ago) == (target.resource, target.frames_ago);
         if one && from.image.overlap(source.range, target.range) {
-            let itself = Diagnostic::new(to.span, "a part of an image can't be copied to itself");
+            let itself =
+                Diagnostic::new(Code::TRANSFER_TO_ITSELF, to.span, "a part of an image can't be copied to itself");
             self.errors.push(itself.label(from.span, "copied from here"));
         }
     }
@@ -158,7 +161,7 @@ impl<'c, C: CheckContext> Check<'c, C> {
         let (one, other) = (from.image, to.image);
         let differ = |what| {
             let message = format!("`{}` can't be copied to `{}`: their {what} differ", one.name, other.name);
-            Diagnostic::new(to.span, message)
+            Diagnostic::new(Code::COPY_UNFIT, to.span, message)
         };
         if !one.format.copies_to(other.format) || from.part.aspects != to.part.aspects {
             let wrong = differ("texels").remark(other.format.to_string()).label(from.span, one.format.to_string());
@@ -179,13 +182,13 @@ impl<'c, C: CheckContext> Check<'c, C> {
         let Image { name, format, samples, .. } = side.image;
         if *samples > 1 && (C::OF_FILE || !filled) {
             let message = format!("`{name}` has {samples} samples, which a buffer can't take or give");
-            self.errors.push(Diagnostic::new(side.span, message));
+            self.errors.push(Diagnostic::new(Code::COPY_UNFIT, side.span, message));
         }
         let texel = format.plane_bytes(side.part.aspects);
         if texel.is_none() {
             let message = format!("`{name}` has depth and stencil ({format}): say which of them");
             let help = format!("write `(image: \"{name}\", plane: Depth)`");
-            self.errors.push(Diagnostic::new(side.span, message).help(help));
+            self.errors.push(Diagnostic::new(Code::PLANE, side.span, message).help(help));
         }
         let Some(there) = self.checked.buffer(buffer) else { return };
         let texel = texel.or(format.plane_bytes(Aspects::DEPTH)).unwrap_or(0);
@@ -199,7 +202,7 @@ impl<'c, C: CheckContext> Check<'c, C> {
             return;
         }
         let message = format!("`{}` has {} bytes, but the texels of `{name}` take {bytes}", there.name, there.bytes);
-        let wrong = Diagnostic::new(here, message);
+        let wrong = Diagnostic::new(Code::BUFFER_SIZE_UNFIT, here, message);
         let wrong = wrong.remark(if too_small { "too small" } else { "only a part would be filled" });
         let wrong = wrong.label(there.span, "declared here");
         self.errors.push(match wanted.filter(|_| filled) {
@@ -212,7 +215,7 @@ impl<'c, C: CheckContext> Check<'c, C> {
     /// and flat ones.
     fn blit(&mut self, sides: [&TransferUse; 2], filter: Filter) {
         if sides.iter().any(|side| matches!(side.resource, Resource::Buffer(_))) {
-            return self.wrong(sides[0].span, "a buffer can't be scaled");
+            return self.wrong(Code::BLIT_UNFIT, sides[0].span, "a buffer can't be scaled");
         }
         let (Some(from), Some(to)) = (self.one_level(0, sides[0]), self.one_level(1, sides[1])) else { return };
         self.apart(sides, &from, &to);
@@ -220,14 +223,14 @@ impl<'c, C: CheckContext> Check<'c, C> {
             if *samples > 1 {
                 let message = format!("`{name}` has {samples} samples and can't be scaled");
                 let help = "draw it, or let a pass that samples it have it resolved";
-                self.errors.push(Diagnostic::new(*span, message).help(help));
+                self.errors.push(Diagnostic::new(Code::BLIT_UNFIT, *span, message).help(help));
             }
         }
         let (one, other) = (from.image, to.image);
         let format = one.format;
         let message = format!("`{}` can't be scaled into `{}`", one.name, other.name);
         if !format.blits_to(other.format) {
-            let wrong = Diagnostic::new(to.span, &*message).remark(other.format.to_string());
+            let wrong = Diagnostic::new(Code::BLIT_UNFIT, to.span, &*message).remark(other.format.to_string());
             self.errors.push(wrong.label(from.span, format.to_string()).help(
                 "unsigned integers go to unsigned ones, signed ones to signed ones, and depth to the same format",
             ));
@@ -235,13 +238,18 @@ impl<'c, C: CheckContext> Check<'c, C> {
         if filter == Filter::Linear && (format.is_integer() || format.is_depth()) {
             let held = if format.is_integer() { "integers" } else { "depth" };
             let why = format!("`{}` holds {held} ({format})", one.name);
-            self.wrong(self.checked.span(Place::Filter), format!("a linear filter can't be used: {why}"));
+            self.wrong(
+                Code::LINEAR_FILTER,
+                self.checked.span(Place::Filter),
+                format!("a linear filter can't be used: {why}"),
+            );
         }
         // The last levels of a volume are one texel deep.
         let volumes = [one, other].iter().all(|image| image.shape == Shape::D3);
         let depths = C::OF_FILE && !volumes && (from.extent[2] > 1) != (to.extent[2] > 1);
         if from.part.layers != to.part.layers || depths {
-            let wrong = Diagnostic::new(to.span, format!("{message}: their layers differ")).remark(to.size());
+            let wrong =
+                Diagnostic::new(Code::BLIT_UNFIT, to.span, format!("{message}: their layers differ")).remark(to.size());
             self.errors.push(wrong.label(from.span, from.size()));
         }
     }

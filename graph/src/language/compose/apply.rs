@@ -4,7 +4,7 @@ use super::change_log::{ChangeLog, ChangedEntry, RemovedEntry};
 use super::changes::{InsertFields, KINDS, RemoveFields, SetFields};
 use super::draft::{self, Draft};
 use super::entry::Entry;
-use crate::base::{Diagnostic, suggestion};
+use crate::base::{Code, Diagnostic, suggestion};
 use crate::frame::change::{Action, InsertPlace, Kind};
 use crate::ron::{Leaf, Name, Reader, Shape};
 use std::collections::HashSet;
@@ -54,7 +54,7 @@ impl<'t> Change<'_, 't> {
             (Kind::View, view),
         ])?;
         if to.is_none() && without.is_none() {
-            self.reader.wrong(self.leaf, "this change sets nothing", &format!("write `{SET}`"));
+            self.reader.wrong(Code::CHANGE_UNFIT, self.leaf, "this change sets nothing", &format!("write `{SET}`"));
             return None;
         }
         let taken = self.without(without)?;
@@ -79,7 +79,7 @@ impl<'t> Change<'_, 't> {
         }
         let (entry, stands) = (entry.leaf.span(), entry.name.map_or(entry.leaf.start(), |name| name.span));
         for (leaf, message) in mistakes {
-            let wrong = Diagnostic::new(leaf.span(), message);
+            let wrong = Diagnostic::new(Code::CHANGE_UNFIT, leaf.span(), message);
             self.reader.report(wrong.label(stands, format!("`{}` stands here", name.text)));
         }
         let by = self.leaf.span();
@@ -101,11 +101,16 @@ impl<'t> Change<'_, 't> {
         let mut seen = HashSet::new();
         for (name, _) in &fields {
             if name.text() == "name" {
-                self.reader.wrong(*name, "a change gives nothing another name", "remove it, and insert another");
+                self.reader.wrong(
+                    Code::CHANGE_UNFIT,
+                    *name,
+                    "a change gives nothing another name",
+                    "remove it, and insert another",
+                );
                 return None;
             }
             if !seen.insert(name.text()) {
-                self.reader.wrong(*name, format!("this change sets `{}` twice", name.text()), "");
+                self.reader.wrong(Code::LISTED_TWICE, *name, format!("this change sets `{}` twice", name.text()), "");
                 return None;
             }
         }
@@ -119,7 +124,7 @@ impl<'t> Change<'_, 't> {
         for leaf in self.reader.list(without, "`without`")? {
             let field = self.reader.reference(leaf, "a field")?;
             if &*field.text == "name" {
-                self.reader.wrong(leaf, "nothing goes without a name", "");
+                self.reader.wrong(Code::CHANGE_UNFIT, leaf, "nothing goes without a name", "");
                 return None;
             }
             fields.push((field.text.to_string(), leaf));
@@ -186,7 +191,7 @@ impl<'t> Change<'_, 't> {
             _ => {
                 let wrong = "passes are inserted at a place, or outputs by themselves";
                 let help = format!("write `{INSERT}` or `Insert(outputs: [\"name\"])`");
-                self.reader.wrong(self.leaf, wrong, &help);
+                self.reader.wrong(Code::CHANGE_UNFIT, self.leaf, wrong, &help);
             }
         }
         Some(())
@@ -213,7 +218,7 @@ impl<'t> Change<'_, 't> {
             }
             _ => {
                 let help = "write `before: \"pass\"`, `after: \"pass\"`, `at: \"anchor\"`, `at: Start` or `at: End`";
-                self.reader.wrong(self.leaf, "passes are inserted at one place", help);
+                self.reader.wrong(Code::CHANGE_UNFIT, self.leaf, "passes are inserted at one place", help);
                 None
             }
         }
@@ -239,7 +244,8 @@ impl<'t> Change<'_, 't> {
             None => suggestion(&name.text, self.draft.passes.anchors())
                 .unwrap_or_else(|| "this pipeline has no anchors: name a pass, by `before` or `after`".to_owned()),
         };
-        let unknown = Diagnostic::new(name.span, format!("there is no anchor named `{}`", name.text));
+        let unknown =
+            Diagnostic::new(Code::UNKNOWN_ANCHOR, name.span, format!("there is no anchor named `{}`", name.text));
         let help = Some(help).filter(|help| !help.is_empty());
         self.reader.report(Diagnostic { help, ..unknown });
         None
@@ -251,7 +257,7 @@ impl<'t> Change<'_, 't> {
         let (Some((kind, leaf)), None) = (given.next(), given.next()) else {
             let words: Vec<String> = named.iter().map(|(kind, _)| format!("`{}: \"…\"`", kind.word())).collect();
             let help = format!("name one of {}", words.join(", "));
-            self.reader.wrong(self.leaf, "a change names one thing", &help);
+            self.reader.wrong(Code::CHANGE_UNFIT, self.leaf, "a change names one thing", &help);
             return None;
         };
         let article = if matches!(kind, Kind::Image | Kind::Output) { "an" } else { "a" };
@@ -262,11 +268,11 @@ impl<'t> Change<'_, 't> {
     fn missing(&mut self, kind: Kind, name: &Name) {
         let (word, text) = (kind.word(), &name.text);
         if let Some(removed) = self.change_log.removed(kind, text) {
-            let gone = Diagnostic::new(name.span, format!("{word} `{text}` is removed already"));
+            let gone = Diagnostic::new(Code::REMOVED_ALREADY, name.span, format!("{word} `{text}` is removed already"));
             self.reader.report(gone.label(removed.by, "removed here"));
             return;
         }
-        let unknown = Diagnostic::new(name.span, format!("there is no {word} named `{text}`"));
+        let unknown = Diagnostic::unknown_name(unknown(kind), word, text).at(name.span);
         if self.reader.has_many() {
             self.reader.report(unknown);
             return;
@@ -289,6 +295,20 @@ impl<'t> Change<'_, 't> {
             None => suggestion(text, names).or_else(|| Some(format!("this pipeline has no {}", kind.plural()))),
         };
         self.reader.report(Diagnostic { help, ..unknown });
+    }
+}
+
+/// The mistake that there is no such thing of a name.
+const fn unknown(kind: Kind) -> Code {
+    match kind {
+        Kind::Setting => Code::UNKNOWN_SETTING,
+        Kind::Preset => Code::UNKNOWN_PRESET,
+        Kind::View => Code::UNKNOWN_VIEW,
+        Kind::Fragment => Code::UNKNOWN_FRAGMENT,
+        Kind::Texture | Kind::Image => Code::UNKNOWN_IMAGE,
+        Kind::Buffer => Code::UNKNOWN_BUFFER,
+        Kind::Pass => Code::UNKNOWN_PASS,
+        Kind::Output => Code::UNKNOWN_OUTPUT,
     }
 }
 

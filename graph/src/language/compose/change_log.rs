@@ -1,6 +1,6 @@
 //! The change log: changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
 
-use crate::base::{Diagnostic, Label, MistakeKind, NameKind, Span};
+use crate::base::{Code, Diagnostic, Label, Span};
 use crate::frame::change::{Action, Change, Kind};
 use crate::language::model::RemovedPass;
 use crate::ron::{Name, Tree};
@@ -77,7 +77,7 @@ impl ChangeLog {
             let Some(primary) = error.labels.first().map(|label| label.span) else { continue };
             let changed = self.beside(&places, error);
             let named = tree.text_at(primary).trim_matches('"');
-            let missed = missed(error.kind).iter();
+            let missed = missed(error.code).iter();
             let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
             let removed = removed.map(|by| Label::new(*by, format!("`{named}` is removed here")));
             error.labels.extend(changed.into_iter().chain(removed));
@@ -143,20 +143,18 @@ fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[u
 }
 
 /// The kinds of thing that a mistake misses.
-fn missed(kind: MistakeKind) -> &'static [Kind] {
-    match kind {
-        MistakeKind::UnknownName(sought) => match sought {
-            NameKind::Setting => &[Kind::Setting],
-            NameKind::Preset => &[Kind::Preset],
-            NameKind::View => &[Kind::View],
-            NameKind::Image => &[Kind::Image, Kind::Texture],
-            NameKind::Buffer => &[Kind::Buffer],
-            NameKind::ImageOrBuffer => &[Kind::Image, Kind::Texture, Kind::Buffer],
-            NameKind::Pass => &[Kind::Pass],
-            NameKind::Value => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
-            NameKind::Other => &[],
-        },
-        MistakeKind::Other => &[],
+fn missed(code: Code) -> &'static [Kind] {
+    match code {
+        // A setting of that name may have been meant.
+        Code::UNKNOWN_SETTING | Code::TEXT_WITHOUT_QUOTES => &[Kind::Setting],
+        Code::UNKNOWN_PRESET => &[Kind::Preset],
+        Code::UNKNOWN_VIEW => &[Kind::View],
+        Code::UNKNOWN_IMAGE => &[Kind::Image, Kind::Texture],
+        Code::UNKNOWN_BUFFER => &[Kind::Buffer],
+        Code::UNKNOWN_IMAGE_OR_BUFFER => &[Kind::Image, Kind::Texture, Kind::Buffer],
+        Code::UNKNOWN_PASS => &[Kind::Pass],
+        Code::UNKNOWN_VALUE => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
+        _ => &[],
     }
 }
 

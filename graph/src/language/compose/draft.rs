@@ -5,7 +5,7 @@ use super::entry::{Entry, PlacedName};
 use super::layers::Role;
 use super::order::Order;
 use super::tables::{self, Section, Sections};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::frame::change::{Action, InsertPlace, Kind};
 use crate::ron::{Leaf, Name, Reader, Shape};
 use std::collections::{HashMap, HashSet};
@@ -144,7 +144,7 @@ pub(crate) fn output(leaf: Leaf<'_>) -> Entry<'_> {
 fn again(kind: Kind, name: PlacedName<'_>, first: PlacedName<'_>) -> Diagnostic {
     let Name { text, span } = name.name();
     let what = kind.word();
-    let wrong = Diagnostic::new(span, format!("`{text}` is the name of more than one {what}"));
+    let wrong = Diagnostic::new(Code::NAME_TAKEN, span, format!("`{text}` is the name of more than one {what}"));
     let wrong = wrong.remark("again here").label(first.span, "first here");
     match kind {
         Kind::Fragment => wrong.help("give it another name"),

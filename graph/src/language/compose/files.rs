@@ -1,6 +1,6 @@
 //! The files that a pipeline names: where they come from, and why one can't be read.
 
-use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
+use crate::base::{Code, Diagnostic, FilePath, OutsideChoice, Span};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
 
 /// The version of the language that this library reads.
@@ -30,6 +30,8 @@ pub trait Files {
 /// Why a file can't be read. Not yet escaped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadFailure {
+    /// The rule that is broken.
+    pub code: Code,
     /// A sentence without final stop.
     pub why: String,
     /// The help.
@@ -42,7 +44,7 @@ pub struct ReadFailure {
 
 impl From<String> for ReadFailure {
     fn from(why: String) -> ReadFailure {
-        ReadFailure { why, help: None, choice: None, of_machine: false }
+        ReadFailure { code: Code::FILE_NAMED_UNREAD, why, help: None, choice: None, of_machine: false }
     }
 }
 
@@ -74,11 +76,15 @@ pub(crate) fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
         Span::new(file, start, end)
     };
     if text.trim().is_empty() {
-        let empty = Diagnostic::new(span(0, text.len()), "the file is empty");
+        let empty = Diagnostic::new(Code::FILE_EMPTY, span(0, text.len()), "the file is empty");
         return Some(empty.help("a pipeline begins with `Pipeline(version: 1,`"));
     }
     text.find('\0').map(|at| {
-        let zero = Diagnostic::new(span(at, at + 1), format!("this is not a text file: byte {at} is 0x00"));
+        let zero = Diagnostic::new(
+            Code::FILE_NOT_TEXT,
+            span(at, at + 1),
+            format!("this is not a text file: byte {at} is 0x00"),
+        );
         zero.help("a pipeline is RON text in UTF-8")
     })
 }

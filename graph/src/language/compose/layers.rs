@@ -3,7 +3,7 @@
 use super::files::FoundFile;
 use super::loader::{self, Loader};
 use super::tables::{self, EXTENDING, EXTENSION, PIPELINE, Sections};
-use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
+use crate::base::{Code, Diagnostic, FilePath, OutsideChoice, Span};
 use crate::frame::change::Action;
 use crate::ron::{Reader, Shape, Tree};
 
@@ -53,8 +53,11 @@ impl Layer {
     /// Whether it is a pipeline. Reports an extension.
     pub(crate) fn is_pipeline(&self, reader: &mut Reader) -> bool {
         let Shape::Word(word @ "Extension", _) = self.tree.root().shape() else { return true };
-        let wrong =
-            Diagnostic::new(self.tree.root().span_of(word), "this is an extension, and a pipeline is needed here");
+        let wrong = Diagnostic::new(
+            Code::NO_PIPELINE,
+            self.tree.root().span_of(word),
+            "this is an extension, and a pipeline is needed here",
+        );
         let help = "a pipeline applies it by `extensions: [\"…\"]`";
         reader.report(wrong.help(help).choice(OutsideChoice::Extensions));
         false
@@ -91,7 +94,11 @@ impl Layer {
         if self.role == Role::Extending
             && let Some(passes) = sections.get(&tables::PASSES)
         {
-            let wrong = Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
+            let wrong = Diagnostic::new(
+                Code::PASSES_WHILE_EXTENDING,
+                passes.start(),
+                "a pipeline that extends another has no `passes` of its own",
+            );
             reader.report(
                 wrong.help("move them to where they belong, such as `changes: [Insert(at: End, passes: […])]`"),
             );
@@ -149,7 +156,9 @@ impl Layers {
         let same = |turn: &&Turn| self.list[turn.layer].relative == extension.relative;
         if let Some(first) = self.turns.iter().find(same).and_then(|turn| turn.named) {
             let twice = format!("`{}` is applied twice", extension.relative);
-            reader.report(Diagnostic::new(span, twice).remark("again here").label(first, "first here"));
+            reader.report(
+                Diagnostic::new(Code::EXTENSION_TWICE, span, twice).remark("again here").label(first, "first here"),
+            );
             return;
         }
         self.turns.push(Turn { layer: self.list.len(), named: Some(span), adds: true, changes: true });

@@ -2,7 +2,7 @@
 
 use super::files::{Files, FoundFile, LANGUAGE_VERSION, LARGEST_FILE, ReadFailure, no_pipeline};
 use super::origins::Origins;
-use crate::base::{Diagnostic, FilePath, Sources, Span, text_of};
+use crate::base::{Code, Diagnostic, FilePath, Sources, Span, text_of};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
 use crate::language::entries::textures::Pictures;
 use crate::ron::{Leaf, Reader, Tree};
@@ -42,16 +42,18 @@ impl<'a> Loader<'a> {
             // One answer stands for all that follow.
             if self.named == MOST_NAMED + 1 {
                 let message = format!("the files of a pipeline name others at most {MOST_NAMED} times");
-                reader.report(Diagnostic::new(span, message).help("each file has to be named only once"));
+                reader.report(
+                    Diagnostic::new(Code::TOO_MANY_FILES, span, message).help("each file has to be named only once"),
+                );
             }
             return None;
         }
         let found = self.files.read(from, path);
-        let wrong = |ReadFailure { why, help, choice, of_machine }| Diagnostic {
+        let wrong = |ReadFailure { code, why, help, choice, of_machine }| Diagnostic {
             help,
             choice,
             of_machine,
-            ..Diagnostic::new(span, why)
+            ..Diagnostic::new(code, span, why)
         };
         found.map_err(|unread| reader.report(wrong(unread))).ok()
     }
@@ -69,20 +71,24 @@ impl<'a> Loader<'a> {
         if self.read > MOST_FILES {
             // One answer stands for all that follow.
             if self.read == MOST_FILES + 1 {
-                reader.report(Diagnostic::new(span, format!("a pipeline is made of at most {MOST_FILES} files")));
+                reader.report(Diagnostic::new(
+                    Code::TOO_MANY_FILES,
+                    span,
+                    format!("a pipeline is made of at most {MOST_FILES} files"),
+                ));
             }
             return None;
         }
         if bytes.len() > LARGEST_FILE {
             let message = format!("`{shown}` has {} bytes; a file has at most {LARGEST_FILE}", bytes.len());
-            reader.report(Diagnostic::new(span, message));
+            reader.report(Diagnostic::new(Code::FILE_TOO_LARGE, span, message));
             return None;
         }
         let text: Arc<str> = match text_of(&bytes) {
             Ok(text) => text.into(),
             Err(why) => {
                 let message = format!("`{shown}` is not a text file: {why}");
-                reader.report(Diagnostic::new(span, message));
+                reader.report(Diagnostic::new(Code::FILE_NOT_TEXT, span, message));
                 return None;
             }
         };
@@ -115,7 +121,7 @@ pub(crate) fn version(reader: &mut Reader, all: Leaf<'_>) -> bool {
         Some(LANGUAGE_VERSION) => true,
         Some(number) => {
             let message = format!("this file is written in version {number} of the language");
-            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
+            reader.wrong(Code::VERSION, version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
             false
         }
         None => false,
@@ -135,7 +141,7 @@ pub(crate) fn circle(
     let mut names: Vec<String> = circle.iter().map(|(path, _)| format!("`{path}`")).collect();
     names.extend(names.first().cloned());
     let message = format!("files {verb} each other in a circle: {}", names.join(" → "));
-    let mut wrong = Diagnostic::new(span, message);
+    let mut wrong = Diagnostic::new(Code::FILES_IN_CIRCLE, span, message);
     for (path, span) in &circle[1..] {
         wrong = wrong.label(*span, format!("`{path}` is {named} here"));
     }

@@ -2,7 +2,7 @@
 
 use super::loader::Loader;
 use super::pipeline_files::WITHIN_ROOT;
-use crate::base::{Diagnostic, FilePath, OutsideChoice, Sources};
+use crate::base::{Code, Diagnostic, FilePath, OutsideChoice, Sources};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
 use crate::language::entries::textures::{Picture, Pictures, TextureFields, color_space};
 use crate::ron::{Leaf, Reader};
@@ -45,14 +45,18 @@ fn look(
         let Some(color_space) = color_space(&mut silent, fields.color_space) else { continue };
         let span = fields.file.span();
         let from = span.file().and_then(|file| sources.file(file)).map(|file| &file.path);
-        let wrong = |problem: &dyn std::fmt::Display| Diagnostic::new(span, format!("`{path}` {problem}"));
+        let wrong =
+            |problem: &dyn std::fmt::Display| Diagnostic::new(Code::TEXTURE_FILE, span, format!("`{path}` {problem}"));
         let picture = match from.unwrap_or(&"".into()).beside(&path) {
             Ok(FilePath::Own(own)) => {
                 let file = TextureFile { path: own, color_space };
                 info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
                     let wrong = Diagnostic { of_machine: problem.is_of_machine(), ..wrong(&problem) };
                     match problem {
-                        TextureProblem::Outside => wrong.help(WITHIN_ROOT).choice(OutsideChoice::Root),
+                        TextureProblem::Outside => {
+                            let outside = Diagnostic { code: Code::FILE_OUTSIDE_ROOT, ..wrong };
+                            outside.help(WITHIN_ROOT).choice(OutsideChoice::Root)
+                        }
                         _ => wrong,
                     }
                 })

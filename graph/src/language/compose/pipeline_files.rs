@@ -1,7 +1,7 @@
 //! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
 
 use super::files::{Files, FoundFile, LARGEST_FILE, ReadFailure};
-use crate::base::{FilePath, NoFile, OutsideChoice, Root, for_shell, nearest};
+use crate::base::{Code, FilePath, NoFile, OutsideChoice, Root, for_shell, nearest};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -98,6 +98,7 @@ impl Files for PipelineFiles {
             (FilePath::Own(_), Some(root)) => root.clone(),
             (beside, _) => {
                 return self.carried(beside.path()).ok_or_else(|| ReadFailure {
+                    code: Code::FILE_NAMED_UNREAD,
                     why: format!("there is no file `{path}` among those that are shipped"),
                     help: self.near(path),
                     choice: None,
@@ -111,6 +112,7 @@ impl Files for PipelineFiles {
             Err(NoFile::Missing) => {
                 let shipped = FilePath::Shipped("".into()).beside(path).map_err(unread)?;
                 self.carried(shipped.path()).ok_or_else(|| ReadFailure {
+                    code: Code::FILE_NAMED_UNREAD,
                     why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
                     help: self.near(path),
                     choice: None,
@@ -118,6 +120,7 @@ impl Files for PipelineFiles {
                 })
             }
             Err(outside @ NoFile::Outside { .. }) => Err(ReadFailure {
+                code: Code::FILE_OUTSIDE_ROOT,
                 why: format!("`{path}` {outside}, from which nothing may be read"),
                 help: Some(WITHIN_ROOT.to_owned()),
                 choice: Some(OutsideChoice::Root),

@@ -5,7 +5,7 @@ use super::firsts::Firsts;
 use super::parts::{self, AnyPart, PartSelection};
 use super::targets;
 use super::values::{self, optional};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::language::model::{Face, LeftOutSample, Param, Sample, Storage, StorageAccess, Uniform};
 use crate::language::scope::{Context, FieldContents, FieldValue, FieldValueTuple, combined};
@@ -246,13 +246,17 @@ impl Context<'_> {
             if let (Some(previous), Some(access)) = (previous, access)
                 && access.value != StorageAccess::Read
             {
-                let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
+                let written =
+                    Diagnostic::new(Code::EARLIER_FRAME, access.span, "what an earlier frame left can only be read");
                 context.reader.report(written.label(previous.span(), "an earlier frame"));
                 return None;
             }
             if let (Some(previous), Some(image)) = (previous, image.filter(|_| of_image)) {
-                let sampled =
-                    Diagnostic::new(previous.span(), "images of earlier frames can be sampled, not read as storage");
+                let sampled = Diagnostic::new(
+                    Code::EARLIER_FRAME,
+                    previous.span(),
+                    "images of earlier frames can be sampled, not read as storage",
+                );
                 context.reader.report(sampled.label(image.span(), "this image").help("name it in `sample`"));
                 return None;
             }
@@ -294,7 +298,7 @@ impl Context<'_> {
         self.entries(leaf, map, what, |context, name, value| {
             if let Some(name) = name.as_ref().filter(|name| name.text.contains('[')) {
                 let message = format!("`{}` can't be {what}: elements of an array have no names", name.text);
-                let wrong = Diagnostic::new(name.span, message);
+                let wrong = Diagnostic::new(Code::BINDING_ARRAY, name.span, message);
                 context.reader.report(wrong.help("write a list under the array's name: `\"taps\": [\"…\", \"…\"]`"));
                 return None;
             }
@@ -314,7 +318,7 @@ impl Context<'_> {
                 }
             }
             if is_empty {
-                context.reader.wrong(value, "an array has one element at least", "");
+                context.reader.wrong(Code::BINDING_ARRAY, value, "an array has one element at least", "");
             }
             (complete && !is_empty).then_some(())
         })?;
@@ -339,7 +343,8 @@ impl Context<'_> {
             if let Some(name) = &name
                 && let Some(first) = names.insert(Arc::clone(&name.text), name.span)
             {
-                let twice = Diagnostic::new(name.span, format!("{map} names `{}` twice", name.text));
+                let twice =
+                    Diagnostic::new(Code::LISTED_TWICE, name.span, format!("{map} names `{}` twice", name.text));
                 self.reader.report(twice.remark("again here").label(first, "first here"));
                 complete = false;
             }

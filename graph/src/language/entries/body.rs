@@ -10,7 +10,7 @@ use super::repeat::{MOST_THINGS, Repeat};
 use super::textures::{Pictures, TextureFields};
 use super::uses::{UseEntry, UseFields};
 use super::views::ViewEntries;
-use crate::base::{Diagnostic, NameKind};
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::frame::ViewIndex;
 use crate::language::model::{Buffer, Image, Pass};
@@ -104,11 +104,11 @@ impl<'t> Tables<'t> {
         settings: bool,
         lists: Lists<'t>,
     ) -> Tables<'t> {
-        let mut image_names = Names::new(NameKind::Image);
+        let mut image_names = Names::new("image", Code::UNKNOWN_IMAGE);
         let textures: Vec<Option<TextureFields<'t>>> =
             entries(reader, lists.textures, "`textures`", "texture", &mut image_names);
         let images: Vec<Option<ImageFields<'t>>> = entries(reader, lists.images, "`images`", "image", &mut image_names);
-        let mut buffer_names = Names::new(NameKind::Buffer);
+        let mut buffer_names = Names::new("buffer", Code::UNKNOWN_BUFFER);
         let buffers: Vec<Option<BufferFields<'t>>> =
             entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffer_names);
         let is_list = |repeat: Option<Option<Leaf<'_>>>| repeat.flatten().is_some();
@@ -158,7 +158,7 @@ impl<'t> Tables<'t> {
         });
         let buffers = buffers.collect();
         // Passes and uses have their names in common.
-        let mut names = Names::new(NameKind::Pass);
+        let mut names = Names::new("pass", Code::UNKNOWN_PASS);
         names.reserve(self.items.len());
         let mut anchors = HashMap::new();
         let items = self.items.iter().map(|leaf| {
@@ -201,7 +201,12 @@ impl LevelReader<'_> {
             (Some(leaf), Some(views)) => views.find(reader, leaf).map(Some),
             (Some(leaf), None) => {
                 let help = "leave it out; the use of the fragment may have a `view`";
-                reader.wrong(leaf, "all that a fragment makes is for the view of its use", help);
+                reader.wrong(
+                    Code::VIEW_IN_FRAGMENT,
+                    leaf,
+                    "all that a fragment makes is for the view of its use",
+                    help,
+                );
                 None
             }
         });
@@ -216,7 +221,11 @@ fn anchor<'t>(reader: &mut Reader, leaf: Leaf<'t>, anchors: &mut HashMap<Arc<str
     let fields: AnchorFields<'t> = reader.read(leaf, "an anchor")?;
     let name = reader.name(fields.anchor, "an anchor")?;
     if let Some(first) = anchors.get(&name.text) {
-        let twice = Diagnostic::new(name.span, format!("`{}` is the name of more than one anchor", name.text));
+        let twice = Diagnostic::new(
+            Code::NAME_TAKEN,
+            name.span,
+            format!("`{}` is the name of more than one anchor", name.text),
+        );
         reader.report(twice.remark("again here").label(first.span, "first here"));
         return None;
     }

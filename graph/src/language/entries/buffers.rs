@@ -2,7 +2,7 @@
 
 use super::repeat::REPEAT;
 use super::{lifetimes, parts, views};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::language::model::{Buffer, Bytes, Decided, Lifetime};
 use crate::language::scope::{Context, FieldValue, Parameter, ParameterKind, combined};
@@ -85,7 +85,12 @@ impl Context<'_> {
                     && !u64::is_multiple_of(*bytes, 4)
                 {
                     let help = format!("the next is {}", bytes.next_multiple_of(4));
-                    self.reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);
+                    self.reader.wrong(
+                        Code::BUFFER_SIZE,
+                        leaf,
+                        format!("a buffer has a multiple of 4 bytes, found {bytes}"),
+                        &help,
+                    );
                     return None;
                 }
                 Some(bytes.of(Bytes::Count))
@@ -116,7 +121,7 @@ impl Context<'_> {
             && let Some(least) = kind.least().filter(|least| *least < 1.0 && kind.is_whole())
         {
             let message = format!("this setting allows {least}, so that the buffer would be empty");
-            self.reader.wrong(leaf, message, "let the setting begin at 1");
+            self.reader.wrong(Code::SETTING_TOO_WIDE, leaf, message, "let the setting begin at 1");
             return None;
         }
         let count: FieldValue<Decided<i64>> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
@@ -124,7 +129,7 @@ impl Context<'_> {
             Ok(value @ 1..) => Ok(count.map(|_| value)),
             _ => {
                 let message = format!("{} of something leave the buffer empty", count.value);
-                Err(Diagnostic::new(count.span, message).remark(count.remark()))
+                Err(Diagnostic::new(Code::BUFFER_SIZE, count.span, message).remark(count.remark()))
             }
         })
     }

@@ -1,7 +1,7 @@
 //! `draw: Casters(…)`: objects that cast the sun's shadow.
 
 use super::values::optional;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres, Share};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, combined};
@@ -52,7 +52,7 @@ impl Context<'_> {
                 if index.value >= of.value {
                     let beyond = format!("there is no cascade {} of {}", index.value, of.value);
                     let help = format!("write a number from 0 to {}", of.value - 1);
-                    return Err(Diagnostic::new(index.span, beyond)
+                    return Err(Diagnostic::new(Code::CASCADES, index.span, beyond)
                         .label(of.span, "the number of cascades")
                         .help(help));
                 }
@@ -67,7 +67,7 @@ impl Context<'_> {
         self.number_because(leaf, "how logarithmic splits are")?.checked(self.reader, move |share, _| {
             #[allow(clippy::cast_possible_truncation, reason = "a number a little above 1 is refused or rounded to 1")]
             Share::try_from(share.value as f32).map_err(|_| {
-                let wrong = Diagnostic::new(share.span, "splits can't be that logarithmic");
+                let wrong = Diagnostic::new(Code::CASCADES, share.span, "splits can't be that logarithmic");
                 wrong.help("write a number from 0 (parts of equal depth) to 1").remark(share.remark())
             })
         })
@@ -81,7 +81,7 @@ impl Context<'_> {
             }
             #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
             Metres::try_from(metres.value as f32).map(Some).map_err(|_| {
-                let wrong = Diagnostic::new(metres.span, "shadows can't reach that far");
+                let wrong = Diagnostic::new(Code::CASCADES, metres.span, "shadows can't reach that far");
                 let help = "write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold";
                 wrong.help(help).remark(metres.remark())
             })

@@ -2,6 +2,7 @@
 
 use super::values::{MANY, at};
 use super::{buffers, parts};
+use crate::base::Code;
 use crate::language::model::{Groups, Work};
 use crate::language::scope::{Context, FieldValue, all, combined};
 use crate::ron::{Form, Leaf, Word, WordContents, Words};
@@ -68,7 +69,7 @@ impl Context<'_> {
     ) -> Option<FieldValue<Work>> {
         let shader = self.reader.outside_name(leaf, "a shader");
         let Some(groups_at) = groups_at else {
-            self.reader.wrong(
+            self.reader.wrong(Code::GROUPS,
                 leaf,
                 format!("{what} doesn't say how many workgroups run"),
                 "add `groups: Texels(\"image\")` to run it for each texel of an image, or a number: `groups: Count(8, 8, 1)`",

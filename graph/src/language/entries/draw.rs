@@ -3,6 +3,7 @@
 use super::casters;
 use super::parts;
 use super::values::MANY;
+use crate::base::Code;
 use crate::frame::{Draw, DrawList};
 use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
@@ -73,6 +74,7 @@ impl Context<'_> {
                 let Some(foreign) = foreign else { continue };
                 let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
                 self.reader.wrong(
+                    Code::FIELD_UNFIT,
                     foreign,
                     message,
                     &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
@@ -83,7 +85,12 @@ impl Context<'_> {
             "FullScreen" => {
                 let [own]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
                 if let Some(second) = shader {
-                    self.reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
+                    self.reader.wrong(
+                        Code::FIELD_UNFIT,
+                        second,
+                        format!("{what} names its shader in `FullScreen(…)` already"),
+                        "",
+                    );
                     return None;
                 }
                 let shader = self.reader.outside_name(own, "a shader")?;
@@ -121,7 +128,12 @@ impl Context<'_> {
             }
         };
         let Some(shader) = shader else {
-            self.reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
+            self.reader.wrong(
+                Code::SHADER_UNSAID,
+                leaf,
+                format!("{what} {verb} and needs a shader"),
+                "add `shader: \"…\"`",
+            );
             return None;
         };
         let shader = self.reader.outside_name(shader, "a shader")?;

@@ -4,6 +4,7 @@ use super::body::{self, Body, Lists, Tables};
 use super::list::entries;
 use super::parameters::{self, ParameterFields};
 use super::textures::{self, Pictures};
+use crate::base::Code;
 use crate::fields;
 use crate::language::scope::Parameter;
 use crate::ron::{FieldTable, Form, Leaf, Names, PlainForm, Reader};
@@ -57,7 +58,7 @@ impl<T> Fragments<T> {
 impl<'t> Fragments<Tables<'t>> {
     /// Tells the fields of fragments apart, list by list.
     pub(crate) fn read(reader: &mut Reader, lists: impl IntoIterator<Item = Leaf<'t>>) -> Self {
-        let mut names = Names::of("fragment");
+        let mut names = Names::new("fragment", Code::UNKNOWN_FRAGMENT);
         let mut list = Vec::new();
         for leaf in lists {
             let fields: Vec<Option<FragmentFields<'t>>> =
@@ -80,7 +81,7 @@ fn tables<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Tables<'t> {
     if let Some(about) = fields.about {
         reader.words(about, "a description");
     }
-    let mut names = Names::of("parameter");
+    let mut names = Names::new("parameter", Code::UNKNOWN_PARAMETER);
     let given: Vec<Option<ParameterFields<'t>>> =
         entries(reader, fields.parameters, "`parameters`", "parameter", &mut names);
     let read = |fields: Option<ParameterFields<'t>>| fields.and_then(|fields| parameters::parameter(reader, &fields));

@@ -3,7 +3,7 @@
 use super::repeat::REPEAT;
 use super::values::{optional, typed, whole_number};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::expression::WantedTypes;
 use crate::frame::{SAMPLE_COUNTS, ViewIndex};
 use crate::language::model::{
@@ -189,7 +189,12 @@ impl Context<'_> {
     fn image_format(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<Format>>> {
         if let Shape::Text = leaf.shape() {
             if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
-                self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
+                self.reader.wrong(
+                    Code::UNKNOWN_WORD,
+                    leaf,
+                    format!("`{word}` is no format of Vulkan's"),
+                    "it stands without quotes",
+                );
                 return None;
             }
             return Some(self.format(leaf)?.of(Format::Named));
@@ -235,7 +240,7 @@ impl Context<'_> {
                 let odd = |setting: &Parameter| setting.one_of().iter().copied().find(|count| known(*count).is_none());
                 if let Some(odd) = setting.and_then(odd) {
                     let message = format!("this setting allows {odd}, which is no sample count");
-                    self.reader.wrong(leaf, message, &SAMPLES.forms());
+                    self.reader.wrong(Code::SETTING_TOO_WIDE, leaf, message, &SAMPLES.forms());
                     return None;
                 }
                 typed(count, whole_number)?
@@ -243,7 +248,12 @@ impl Context<'_> {
             Shape::Number => {
                 let count = self.reader.integer(leaf)?;
                 if known(count).is_none() {
-                    self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
+                    self.reader.wrong(
+                        Code::SAMPLE_COUNT,
+                        leaf,
+                        format!("{count} is no sample count"),
+                        &SAMPLES.forms(),
+                    );
                     return None;
                 }
                 FieldValue::said(leaf, count)
@@ -261,7 +271,7 @@ impl Context<'_> {
             let why = count.because.as_ref().map(|because| format!(" ({})", within_view(view, because)));
             let message = format!("image `{name}` can't have {} samples{}", count.value, why.unwrap_or_default());
             let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-            Err(Diagnostic::new(count.span, message).help(format!("sample counts are {allowed}")))
+            Err(Diagnostic::new(Code::SAMPLE_COUNT, count.span, message).help(format!("sample counts are {allowed}")))
         })
     }
 

@@ -3,6 +3,7 @@
 use super::list;
 use super::parts::{self, MOST_FRAMES};
 use super::values::{self, at, optional};
+use crate::base::Code;
 use crate::fields;
 use crate::language::model::{Lifetime, State};
 use crate::language::scope::{Context, FieldValue, combined};
@@ -175,7 +176,7 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubjec
         let accesses = flags::<Accesses>(reader, fields.accesses, "`accesses`", "an access");
         let layout = match (fields.layout, of) {
             (Some(layout), StateSubject::Buffer) => {
-                reader.wrong(layout, "a buffer has no layout", "");
+                reader.wrong(Code::STATE_UNFIT, layout, "a buffer has no layout", "");
                 None
             }
             (Some(layout), StateSubject::Image) => {
@@ -183,7 +184,7 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubjec
             }
             (None, StateSubject::Buffer) => Some(Layout::Undefined),
             (None, StateSubject::Image) => {
-                reader.wrong(leaf, "the state of an image has a layout", "add `layout: …`");
+                reader.wrong(Code::STATE_UNFIT, leaf, "the state of an image has a layout", "add `layout: …`");
                 None
             }
         };
@@ -200,7 +201,7 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubjec
     reader.bare(word, rest)?;
     let Some((_, kind)) = words().filter(fits).find(|(fitting, _)| fitting.word == word) else {
         let whose = if of == StateSubject::Image { "an image" } else { "a buffer" };
-        reader.wrong(leaf, format!("{whose} can't be in the state `{word}`"), &forms);
+        reader.wrong(Code::STATE_UNFIT, leaf, format!("{whose} can't be in the state `{word}`"), &forms);
         return None;
     };
     Some(leaf.spanned(State::Word(kind)))

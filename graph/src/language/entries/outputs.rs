@@ -2,7 +2,7 @@
 
 use super::values::{self, optional};
 use super::{lifetimes, parts};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Output, ResourceRef};
@@ -49,7 +49,7 @@ impl Context<'_> {
     pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Option<FieldValue<Output>>>> {
         let leaves = self.reader.list(list, "`outputs`")?;
         if leaves.is_empty() {
-            self.reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
+            self.reader.wrong(Code::NO_OUTPUTS, list, "a frame without outputs shows nothing", NAME_ONE);
             return None;
         }
         Some(leaves.into_iter().map(|leaf| self.output(leaf)).collect())
@@ -68,14 +68,19 @@ impl Context<'_> {
             }
             _ => {
                 let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
-                self.reader.wrong(leaf, "an output is one image or one buffer", help);
+                self.reader.wrong(Code::IMAGE_OR_BUFFER, leaf, "an output is one image or one buffer", help);
                 return None;
             }
         };
         let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
         let encoding = match (fields.encoding, of) {
             (Some(leaf), StateSubject::Buffer) => {
-                self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
+                self.reader.wrong(
+                    Code::ENCODING,
+                    leaf,
+                    "the bytes of a buffer have no encoding",
+                    "leave `encoding` out",
+                );
                 None
             }
             (encoding, _) => values::optional_choice(self.reader, encoding, "an encoding", &ENCODINGS),
@@ -94,7 +99,7 @@ impl Evaluator<'_, '_> {
             let ResourceRef { resource, span } = output.resource;
             if let Some(first) = first.insert(resource, span) {
                 let what = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
-                let twice = Diagnostic::new(span, format!("this {what} is an output twice"));
+                let twice = Diagnostic::new(Code::LISTED_TWICE, span, format!("this {what} is an output twice"));
                 self.reader.report(twice.remark("again here").label(first, "first here"));
             }
         }

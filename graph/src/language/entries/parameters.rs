@@ -3,6 +3,7 @@
 use super::list;
 use super::settings::{LISTED, default_on_step, listed, step};
 use super::values::optional;
+use crate::base::Code;
 use crate::fields;
 use crate::language::model::SettingKind;
 use crate::language::scope::{Parameter, ParameterKind};
@@ -196,7 +197,7 @@ fn one_of<'src>(
     let fields: ParameterOneOfFields<'_> = reader.inside(leaf, rest, "OneOf(default: …, of: […])")?;
     let entries = reader.list(fields.of, "`of`")?;
     let Some(first) = entries.first().copied() else {
-        reader.wrong(fields.of, "the list `of` is empty, so no value is allowed", "");
+        reader.wrong(Code::RANGE_EMPTY, fields.of, "the list `of` is empty, so no value is allowed", "");
         return None;
     };
     let default = fields.default.unwrap_or(first);
@@ -214,7 +215,12 @@ fn one_of<'src>(
 /// Reports a step without `min`, where steps begin.
 fn steps_begin(reader: &mut Reader, step: Option<Leaf<'_>>, min: Option<Leaf<'_>>) -> Option<()> {
     let Some(step) = step.filter(|_| min.is_none()) else { return Some(()) };
-    reader.wrong(step, "steps begin at `min`, and there is none", "add `min: …`, or leave out `step`");
+    reader.wrong(
+        Code::RANGE_EMPTY,
+        step,
+        "steps begin at `min`, and there is none",
+        "add `min: …`, or leave out `step`",
+    );
     None
 }
 
@@ -229,7 +235,7 @@ fn range<'src, T: PartialOrd + Copy + std::fmt::Display>(
     let (default, min, max) = (value(default_leaf), value(min_leaf), value(max_leaf));
     let (default, min, max) = (default?, min?.unwrap_or(whole.0), max?.unwrap_or(whole.1));
     if let Some(leaf) = min_leaf.or(max_leaf).filter(|_| min > max) {
-        reader.wrong(leaf, format!("`min` ({min}) is greater than `max` ({max})"), "");
+        reader.wrong(Code::RANGE_EMPTY, leaf, format!("`min` ({min}) is greater than `max` ({max})"), "");
         return None;
     }
     if let (Some(leaf), Some(default)) = (default_leaf, default)
@@ -240,7 +246,7 @@ fn range<'src, T: PartialOrd + Copy + std::fmt::Display>(
         } else {
             format!("the default `{default}` is greater than `max` ({max})")
         };
-        reader.wrong(leaf, wrong, "");
+        reader.wrong(Code::DEFAULT_NOT_ALLOWED, leaf, wrong, "");
         return None;
     }
     Some((default, min, max))

@@ -1,6 +1,7 @@
 //! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
 
 use super::values::{self, optional};
+use crate::base::Code;
 use crate::fields;
 use crate::frame::{Eye, Resource};
 use crate::language::model::{BufferPart, BufferRef, Decided, ImagePart, ImageRef, Part, ResourceRef, Selection};
@@ -171,16 +172,27 @@ impl Context<'_> {
             (None, Some(buffer)) => {
                 let PartSelection { mip, mips, layer, layers, plane, previous } = selected;
                 for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
-                    self.reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
+                    self.reader.wrong(
+                        Code::IMAGE_OR_BUFFER,
+                        foreign,
+                        "a buffer has no mip levels, layers and planes",
+                        "",
+                    );
                 }
                 self.named_buffer(buffer, previous).map(AnyPart::Buffer)
             }
             (Some(_), Some(buffer)) => {
-                self.reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
+                self.reader.wrong(
+                    Code::IMAGE_OR_BUFFER,
+                    buffer,
+                    "an image and a buffer can't be named in one place",
+                    "",
+                );
                 None
             }
             (None, None) => {
                 self.reader.wrong(
+                    Code::IMAGE_OR_BUFFER,
                     whole,
                     "this names neither an image nor a buffer",
                     "add `image: \"…\"` or `buffer: \"…\"`",
@@ -196,7 +208,7 @@ impl Context<'_> {
             return match self.part_by_fields(leaf)? {
                 AnyPart::Image(part) => Some(part),
                 AnyPart::Buffer(_) => {
-                    self.reader.wrong(leaf, "an image is needed here", "");
+                    self.reader.wrong(Code::WRONG_KIND, leaf, "an image is needed here", "");
                     None
                 }
             };
@@ -210,7 +222,7 @@ impl Context<'_> {
             return match self.part_by_fields(leaf)? {
                 AnyPart::Buffer(part) => Some(part),
                 AnyPart::Image(_) => {
-                    self.reader.wrong(leaf, "a buffer is needed here", "");
+                    self.reader.wrong(Code::WRONG_KIND, leaf, "a buffer is needed here", "");
                     None
                 }
             };

@@ -5,7 +5,7 @@ use super::firsts::Firsts;
 use super::pass_fields::PassFields;
 use super::stand_ins::{OtherwiseOwner, stand_ins_make_sense};
 use super::values::optional;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::model::{Color, Depth, Pass, PassDecisions};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, ReadableValue, reported};
@@ -141,7 +141,7 @@ fn targets_make_sense(
         && color.is_empty()
         && depth.is_none()
     {
-        let nothing = Diagnostic::new(draws, format!("{what} draws into nothing"));
+        let nothing = Diagnostic::new(Code::PASS_DOES_NOTHING, draws, format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
     let mut first = Firsts::default();
@@ -151,7 +151,8 @@ fn targets_make_sense(
             (number(selection.first), number(selection.count))
         });
         if let Some(first) = first.insert((target.image.index, numbers), target.image.span) {
-            let twice = Diagnostic::new(target.image.span, format!("{what} draws into this image twice"));
+            let twice =
+                Diagnostic::new(Code::TARGET_TWICE, target.image.span, format!("{what} draws into this image twice"));
             reader.report(twice.remark("again here").label(first, "first here"));
         }
     }
@@ -166,7 +167,11 @@ fn bindings_differ(reader: &mut Reader, pass: &Pass) {
     for name in names {
         if let Some(first) = first.insert(&*name.text, name.span) {
             let message = format!("pass `{}` gives `{}` in two ways", pass.name.text, name.text);
-            reader.report(Diagnostic::new(name.span, message).remark("again here").label(first, "first here"));
+            reader.report(
+                Diagnostic::new(Code::BINDING_TWICE, name.span, message)
+                    .remark("again here")
+                    .label(first, "first here"),
+            );
         }
     }
 }

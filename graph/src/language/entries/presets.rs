@@ -3,7 +3,7 @@
 use super::list::entries;
 use super::settings;
 use super::values::optional;
-use crate::base::{Diagnostic, Label, NameKind, Span, suggestion};
+use crate::base::{Code, Diagnostic, Label, Span, suggestion};
 use crate::expression::Value;
 use crate::fields;
 use crate::language::model::{Choice, Preset, Setting, SettingKind};
@@ -39,7 +39,7 @@ pub(crate) fn presets(
     settings: &[Option<Setting>],
 ) -> Vec<Option<Preset>> {
     let list: Vec<Option<PresetFields<'_>>> =
-        entries(reader, list, "`presets`", "preset", &mut Names::new(NameKind::Preset));
+        entries(reader, list, "`presets`", "preset", &mut Names::new("preset", Code::UNKNOWN_PRESET));
     let read = |fields: Option<PresetFields<'_>>| {
         let fields = fields?;
         let name = reader.name(fields.name, "a preset");
@@ -60,7 +60,7 @@ pub(crate) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Settin
     for (key, value) in entries {
         let Some(name) = reader.reference(key, "a setting") else { continue };
         if let Some(first) = seen.insert(name.text.clone(), name.span) {
-            let twice = Diagnostic::new(name.span, format!("`{}` is set twice", name.text));
+            let twice = Diagnostic::new(Code::LISTED_TWICE, name.span, format!("`{}` is set twice", name.text));
             reader.report(twice.remark("again here").label(first, "first here"));
             continue;
         }
@@ -83,7 +83,7 @@ fn unknown_setting(name: &Name, settings: &[Option<Setting>], given: &HashSet<&s
     let help = suggestion(&name.text, all.clone().filter(|name| !given.contains(name)))
         .or_else(|| suggestion(&name.text, all))
         .or_else(|| Some("this pipeline has no settings".to_owned()));
-    Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Setting, &name.text).at(name.span) }
+    Diagnostic { help, ..Diagnostic::unknown_name(Code::UNKNOWN_SETTING, "setting", &name.text).at(name.span) }
 }
 
 /// A value that `setting` allows.
@@ -97,7 +97,12 @@ fn typed(reader: &mut Reader, setting: &Setting, leaf: Leaf<'_>) -> Option<Value
         SettingKind::Choice { .. } => reader.words(leaf, "a text").map(|text| Value::Text(text.into())),
     };
     if value.as_ref().is_some_and(|value| !setting.kind.allows(value)) {
-        reader.wrong(leaf, format!("setting `{name}` doesn't allow `{}`", leaf.text().trim_matches('"')), "");
+        reader.wrong(
+            Code::VALUE_NOT_ALLOWED,
+            leaf,
+            format!("setting `{name}` doesn't allow `{}`", leaf.text().trim_matches('"')),
+            "",
+        );
     }
     for error in &mut reader.errors[before..] {
         error.labels.push(Label::new(declared, format!("`{name}` is declared here")));

@@ -1,7 +1,7 @@
 //! `settings`: values that a user may choose.
 
 use super::list::entries;
-use crate::base::NameKind;
+use crate::base::Code;
 use crate::fields;
 use crate::language::model::{Setting, SettingKind};
 use crate::ron::{FieldTable, Form, Leaf, Names, PlainForm, Reader, Shape, Word, WordContents, Words};
@@ -114,7 +114,7 @@ pub(crate) const SETTINGS: Form = Form::List(&Form::Fields(SettingFields::<'stat
 
 /// A list of settings and their names; `None` where one couldn't be read.
 pub(crate) fn list(reader: &mut Reader, list: Option<Leaf<'_>>) -> (Names, Vec<Option<Setting>>) {
-    let mut names = Names::new(NameKind::Setting);
+    let mut names = Names::new("setting", Code::UNKNOWN_SETTING);
     let listed: Vec<Option<SettingFields<'_>>> = entries(reader, list, "`settings`", "setting", &mut names);
     let read = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| setting(reader, fields));
     (names, listed.iter().map(read).collect())
@@ -182,7 +182,7 @@ pub(crate) fn step<'src, T: PartialOrd + std::fmt::Display>(
     let Some(leaf) = leaf else { return Some(None) };
     let step = read(reader, leaf)?;
     if step <= zero {
-        reader.wrong(leaf, format!("a step is greater than 0, found {step}"), "");
+        reader.wrong(Code::RANGE_EMPTY, leaf, format!("a step is greater than 0, found {step}"), "");
         return None;
     }
     Some(Some(step))
@@ -196,7 +196,7 @@ fn in_steps<T: std::fmt::Display>(
     (min, max): (T, T),
 ) -> Option<()> {
     if let Some(leaf) = leaf.filter(|_| !fits) {
-        reader.wrong(leaf, format!("this step is larger than the range from {min} to {max}"), "");
+        reader.wrong(Code::RANGE_EMPTY, leaf, format!("this step is larger than the range from {min} to {max}"), "");
         return None;
     }
     Some(())
@@ -208,14 +208,19 @@ pub(crate) fn default_on_step(reader: &mut Reader, leaf: Leaf<'_>, kind: &Settin
     if kind.allows(&default) {
         return Some(());
     }
-    reader.wrong(leaf, format!("the default `{default}` lies between two steps"), &kind.instead_of(&default));
+    reader.wrong(
+        Code::DEFAULT_NOT_ALLOWED,
+        leaf,
+        format!("the default `{default}` lies between two steps"),
+        &kind.instead_of(&default),
+    );
     None
 }
 
 fn one_of<'src>(reader: &mut Reader, fields: &OneOfFields<'src>) -> Option<SettingKind> {
     let entries = reader.list(fields.of, "`of`")?;
     let Some(first) = entries.first() else {
-        reader.wrong(fields.of, "the list `of` is empty, so no value is allowed", "");
+        reader.wrong(Code::RANGE_EMPTY, fields.of, "the list `of` is empty, so no value is allowed", "");
         return None;
     };
     if let Shape::Text = first.shape() {
@@ -241,7 +246,7 @@ pub(crate) fn listed<'src, T: Ord + Clone + std::fmt::Display>(
     for entry in entries {
         match read(reader, *entry) {
             Some(value) if !seen.insert(value.clone()) => {
-                reader.wrong(*entry, format!("`{value}` is listed twice"), "");
+                reader.wrong(Code::LISTED_TWICE, *entry, format!("`{value}` is listed twice"), "");
             }
             Some(value) => of.push(value),
             None => complete = false,
@@ -249,7 +254,7 @@ pub(crate) fn listed<'src, T: Ord + Clone + std::fmt::Display>(
     }
     let chosen = chosen?;
     if complete && !seen.contains(&chosen) {
-        reader.wrong(default, format!("the default `{chosen}` is not in the list `of`"), "");
+        reader.wrong(Code::DEFAULT_NOT_ALLOWED, default, format!("the default `{chosen}` is not in the list `of`"), "");
         return None;
     }
     complete.then_some((chosen, of))
@@ -261,11 +266,16 @@ fn in_range<T: PartialOrd + std::fmt::Display>(
     (default, min, max): (T, T, T),
 ) -> Option<()> {
     if min > max {
-        reader.wrong(least, format!("`min` ({min}) is greater than `max` ({max})"), "");
+        reader.wrong(Code::RANGE_EMPTY, least, format!("`min` ({min}) is greater than `max` ({max})"), "");
         return None;
     }
     if default < min || default > max {
-        reader.wrong(leaf, format!("the default `{default}` lies outside {min} to {max}"), "");
+        reader.wrong(
+            Code::DEFAULT_NOT_ALLOWED,
+            leaf,
+            format!("the default `{default}` lies outside {min} to {max}"),
+            "",
+        );
         return None;
     }
     Some(())

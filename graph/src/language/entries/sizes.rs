@@ -2,7 +2,7 @@
 
 use super::parts;
 use super::values::optional;
-use crate::base::{Diagnostic, shown_number};
+use crate::base::{Code, Diagnostic, shown_number};
 use crate::fields;
 use crate::language::model::{Decided, LARGEST_SIZE, Size};
 use crate::language::scope::{Context, FieldValue, FieldValueTuple, all, combined, within_view};
@@ -80,7 +80,8 @@ impl Context<'_> {
                 let factors = factors.checked_as(self.reader, said, move |(by, up_to), view| {
                     if by.value > up_to.value {
                         let message = format!("the factor {} is more than there is room for", shown_number(by.value));
-                        let wrong = Diagnostic::new(by.span, message).remark(within_view(view, by.remark()));
+                        let wrong = Diagnostic::new(Code::DYNAMIC_SIZE, by.span, message)
+                            .remark(within_view(view, by.remark()));
                         return Err(wrong.label(up_to.span, format!("at most {}", shown_number(up_to.value))));
                     }
                     Ok((by, up_to))
@@ -120,7 +121,12 @@ impl Context<'_> {
         match u32::try_from(extent) {
             Ok(extent @ 1..=LARGEST_SIZE) => Some(FieldValue::Constant(extent)),
             _ => {
-                self.reader.wrong(leaf, format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"), "");
+                self.reader.wrong(
+                    Code::SIZE_OUTSIDE,
+                    leaf,
+                    format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"),
+                    "",
+                );
                 None
             }
         }
@@ -132,7 +138,7 @@ impl Context<'_> {
             && let Some(least) = parameter.least().filter(|least| *least <= 0.0)
         {
             let message = format!("a scale is greater than 0, but this setting allows {}", shown_number(least));
-            self.reader.wrong(leaf, message, "let the setting begin above 0");
+            self.reader.wrong(Code::SETTING_TOO_WIDE, leaf, message, "let the setting begin above 0");
             return None;
         }
         self.number_because(leaf, "a scale")?.checked(self.reader, move |by, view| {
@@ -141,7 +147,7 @@ impl Context<'_> {
             }
             let wrong = format!("a scale is greater than 0, found {}", shown_number(by.value));
             let help = "write a number above 0: `1` is the same size, `0.5` half the width and half the height";
-            Err(Diagnostic::new(by.span, wrong).remark(within_view(view, by.remark())).help(help))
+            Err(Diagnostic::new(Code::SCALE, by.span, wrong).remark(within_view(view, by.remark())).help(help))
         })
     }
 }

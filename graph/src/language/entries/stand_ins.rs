@@ -2,7 +2,7 @@
 
 use super::parts;
 use super::values::{self, optional};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::fields;
 use crate::language::model::{Forward, Pass, StandIn};
 use crate::language::scope::{Context, FieldValue, combined};
@@ -115,7 +115,11 @@ impl OtherwiseOwner {
 /// Reports stand-ins that don't fill images of the pass's own, each once, from other images.
 pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &StandInList, of: OtherwiseOwner, pass: &Pass) {
     if !otherwise.conditional {
-        let idle = Diagnostic::new(otherwise.span, "`otherwise` never comes to pass: there is no `when`");
+        let idle = Diagnostic::new(
+            Code::STAND_IN_UNFIT,
+            otherwise.span,
+            "`otherwise` never comes to pass: there is no `when`",
+        );
         reader.report(idle.help("add `when: …`, or remove `otherwise`"));
     }
     let mut first = HashMap::new();
@@ -124,15 +128,15 @@ pub(crate) fn stand_ins_make_sense(reader: &mut Reader, otherwise: &StandInList,
         if let StandIn::Forward(forward) = stand_in
             && forward.from.index == forward.to.index
         {
-            let same = Diagnostic::new(to.span, "an image can't be forwarded to itself");
+            let same = Diagnostic::new(Code::STAND_IN_UNFIT, to.span, "an image can't be forwarded to itself");
             reader.report(same.label(forward.from.span, "the same image"));
             continue;
         }
         if !pass.image_parts().any(|(part, of)| of.writes() && part.image.index == to.index) {
             let (message, help) = of.foreign();
-            reader.report(Diagnostic::new(to.span, message).help(help));
+            reader.report(Diagnostic::new(Code::STAND_IN_UNFIT, to.span, message).help(help));
         } else if let Some(first) = first.insert(to.index, to.span) {
-            let twice = Diagnostic::new(to.span, "`otherwise` fills this image twice");
+            let twice = Diagnostic::new(Code::LISTED_TWICE, to.span, "`otherwise` fills this image twice");
             reader.report(twice.remark("again here").label(first, "first here"));
         }
     }

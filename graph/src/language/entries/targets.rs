@@ -2,7 +2,7 @@
 
 use super::parts::{self, PartSelection};
 use super::values::{self, at, optional};
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
@@ -227,7 +227,7 @@ impl Context<'_> {
                 return Ok(number.value);
             }
             let wrong = format!("{} is too large for a colour", crate::base::shown_number(number.value));
-            let wrong = Diagnostic::new(number.span, wrong).remark(number.remark());
+            let wrong = Diagnostic::new(Code::FILL_UNFIT, number.span, wrong).remark(number.remark());
             Err(wrong.help("32-bit floating point reaches about 3.4e38"))
         })?;
         Some(at(leaf, number))
@@ -238,7 +238,7 @@ impl Context<'_> {
             if !(0.0..=1.0).contains(&depth.value) {
                 let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
                 let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth.value));
-                return Err(Diagnostic::new(depth.span, wrong).remark(depth.remark()).help(help));
+                return Err(Diagnostic::new(Code::FILL_UNFIT, depth.span, wrong).remark(depth.remark()).help(help));
             }
             Ok(depth.value)
         })

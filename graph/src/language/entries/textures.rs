@@ -2,7 +2,7 @@
 
 use super::parameters;
 use super::values::optional;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
 use crate::language::model::{Decided, Decisions, Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
 use crate::language::scope::{Context, FieldValue};
@@ -77,7 +77,7 @@ impl Context<'_> {
                     None => Ok(format),
                     Some(why) => {
                         let message = format!("texture `{}` can't be {}: {why}", name.text, format.value);
-                        Err(Diagnostic::new(format.span, message))
+                        Err(Diagnostic::new(Code::TEXTURE_FORMAT, format.span, message))
                     }
                 })?
             }
@@ -87,8 +87,10 @@ impl Context<'_> {
             Ok(extent) => extent,
             Err(problem) => {
                 let at = fields.shape.map_or(fields.file.span(), Leaf::span);
-                self.reader
-                    .report(Diagnostic::new(at, format!("`{path}` {problem}")).label(fields.file.span(), "this file"));
+                self.reader.report(
+                    Diagnostic::new(Code::TEXTURE_FILE, at, format!("`{path}` {problem}"))
+                        .label(fields.file.span(), "this file"),
+                );
                 return None;
             }
         };

@@ -6,7 +6,7 @@ use super::fragments::Fragments;
 use super::repeat::REPEAT;
 use super::stand_ins::{OTHERWISE, StandInList};
 use super::{parameters, views};
-use crate::base::{Diagnostic, MistakeKind, NameKind, Span, enumerated};
+use crate::base::{Code, Diagnostic, Span, enumerated};
 use crate::expression::{Expression, Outcome, Type, Value, WantedTypes};
 use crate::fields;
 use crate::language::model::SettingKind;
@@ -93,12 +93,17 @@ impl Context<'_> {
                     let other = if symbols.names.in_order().next().is_some() { "other " } else { "" };
                     let none = format!("fragment `{called}` has no {other}parameters");
                     let help = self.reader.known(&name.text, open).or(Some(none));
-                    self.reader.report(Diagnostic { help, ..Diagnostic::new(name.span, unknown) });
+                    self.reader
+                        .report(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_PARAMETER, name.span, unknown) });
                 }
                 continue;
             };
             if leaves.insert(at, value).is_some() {
-                self.reader.report(Diagnostic::new(name.span, format!("`with` names `{}` twice", name.text)));
+                self.reader.report(Diagnostic::new(
+                    Code::LISTED_TWICE,
+                    name.span,
+                    format!("`with` names `{}` twice", name.text),
+                ));
             }
         }
         let mut missing = Vec::new();
@@ -132,8 +137,8 @@ impl Context<'_> {
             let names = enumerated(missing.iter().map(|parameter| format!("`{}`", parameter.name.text)));
             let what = if missing.len() == 1 { "parameter" } else { "parameters" };
             let message = format!("fragment `{called}` needs the {what} {names}");
-            let wrong =
-                Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
+            let wrong = Diagnostic::new(Code::PARAMETER_MISSING, fields.r#use.span(), message)
+                .label(first.name.span, "declared here, without default");
             self.reader.report(wrong.help(format!("add `with: {{{}}}`", examples.join(", "))));
         }
         values
@@ -171,10 +176,9 @@ impl Context<'_> {
         let meant: Vec<_> = of.iter().filter(|text| !known || ***text == *word).collect();
         let all = enumerated(meant.iter().map(|text| format!("`\"'{text}'\"`")));
         let message = format!("texts in expressions stand in single quotes, found `{word}`");
-        let unquoted = Diagnostic::new(leaf.span(), message);
+        let unquoted = Diagnostic::new(Code::TEXT_WITHOUT_QUOTES, leaf.span(), message);
         let unquoted = unquoted.help(format!("write it in single quotes inside the quotes: {all}"));
-        // A setting of that name may have been meant.
-        self.reader.report(Diagnostic { kind: MistakeKind::UnknownName(NameKind::Setting), ..unquoted });
+        self.reader.report(unquoted);
         None
     }
 
@@ -192,7 +196,8 @@ impl Context<'_> {
             }
             let because = joined(&given.decided);
             let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
-            let wrong = Diagnostic::new(at, message).remark(because.as_deref().unwrap_or_default());
+            let wrong =
+                Diagnostic::new(Code::VALUE_NOT_ALLOWED, at, message).remark(because.as_deref().unwrap_or_default());
             Err(wrong.label(span, "declared here").help(format!("it is {}", kind.allowed())))
         })
     }

@@ -1,7 +1,7 @@
 //! Values that several fields take: numbers, truths, words, and fills of images and buffers. Each stands by itself or as
 //! an expression in quotes.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expression::{Value, WantedTypes};
 use crate::frame::ParamValue;
 use crate::language::model::{Decided, Decisions, Fill, SettingKind};
@@ -50,14 +50,19 @@ impl Context<'_> {
         let (number, setting) = self.value(leaf, SettingKind::is_whole, WantedTypes::INTEGER, words)?;
         if let Some(odd) = setting.and_then(|setting| setting.whole_beyond(&range)) {
             let message = format!("this setting allows {odd}, which is no {what}");
-            self.reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
+            self.reader.wrong(
+                Code::SETTING_TOO_WIDE,
+                leaf,
+                message,
+                &format!("{} to {} are allowed", range.start(), range.end()),
+            );
             return None;
         }
         typed(number, whole_number)?.checked(self.reader, move |number, _| {
             match T::try_from(number.value).ok().filter(|_| range.contains(&number.value)) {
                 Some(value) => Ok(number.map(|_| value)),
                 None => {
-                    let wrong = Diagnostic::new(number.span, outside(number.value, what, &range));
+                    let wrong = Diagnostic::new(Code::NUMBER_OUTSIDE, number.span, outside(number.value, what, &range));
                     Err(wrong.remark(number.remark()))
                 }
             }
@@ -117,7 +122,7 @@ impl Context<'_> {
             let (least, most) = (COMPONENTS.start(), COMPONENTS.end());
             let what = if dimensions == PARAM_DEPTH { "a vector or matrix" } else { "a column of a matrix" };
             let message = format!("{what} has {least} to {most} values in `(…, …)`; here are {}", leaves.len());
-            self.reader.wrong(leaf, message, "");
+            self.reader.wrong(Code::WRONG_SHAPE, leaf, message, "");
             return None;
         }
         // All of them are read, so that all mistakes are told.
@@ -198,7 +203,7 @@ impl Context<'_> {
             if let Some((_, value)) = choices.iter().find(|(word, _)| *word == &*said.value) {
                 return Ok(said.map(|_| *value));
             }
-            let wrong = Diagnostic::new(said.span, format!("`{}` is not {what}", said.value));
+            let wrong = Diagnostic::new(Code::UNKNOWN_WORD, said.span, format!("`{}` is not {what}", said.value));
             let known: Vec<String> = choices.iter().map(|(word, _)| format!("`'{word}'`")).collect();
             let wrong = wrong.remark(within_view(view, said.remark()));
             Err(wrong.help(format!("it is one of {}", known.join(", "))))
@@ -215,7 +220,7 @@ impl Context<'_> {
         } else if let Some(parts) = leaf.tuple::<4>() {
             combined(all(parts.map(|part| self.fill_number(part)))?, Fill::Color)
         } else {
-            self.reader.wrong(leaf, "this is no value for all texels", FILLS);
+            self.reader.wrong(Code::FILL_UNFIT, leaf, "this is no value for all texels", FILLS);
             return None;
         };
         Some(at(leaf, fill))
@@ -239,14 +244,16 @@ impl Context<'_> {
             let message = format!("this setting allows `{}`, which is not {}", odd, words.what);
             let known: Vec<String> = words.all.iter().map(|word| format!("`{}`", word.word)).collect();
             let help = format!("write one of {} in place of `{odd}`", known.join(", "));
-            let wrong = Diagnostic::new(leaf.span(), message).label(setting.name.span, "declared here");
+            let wrong =
+                Diagnostic::new(Code::SETTING_TOO_WIDE, leaf.span(), message).label(setting.name.span, "declared here");
             self.reader.report(wrong.help(help));
             return None;
         }
         typed(said, text)?.checked(self.reader, move |said, _| match words.find(&said.value) {
             Some(known) => Ok(said.map(|_| known.word)),
             None => {
-                let wrong = Diagnostic::new(said.span, format!("`{}` is not {}", said.value, words.what));
+                let wrong =
+                    Diagnostic::new(Code::UNKNOWN_WORD, said.span, format!("`{}` is not {}", said.value, words.what));
                 Err(wrong.remark(said.remark()).help(words.forms()))
             }
         })
@@ -286,7 +293,7 @@ fn constant<'src, T: TryFrom<i64>>(
     let number = reader.integer(leaf)?;
     let fitting = T::try_from(number).ok().filter(|_| range.contains(&number));
     if fitting.is_none() {
-        reader.wrong(leaf, outside(number, what, &range), "");
+        reader.wrong(Code::NUMBER_OUTSIDE, leaf, outside(number, what, &range), "");
     }
     fitting
 }

@@ -2,7 +2,7 @@
 
 use super::values::optional;
 use super::{list, presets, sizes};
-use crate::base::{Diagnostic, Label, NameKind, OutsideChoice, shown_number};
+use crate::base::{Code, Diagnostic, Label, OutsideChoice, shown_number};
 use crate::fields;
 use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
@@ -103,10 +103,15 @@ impl ViewEntries {
         list: Option<Leaf<'_>>,
         removed: Option<&Change>,
     ) -> ViewEntries {
-        let (mut names, before) = (Names::new(NameKind::View), context.reader.errors.len());
+        let (mut names, before) = (Names::new("view", Code::UNKNOWN_VIEW), context.reader.errors.len());
         let fields: Vec<Option<ViewFields<'_>>> = list::entries(context.reader, list, "`views`", "view", &mut names);
         if let Some(list) = list.filter(|_| fields.is_empty() && context.reader.errors.is_empty()) {
-            context.reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
+            context.reader.wrong(
+                Code::NO_VIEWS,
+                list,
+                "a frame without views shows nothing",
+                "leave `views` out: there is one then",
+            );
         }
         let mut views = Vec::with_capacity(fields.len());
         for (number, fields) in fields.into_iter().enumerate() {
@@ -122,7 +127,7 @@ impl ViewEntries {
     pub(crate) fn find(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<ViewIndex> {
         let name = reader.reference(leaf, "a view")?;
         if self.list.is_empty() && self.names.complete() {
-            let unknown = Diagnostic::unknown_name(NameKind::View, &name.text).at(name.span);
+            let unknown = Diagnostic::unknown_name(Code::UNKNOWN_VIEW, "view", &name.text).at(name.span);
             reader.report(unknown.help(format!(
                 "list the views of the frame, the main one first: `views: [(name: \"main\"), (name: \"{}\")]`",
                 name.text
@@ -200,7 +205,8 @@ impl Context<'_> {
         let extent = match fields.size {
             Some(leaf) if main => {
                 if !leaf.is_broken() {
-                    let wrong = Diagnostic::new(leaf.span(), FIRST_IS_THE_FRAMES).help("leave `size` out");
+                    let wrong = Diagnostic::new(Code::MAIN_VIEW_SIZE, leaf.span(), FIRST_IS_THE_FRAMES)
+                        .help("leave `size` out");
                     self.reader.report(wrong.choice(OutsideChoice::OutputSize));
                 }
                 None
@@ -261,7 +267,7 @@ impl Context<'_> {
                 combined((self.scale(by)?, own_size()), |of| of).checked(self.reader, |(factor, frame), _| {
                     times(frame, factor.value).map_err(|[width, height]| {
                         let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-                        let wrong = Diagnostic::new(factor.span, message);
+                        let wrong = Diagnostic::new(Code::SIZE_OUTSIDE, factor.span, message);
                         let because = factor.because.map_or_else(|| shown_number(factor.value), |it| it.to_string());
                         wrong.remark(format!("{because} times {}×{}", frame[0], frame[1]))
                     })

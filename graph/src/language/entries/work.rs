@@ -2,6 +2,7 @@
 
 use super::draw::DrawFields;
 use super::pass_fields::PassFields;
+use crate::base::Code;
 use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{Reader, Shape};
@@ -40,11 +41,15 @@ impl Context<'_> {
         let mut kinds = named.into_iter().filter_map(|(word, leaf)| Some((word, leaf?)));
         let Some((word, leaf)) = kinds.next() else {
             let help = "give it one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`";
-            self.reader.wrong(fields.name, format!("{what} does nothing"), help);
+            self.reader.wrong(Code::PASS_DOES_NOTHING, fields.name, format!("{what} does nothing"), help);
             return None;
         };
         if let Some((second, more)) = kinds.next() {
-            let twice = crate::base::Diagnostic::new(more.span(), format!("{what} has both `{word}` and `{second}`"));
+            let twice = crate::base::Diagnostic::new(
+                Code::PASS_DOES_TWO_THINGS,
+                more.span(),
+                format!("{what} has both `{word}` and `{second}`"),
+            );
             let twice = twice.label(leaf.span(), format!("`{word}` stands here"));
             self.reader.report(twice.help("a pass does one thing: make it two passes"));
             return None;
@@ -103,13 +108,14 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         let fitting: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
         let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
         let help = format!("leave `{field}` out: it goes with {}", fitting.join(", "));
-        let diagnostic = crate::base::Diagnostic::new(leaf.span(), message);
+        let diagnostic = crate::base::Diagnostic::new(Code::FIELD_UNFIT, leaf.span(), message);
         reader.report(diagnostic.help(help));
     }
     let writes =
         fields.storage.is_some() || fields.writes.is_some() || fields.color.is_some() || fields.depth.is_some();
     if matches!(word, "dispatch" | "custom") && !writes && fields.side_effect.is_none() {
-        let nothing = crate::base::Diagnostic::new(fields.name.span(), format!("{what} writes nothing"));
+        let nothing =
+            crate::base::Diagnostic::new(Code::PASS_DOES_NOTHING, fields.name.span(), format!("{what} writes nothing"));
         let reads = if reads_something { "what it reads goes nowhere: " } else { "" };
         let field = if word == "dispatch" { "storage: {\"…\": \"…\"}" } else { "writes: [\"…\"]" };
         reader.report(nothing.help(format!("{reads}give it `{field}`, or say `side_effect: true`")));

@@ -1,6 +1,6 @@
 //! Images and buffers may follow each other's properties, but not in a circle.
 
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Bytes, Format, Image, ImageRef, Layers, Lifetime, Mips, Samples, Size};
 use std::sync::Arc;
@@ -114,7 +114,7 @@ fn report(all: &ResourceList<'_>, what: &str, circle: &[(usize, (usize, Span))],
     path.push(format!("`{}`", all.name(*start)));
     let message = format!("{what} follow each other in a circle: {}", path.join(" → "));
     let follows = |from: usize, to: usize| format!("`{}` follows `{}`", all.name(from), all.name(to));
-    let mut diagnostic = Diagnostic::new(to.1, message).remark(follows(*start, to.0));
+    let mut diagnostic = Diagnostic::new(Code::FOLLOWS_IN_CIRCLE, to.1, message).remark(follows(*start, to.0));
     for (from, to) in &circle[1..most] {
         diagnostic = diagnostic.label(to.1, follows(*from, to.0));
     }

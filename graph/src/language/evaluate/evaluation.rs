@@ -2,7 +2,7 @@
 
 use super::lists::FlatLists;
 use super::memory::Memory;
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::entries::body::Body;
 use crate::language::entries::fragments::Fragments;
@@ -218,7 +218,10 @@ impl<'a> Evaluation<'a> {
             let message = "this makes more than 1000000 images, buffers, passes and uses of fragments";
             let used = self.path.last().map(|(_, name)| name.span);
             let at = if span == Span::NONE { used.unwrap_or(span) } else { span };
-            reader.report(Diagnostic::new(at, message).help("repeat less, or let fragments use each other less often"));
+            reader.report(
+                Diagnostic::new(Code::TOO_MANY_THINGS, at, message)
+                    .help("repeat less, or let fragments use each other less often"),
+            );
         }
         false
     }

@@ -1,7 +1,7 @@
 //! A use of a fragment: the fragment's images, buffers and passes are made under the name of the use.
 
 use super::evaluation::{Evaluation, Level, Purpose};
-use crate::base::{Diagnostic, Label, Span};
+use crate::base::{Code, Diagnostic, Label, Span};
 use crate::expression::Value;
 use crate::frame::{Resource, ViewIndex};
 use crate::language::entries::condition::Condition;
@@ -127,7 +127,8 @@ impl<'a> Evaluation<'a> {
                 path.push("…".to_owned());
             }
             let message = format!("fragments use each other in a circle: {}", path.join(" → "));
-            let mut wrong = Diagnostic::new(name.span, message).remark(format!("{} is used here", called(at)));
+            let mut wrong = Diagnostic::new(Code::FRAGMENTS_IN_CIRCLE, name.span, message)
+                .remark(format!("{} is used here", called(at)));
             for (inner, name) in circle[..circle.len() - 1].iter().take(MOST_SHOWN) {
                 wrong = wrong.label(name.span, format!("{} is used here", called(*inner)));
             }
@@ -138,7 +139,7 @@ impl<'a> Evaluation<'a> {
             // An unused fragment is not within another; those that it uses are checked by themselves.
             if self.purpose != Purpose::CheckUnused {
                 let message = format!("uses of fragments stand at most {MOST_NESTED} deep in each other");
-                reader.report(Diagnostic::new(name.span, message));
+                reader.report(Diagnostic::new(Code::FRAGMENTS_TOO_DEEP, name.span, message));
             }
             return false;
         }

@@ -1,6 +1,6 @@
 //! `previous` looks no further back than a lifetime reaches, and only reads.
 
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::frame::Resource;
 use crate::language::model::{Buffer, Image, Lifetime, Pass, ResourceRef, Use};
 use crate::ron::{Name, Spanned};
@@ -18,7 +18,10 @@ pub(crate) fn check(
             let Some(previous) = part.previous() else { continue };
             if of == Use::TransferWrite {
                 let message = "what an earlier frame left can't be written";
-                errors.push(Diagnostic::new(previous.span, message).help("remove `previous`: it is for reading"));
+                errors.push(
+                    Diagnostic::new(Code::EARLIER_FRAME, previous.span, message)
+                        .help("remove `previous`: it is for reading"),
+                );
             } else {
                 kept(images, buffers, part.resource(), previous, errors);
             }
@@ -53,8 +56,11 @@ fn kept(
         Lifetime::Persistent { .. } => format!("`{text}` is persistent: it is one image or buffer for all frames"),
         Lifetime::Imported { .. } => format!("`{text}` is imported: only the program knows what it held"),
         Lifetime::File(_) => {
-            let wrong =
-                Diagnostic::new(previous.span, format!("`{text}` comes from a file: it is the same in all frames"));
+            let wrong = Diagnostic::new(
+                Code::NOT_KEPT,
+                previous.span,
+                format!("`{text}` comes from a file: it is the same in all frames"),
+            );
             errors.push(wrong.remark("read here").label(kept.span, "its file").help("leave `previous` out"));
             return;
         }
@@ -64,7 +70,7 @@ fn kept(
         _ => "its lifetime",
     };
     errors.push(
-        Diagnostic::new(previous.span, why)
+        Diagnostic::new(Code::NOT_KEPT, previous.span, why)
             .remark("read here")
             .label(kept.span, remark)
             .help(format!("let it live longer: `lifetime: History(frames: {value})`")),

@@ -1,7 +1,7 @@
 //! Width and height of images.
 
 use super::resources::{Image, Size};
-use crate::base::{Diagnostic, shown_number};
+use crate::base::{Code, Diagnostic, shown_number};
 
 /// Largest width and height that a file may ask for.
 pub(crate) const LARGEST_SIZE: u32 = 16384;
@@ -54,7 +54,7 @@ fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagno
         let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
         let because = image.size.because.as_ref().map_or_else(|| shown_number(factor), ToString::to_string);
         let remark = format!("{because} times {}×{}", base[0], base[1]);
-        Diagnostic::new(image.size.span, message).remark(remark)
+        Diagnostic::new(Code::SIZE_OUTSIDE, image.size.span, message).remark(remark)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Chosen values of settings: by presets, settings files and defaults.
 
 use super::setting::Setting;
-use crate::base::{Diagnostic, NameKind, Span, suggestion};
+use crate::base::{Code, Diagnostic, Span, suggestion};
 use crate::expression::Value;
 use crate::ron::Name;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ pub enum ChosenBy {
 pub(crate) fn unknown_preset(name: &str, presets: &[Preset]) -> Diagnostic {
     let help = suggestion(name, presets.iter().map(|preset| &*preset.name.text))
         .or_else(|| Some("this pipeline has no presets".to_owned()));
-    Diagnostic { help, ..Diagnostic::unknown_name(NameKind::Preset, name) }
+    Diagnostic { help, ..Diagnostic::unknown_name(Code::UNKNOWN_PRESET, "preset", name) }
 }
 
 /// Every setting's value once a preset and settings files, from the weakest to the strongest, are applied to defaults.

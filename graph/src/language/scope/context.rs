@@ -4,7 +4,7 @@ use super::evaluator::joined;
 use super::field_value::FieldValue;
 use super::lookup::{Scope, is_expression};
 use super::parameter::{Parameter, ParameterKind};
-use crate::base::{Diagnostic, Span};
+use crate::base::{Code, Diagnostic, Span};
 use crate::expression::{Expression, Value, WantedTypes};
 use crate::language::model::{Decided, Decisions, SettingKind};
 use crate::ron::{Leaf, Reader, Shape};
@@ -62,7 +62,12 @@ impl<'c> Context<'c> {
                 }
             },
             (Shape::Text, None) => {
-                self.reader.wrong(leaf, "expressions take no escapes", "write the characters themselves");
+                self.reader.wrong(
+                    Code::EXPRESSION_SYNTAX,
+                    leaf,
+                    "expressions take no escapes",
+                    "write the characters themselves",
+                );
                 None
             }
             _ => {
@@ -102,7 +107,9 @@ impl<'c> Context<'c> {
         if !fits(kind) {
             let (word, text) = (symbols.parameter_word(), &name.text);
             let message = format!("{word} `{text}` is {}; {words} is needed here", kind.words());
-            self.reader.report(Diagnostic::new(name.span, message).label(parameter.name.span, "declared here"));
+            self.reader.report(
+                Diagnostic::new(Code::WRONG_KIND, name.span, message).label(parameter.name.span, "declared here"),
+            );
             return None;
         }
         Some(Quoted::Parameter(parameter, at))

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::field_value::FieldValue;
-use crate::base::{Diagnostic, NameKind};
+use crate::base::{Code, Diagnostic};
 use crate::expression::{Expression, Type, WantedTypes};
 use crate::frame::Resource;
 use crate::language::model::{BufferRef, ImageRef, ResourceRef};
@@ -64,22 +64,23 @@ impl Context<'_> {
             && let Some(other) = others.0.find_name(&name.text)
         {
             let message = format!("`{}` is {}; {} is needed here", name.text, others.1, wanted.words);
-            self.reader.report(Diagnostic::new(name.span, message).label(other.span, "declared here"));
+            self.reader
+                .report(Diagnostic::new(Code::WRONG_KIND, name.span, message).label(other.span, "declared here"));
             return;
         }
         if !(self.scope.symbols.images.complete() && self.scope.symbols.buffers.complete()) {
             return;
         }
         let no_buffers = self.scope.symbols.buffers.in_order().next().is_none();
-        let what = match (image, buffer) {
-            (true, true) if !no_buffers => NameKind::ImageOrBuffer,
-            (true, _) => NameKind::Image,
-            _ => NameKind::Buffer,
+        let (code, what) = match (image, buffer) {
+            (true, true) if !no_buffers => (Code::UNKNOWN_IMAGE_OR_BUFFER, "image or buffer"),
+            (true, _) => (Code::UNKNOWN_IMAGE, "image"),
+            _ => (Code::UNKNOWN_BUFFER, "buffer"),
         };
         let images = if image { Some(self.scope.symbols.all_of(Type::Image)) } else { None };
         let buffers = if buffer { Some(self.scope.symbols.all_of(Type::Buffer)) } else { None };
         let known = images.into_iter().flatten().chain(buffers.into_iter().flatten());
         let help = self.reader.known(&name.text, known);
-        self.reader.report(Diagnostic { help, ..Diagnostic::unknown_name(what, &name.text).at(name.span) });
+        self.reader.report(Diagnostic { help, ..Diagnostic::unknown_name(code, what, &name.text).at(name.span) });
     }
 }

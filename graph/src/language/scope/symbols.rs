@@ -2,7 +2,7 @@
 //! expressions are checked once.
 
 use super::parameter::Parameter;
-use crate::base::Diagnostic;
+use crate::base::{Code, Diagnostic};
 use crate::expression::Type;
 use crate::ron::{Name, Names, Reader};
 
@@ -73,7 +73,11 @@ impl Symbols {
                 let Some((first, other)) = before else { continue };
                 let twice = format!("`{}` is the name of {other} and of {what}", name.text);
                 let this = |what: &str| format!("this {}", what.split_once(' ').map_or(what, |(_, noun)| noun));
-                reader.report(Diagnostic::new(name.span, twice).remark(this(what)).label(first.span, this(other)));
+                reader.report(
+                    Diagnostic::new(Code::NAME_TAKEN, name.span, twice)
+                        .remark(this(what))
+                        .label(first.span, this(other)),
+                );
             }
         }
     }
@@ -85,7 +89,7 @@ impl Symbols {
             if let Some(first) = names.find_name(&index.text) {
                 let article = if what == "image" { "an" } else { "a" };
                 let message = format!("`{}` is the name of an index and of {article} {what}", index.text);
-                let wrong = Diagnostic::new(index.span, message).remark("this index");
+                let wrong = Diagnostic::new(Code::NAME_TAKEN, index.span, message).remark("this index");
                 reader.report(wrong.label(first.span, format!("this {what}")));
             }
         }

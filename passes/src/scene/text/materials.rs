@@ -4,6 +4,7 @@ use super::values::{color, counts, number, web_color};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material, Texture};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
+use framewright_graph::base::Code;
 use framewright_graph::fields;
 use framewright_graph::ron::{Leaf, Reader};
 
@@ -37,7 +38,7 @@ impl Patterns {
         self.bytes += pattern.bytes();
         if self.bytes > limits::TEXTURE_BYTES {
             let help = format!("together they may take {} bytes", limits::TEXTURE_BYTES);
-            reader.wrong(leaf, "with this one the textures are too large", &help);
+            reader.wrong(Code::SCENE_TOO_LARGE, leaf, "with this one the textures are too large", &help);
             return None;
         }
         self.known.push(pattern);

@@ -52,7 +52,7 @@ mod values;
 use super::exposure::{InventedLight, Lights, colors};
 use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
 use super::{defaults, limits};
-use framewright_graph::base::{Diagnostic, Sources, Span, without_mark};
+use framewright_graph::base::{Code, Diagnostic, Sources, Span, without_mark};
 use framewright_graph::fields;
 use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use glam::DVec3;
@@ -103,7 +103,7 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
 fn readable(reader: &mut Reader, file: u32, text: Arc<str>) -> Option<Tree> {
     if text.trim().is_empty() {
         let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
-        let empty = Diagnostic::new(Span::new(file, 0, end), "the file is empty");
+        let empty = Diagnostic::new(Code::FILE_EMPTY, Span::new(file, 0, end), "the file is empty");
         reader.report(empty.help("a scene begins with `Scene(version: 1,`"));
         return None;
     }
@@ -115,7 +115,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
     let version = reader.integer(fields.version)?;
     if version != VERSION {
         let message = format!("this file is written in version {version} of the scene format");
-        reader.wrong(fields.version, message, &format!("this program reads version {VERSION}"));
+        reader.wrong(Code::VERSION, fields.version, message, &format!("this program reads version {VERSION}"));
         return None;
     }
     let sun = fields.sun.map_or(Some(defaults::SUN), |leaf| sun(reader, leaf));
@@ -126,7 +126,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
 
     let exposure = fields.exposure.map_or(Some(None), |leaf| exposure(reader, leaf).map(Some));
 
-    let mut names = Names::of("material");
+    let mut names = Names::new("material", Code::UNKNOWN_IN_SCENE);
     let mut patterns = Patterns::default();
     let mut materials = Vec::new();
     for leaf in reader.list(fields.materials, "`materials`")? {
@@ -136,7 +136,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         materials.push(entry.and_then(|entry| materials::lower(reader, &entry, &mut patterns)));
     }
     let mut objects = Objects::default();
-    let mut object_names = Names::of("object");
+    let mut object_names = Names::new("object", Code::UNKNOWN_IN_SCENE);
     for (number, leaf) in reader.list(fields.objects, "`objects`")?.into_iter().enumerate() {
         objects.add(reader, leaf, number, &names, &mut object_names);
         if objects.full {
@@ -151,7 +151,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         (None, None) => {
             let bounds = objects::bounds(&objects);
             if bounds.is_none() && reader.errors.is_empty() {
-                reader.wrong(fields.objects, "a scene without objects needs a camera", "");
+                reader.wrong(Code::SCENE_CAMERA, fields.objects, "a scene without objects needs a camera", "");
             }
             bounds.map(Camera::framing)
         }
@@ -243,6 +243,7 @@ fn standing(reader: &mut Reader, fields: CameraFields<'_>) -> Option<Camera> {
             if far <= near {
                 let help = "a far plane lies behind the near plane; without `far` the camera sees infinitely far";
                 reader.wrong(
+                    Code::SCENE_CAMERA,
                     leaf,
                     format!("the far distance ({far}) isn't greater than the near distance ({near})"),
                     help,
@@ -256,7 +257,7 @@ fn standing(reader: &mut Reader, fields: CameraFields<'_>) -> Option<Camera> {
     let camera = Camera::look_at(position, target, up, fov?.to_radians() as f32, near? as f32);
     if camera.is_none() {
         let help = "position and target must differ, and the view must not run along `up`";
-        reader.wrong(fields.target, "this leaves the camera's direction open", help);
+        reader.wrong(Code::SCENE_CAMERA, fields.target, "this leaves the camera's direction open", help);
     }
     camera.map(|camera| Camera { far, movement, ..camera })
 }
@@ -276,7 +277,7 @@ fields! {
 }
 
 fn cameras<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<NamedCamera>> {
-    let mut names = Names::of("camera");
+    let mut names = Names::new("camera", Code::UNKNOWN_CAMERA);
     let mut cameras = Vec::new();
     for leaf in reader.list(leaf, "`cameras`")? {
         let entry: Option<NamedCameraFields<'_>> = reader.read(leaf, "this camera");
@@ -325,7 +326,7 @@ fn lights<'s>(reader: &mut Reader, list: Leaf<'s>) -> Option<Vec<PointLight>> {
     let leaves = reader.list(list, "`lights`")?;
     if leaves.len() > limits::POINT_LIGHTS {
         let message = format!("the scene has {} lights", leaves.len());
-        reader.wrong(list, message, &format!("at most {} are allowed", limits::POINT_LIGHTS));
+        reader.wrong(Code::SCENE_TOO_LARGE, list, message, &format!("at most {} are allowed", limits::POINT_LIGHTS));
         return None;
     }
     let lights: Vec<Option<PointLight>> = leaves.into_iter().map(|leaf| point_light(reader, leaf)).collect();

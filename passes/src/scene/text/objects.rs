@@ -3,6 +3,7 @@
 use super::values::{angles, count, counts, movement, number, place, size, sizes};
 use crate::scene::model::{Bounds, Mesh, Object};
 use crate::scene::{limits, shapes};
+use framewright_graph::base::Code;
 use framewright_graph::fields;
 use framewright_graph::ron::{Leaf, Names, Reader, Shape};
 use glam::{DMat4, DQuat, DVec3};
@@ -100,7 +101,7 @@ impl Objects {
             DQuat::from_rotation_z(turns[2]) * DQuat::from_rotation_y(turns[1]) * DQuat::from_rotation_x(turns[0]);
         if self.objects.len() + places.len() > limits::OBJECTS {
             let message = format!("with these the scene has {} objects", self.objects.len() + places.len());
-            reader.wrong(leaf, message, &format!("at most {} are allowed", limits::OBJECTS));
+            reader.wrong(Code::SCENE_TOO_LARGE, leaf, message, &format!("at most {} are allowed", limits::OBJECTS));
             self.full = true;
             return None;
         }
@@ -149,7 +150,7 @@ fn palette<'s>(reader: &mut Reader, leaf: Leaf<'s>, materials: &Names) -> Option
         _ => vec![leaf],
     };
     if leaves.is_empty() {
-        reader.wrong(leaf, "an object needs a material", "");
+        reader.wrong(Code::SCENE_VALUE, leaf, "an object needs a material", "");
         return None;
     }
     let find = |leaf| {
@@ -189,7 +190,12 @@ fn repeat<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<DMat4>> {
             let copies: u64 = counts.iter().map(|count| u64::from(*count)).product();
             if copies > limits::OBJECTS as u64 {
                 let message = format!("this grid has {copies} objects");
-                reader.wrong(fields.count, message, &format!("at most {} are allowed", limits::OBJECTS));
+                reader.wrong(
+                    Code::SCENE_TOO_LARGE,
+                    fields.count,
+                    message,
+                    &format!("at most {} are allowed", limits::OBJECTS),
+                );
                 return None;
             }
             // Around the position: the middle of the grid is the object's own place.

@@ -3,6 +3,7 @@
 use crate::scene::limits;
 use crate::scene::model::Movement;
 use crate::srgb;
+use framewright_graph::base::Code;
 use framewright_graph::ron::{Leaf, Reader, Shape};
 use glam::DVec3;
 
@@ -12,7 +13,7 @@ pub(super) fn number<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, least:
     if (least..=most).contains(&number) {
         return Some(number);
     }
-    reader.wrong(leaf, format!("{what} is {number}; expected {least} to {most}"), "");
+    reader.wrong(Code::NUMBER_OUTSIDE, leaf, format!("{what} is {number}; expected {least} to {most}"), "");
     None
 }
 
@@ -22,7 +23,7 @@ pub(super) fn count<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, least: 
     match u32::try_from(number) {
         Ok(count) if (least..=most).contains(&count) => Some(count),
         _ => {
-            reader.wrong(leaf, format!("{what} is {number}; expected {least} to {most}"), "");
+            reader.wrong(Code::NUMBER_OUTSIDE, leaf, format!("{what} is {number}; expected {least} to {most}"), "");
             None
         }
     }
@@ -54,7 +55,7 @@ pub(super) fn place<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Opti
 pub(super) fn direction<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Option<DVec3> {
     let direction = place(reader, leaf, what)?.try_normalize();
     if direction.is_none() {
-        reader.wrong(leaf, format!("{what} has no length, so it points nowhere"), "");
+        reader.wrong(Code::SCENE_VALUE, leaf, format!("{what} has no length, so it points nowhere"), "");
     }
     direction
 }
@@ -131,6 +132,7 @@ pub(super) fn web_color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> 
     let Some(code) = code.and_then(|digits| u32::from_str_radix(digits, 16).ok()) else {
         let message = format!("`{text}` is not a colour");
         reader.wrong(
+            Code::SCENE_VALUE,
             leaf,
             message,
             "write `\"#rrggbb\"` with six hexadecimal digits, or `(red, green, blue)` from 0 to 1",

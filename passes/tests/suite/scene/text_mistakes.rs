@@ -37,7 +37,7 @@ fn mistakes(text: &str) -> Vec<String> {
 fn a_mistake_looks_like_one_in_a_pipeline() {
     let said = read(&scene("", "Sphere(material: \"gray\", radius: 1)")).expect_err("a mistake");
     let expected = "\
-error: there is no material named `gray`
+error: there is no material named `gray` [E0217]
  --> s.ron:4:18
   |
 4 | Sphere(material: \"gray\", radius: 1)

@@ -1,0 +1,52 @@
+//! The machine, the drivers and the program itself.
+
+room! {
+    "The machine and the program itself";
+
+    /// A mistake of Framewright itself.
+    ///
+    /// Nothing is wrong with your files. Please report it, with the pipeline and the message.
+    OWN_MISTAKE = 1301,
+
+    /// The machine doesn't let a shader be compiled or read.
+    ///
+    /// A file may not be read, or no process can be started. Nothing is wrong with the shader.
+    SHADER_MACHINE = 1302,
+
+    /// The Vulkan driver is missing or refuses.
+    ///
+    /// There is no driver, no device, or the driver answered with an error, such as a lost device or a time-out.
+    /// `framewright devices` shows what is there; docs/drivers.md says how to install one.
+    DRIVER = 1303,
+
+    /// The device has no memory left.
+    ///
+    /// Choose a smaller size, fewer samples, or fewer or smaller images; `framewright inspect` lists them with what each takes.
+    OUT_OF_MEMORY = 1304,
+
+    /// No window can be opened.
+    ///
+    /// `DISPLAY` or `WAYLAND_DISPLAY` names the screen, and libraries of the window system are needed. `xvfb-run` shows windows to nobody,
+    /// and `framewright run` writes pictures without any.
+    NO_WINDOW = 1305,
+
+    /// The port can't be used.
+    ///
+    /// Another program listens there, or it is reserved. Name another one by `--port`; 0 takes any that is free.
+    PORT = 1306,
+
+    /// The program can't start itself anew.
+    ///
+    /// It starts itself for shaders, which are compiled in a process of their own, and under a validation layer that it brings along.
+    OWN_PROCESS = 1307,
+
+    /// The validation layer is missing, or would say nothing.
+    ///
+    /// A mistake is planted first, to see that the layer tells of it. Settings of the layer may keep it silent: the message names them.
+    VALIDATION_LAYER = 1308,
+
+    /// The program that draws the frame does something wrong.
+    ///
+    /// It records draws for a pass, imports images and brings along vertices. The message says what it misuses, or has its own words.
+    DRAWING_PROGRAM = 1309,
+}

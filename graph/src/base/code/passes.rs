@@ -1,0 +1,109 @@
+//! Passes: what they do, what they draw into, and what they move.
+
+room! {
+    "Passes";
+
+    /// The pass does nothing.
+    ///
+    /// A pass has one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`, and writes something. If its effect isn't in the frame,
+    /// `side_effect: true` says so.
+    /// Wrong: `(name: "sky", draw: FullScreen("sky"))`.
+    /// Mended: `(name: "sky", draw: FullScreen("sky"), color: ["color"])`.
+    PASS_DOES_NOTHING = 701,
+
+    /// The pass does two things.
+    ///
+    /// One pass is one draw, dispatch, copy, blit, fill or custom pass. Make it two passes: they are joined where that is faster.
+    PASS_DOES_TWO_THINGS = 702,
+
+    /// A field means nothing beside what the pass does.
+    ///
+    /// It would be passed over, and that is seldom what was meant: targets go with draws, workgroups with dispatches, and so on.
+    FIELD_UNFIT = 703,
+
+    /// The pass needs a shader.
+    ///
+    /// Dispatches and draws of vertices name the shader that they run: `shader: "…"`.
+    SHADER_UNSAID = 704,
+
+    /// How many workgroups run isn't said, or is more than can run.
+    ///
+    /// `groups: Texels("image")` runs the shader for each texel of an image, `Count(8, 8, 1)` so many workgroups, and
+    /// `Indirect("counts")` those that a buffer has, at a multiple of 4 bytes.
+    GROUPS = 705,
+
+    /// A pass draws into one image twice.
+    ///
+    /// Two targets of one draw would both write the same texels, in no order. Remove one, or draw into another layer.
+    TARGET_TWICE = 706,
+
+    /// The targets of a pass differ.
+    ///
+    /// One draw covers all targets: they have one size, one sample count and as many layers. `Like("other")` lets one follow the other.
+    TARGETS_DIFFER = 707,
+
+    /// The image can't be such a target.
+    ///
+    /// Colour targets hold colour, depth targets hold depth, and three-dimensional images are stored into by dispatches.
+    TARGET_UNFIT = 708,
+
+    /// A target can't be blended.
+    ///
+    /// Blending mixes colours, and integers have no mixture. Write `blend: Replace`, or choose a format of colours.
+    BLEND_UNFIT = 709,
+
+    /// A pass gives one name of its shader two things.
+    ///
+    /// A name of the shader stands once, in `sample`, `storage` or `uniform`.
+    BINDING_TWICE = 710,
+
+    /// What stands in for a pass that is off doesn't fit.
+    ///
+    /// `otherwise` needs `when`, fills images that the pass itself writes, each once, and forwards another image of the same kind.
+    STAND_IN_UNFIT = 711,
+
+    /// The copy can't be made.
+    ///
+    /// A copy moves bits as they are: both sides have one size of texels, one size, and as many samples, planes and layers.
+    /// A blit scales, and a draw converts.
+    COPY_UNFIT = 712,
+
+    /// The blit can't be made.
+    ///
+    /// A blit scales images with one sample, between formats of one kind, and depth only into the same format. A draw does the rest:
+    /// `draw: FullScreen("copy")`.
+    BLIT_UNFIT = 713,
+
+    /// Something is copied or scaled onto itself.
+    ///
+    /// Source and target would be read and written at once. Another mip level or layer of the image is another part.
+    TRANSFER_TO_ITSELF = 714,
+
+    /// The buffer is too small, or a copy wouldn't fill it.
+    ///
+    /// A shader's block, a draw's counts and a copy's texels take so many bytes, and a copy fills its target whole.
+    /// The message has both numbers.
+    BUFFER_SIZE_UNFIT = 715,
+
+    /// A linear filter can't be used.
+    ///
+    /// Integers have no mixture, a blit doesn't mix depth, and single samples are read one by one. Write `filter: Nearest`.
+    LINEAR_FILTER = 716,
+
+    /// A blit would mix in texels of which the frame uses none.
+    ///
+    /// Of an image that changes its size a part is in use, and a linear filter looks beyond its edge. A draw clamps there:
+    /// `draw: FullScreen("copy")`.
+    BLIT_OF_PART = 717,
+
+    /// The cascades of a view don't go together.
+    ///
+    /// The passes that draw a view's shadows are of one number of cascades and one reach. Each draws its own number, into the layer of that
+    /// number of one image, and none is missing: `repeat` a pass as often as there are.
+    CASCADES = 718,
+
+    /// A pass uses one thing in two ways at once.
+    ///
+    /// Within a pass nothing orders its accesses, so what it writes it accesses once: for reading and writing, or in two passes.
+    USED_TWICE = 719,
+}
