@@ -42,8 +42,8 @@ impl Executor {
     /// Nothing is waited for but a free image, and the oldest frame on its way if as many are as may be.
     ///
     /// # Errors
-    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output, or the window's images are none for it or of another device;
-    /// [`Error::SurfaceLost`]; [`Error::Timeout`] if no image becomes free.
+    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output, or the window's images are none for it or of
+    /// another device; [`Error::SurfaceLost`]; [`Error::Timeout`] if no image becomes free.
     pub fn present(
         &mut self,
         source: &mut dyn DrawSource,

@@ -85,56 +85,55 @@ fn takes_all(pattern: &syn::Pat) -> bool {
     }
 }
 
+fn last(path: &syn::Path) -> String {
+    path.segments.last().map(|it| it.ident.to_string()).unwrap_or_default()
+}
+
 /// The parts of a pattern, and the step to each: none where the part stands for the same value.
 fn parts(pattern: &syn::Pat) -> Vec<(Option<String>, &syn::Pat)> {
-    let numbered = |of: &str, parts: &'_ syn::punctuated::Punctuated<syn::Pat, syn::Token![,]>| {
-        (0..parts.len()).map(|at| Some(format!("{of} {at}"))).collect::<Vec<_>>()
-    };
-    let name = |path: &syn::Path| path.segments.last().map(|it| it.ident.to_string()).unwrap_or_default();
     match pattern {
         syn::Pat::Ident(it) => it.subpat.iter().map(|(_, part)| (None, &**part)).collect(),
         syn::Pat::Reference(it) => vec![(None, &*it.pat)],
         syn::Pat::Paren(it) => vec![(None, &*it.pat)],
         syn::Pat::Or(it) => it.cases.iter().map(|part| (None, part)).collect(),
-        syn::Pat::Tuple(it) => numbered("", &it.elems).into_iter().zip(&it.elems).collect(),
-        syn::Pat::Slice(it) => numbered("[]", &it.elems).into_iter().zip(&it.elems).collect(),
-        syn::Pat::TupleStruct(it) => numbered(&name(&it.path), &it.elems).into_iter().zip(&it.elems).collect(),
+        syn::Pat::Tuple(it) => (0..).zip(&it.elems).map(|(at, part): (u32, _)| (Some(at.to_string()), part)).collect(),
+        syn::Pat::Slice(it) => (0..).zip(&it.elems).map(|(at, part): (u32, _)| (Some(at.to_string()), part)).collect(),
+        syn::Pat::TupleStruct(it) => {
+            let step = |at: u32| Some(format!("{} {at}", last(&it.path)));
+            (0..).zip(&it.elems).map(|(at, part)| (step(at), part)).collect()
+        }
         syn::Pat::Struct(it) => {
-            let field = |field: &syn::Member| match field {
-                syn::Member::Named(named) => named.to_string(),
-                syn::Member::Unnamed(at) => at.index.to_string(),
+            let step = |field: &syn::Member| match field {
+                syn::Member::Named(field) => Some(format!("{} {field}", last(&it.path))),
+                syn::Member::Unnamed(field) => Some(format!("{} {}", last(&it.path), field.index)),
             };
-            it.fields
-                .iter()
-                .map(|it_| (Some(format!("{} {}", name(&it.path), field(&it_.member))), &*it_.pat))
-                .collect()
+            it.fields.iter().map(|field| (step(&field.member), &*field.pat)).collect()
         }
         _ => Vec::new(),
     }
 }
 
-/// Whether a pattern takes anything at a place.
+/// Whether a pattern takes anything at a place; a tuple only if it takes anything beside the place too.
 fn takes_all_at(pattern: &syn::Pat, way: &[String]) -> bool {
-    if takes_all(pattern) {
-        return true;
-    }
-    let Some((next, rest)) = way.split_first() else {
-        return parts(pattern).iter().any(|(step, part)| step.is_none() && takes_all_at(part, way));
-    };
-    let open = match pattern {
-        // Its other fields aren't looked at.
-        syn::Pat::Struct(it) => {
-            let name = it.path.segments.last().map(|it| it.ident.to_string()).unwrap_or_default();
+    let (parts, next) = (parts(pattern), way.first());
+    // Fields behind `..` aren't looked at.
+    let hidden = match (pattern, next) {
+        (syn::Pat::Struct(it), Some(next)) => {
             it.rest.is_some()
-                && next.starts_with(&format!("{name} "))
-                && !parts(pattern).iter().any(|(step, _)| step.as_ref() == Some(next))
+                && next.starts_with(&format!("{} ", last(&it.path)))
+                && parts.iter().all(|(step, _)| step.as_ref() != Some(next))
         }
         _ => false,
     };
-    open || parts(pattern).into_iter().any(|(step, part)| match step {
+    let all_others = |step: &Option<String>| {
+        let others = || parts.iter().filter(|(other, _)| other != step);
+        !matches!(pattern, syn::Pat::Tuple(_)) || others().all(|(_, part)| takes_all(part))
+    };
+    let in_part = |(step, part): &(Option<String>, &syn::Pat)| match step {
         None => takes_all_at(part, way),
-        Some(step) => step == *next && takes_all_at(part, rest),
-    })
+        Some(_) => step.as_ref() == next && takes_all_at(part, &way[1..]) && all_others(step),
+    };
+    takes_all(pattern) || hidden || parts.iter().any(in_part)
 }
 
 impl<'ast> Visit<'ast> for Questions<'_> {
@@ -243,7 +242,7 @@ fn each_way_to_miss_a_kind_is_found() {
         ("fn f(it: Work) -> u32 { match it { Work::Copy => 1, other => 2 } }", "match with `_`"),
         ("fn f(it: Work) -> u32 { match it { Some(Work::Copy(_)) => 1, Some(_) | None => 2 } }", "match with `_`"),
         (
-            "fn f(it: Work) -> u32 { match it { (Work::Copy, true) => 1, (_, true) => 2, (_, false) => 3 } }",
+            "fn f(it: Work) -> u32 { match it { (Some(Work::Copy), true) => 1, (Some(_), _) => 2, (None, _) => 3 } }",
             "match with `_`",
         ),
         ("fn f(it: It) -> u32 { match it { It { work: Work::Copy, .. } => 1, It { .. } => 2 } }", "match with `_`"),
