@@ -2,7 +2,7 @@
 
 use framewright::vulkan::StepReport;
 use framewright::{Choices, FrameReport, Pipeline, ReadFiles, Renderer, RendererOptions, Stereo, load_scene};
-use framewright_lab::bench::{Bench, BenchOptions, Choice, Drawn, MeasuredScene, Program, WARM_UP};
+use framewright_lab::bench::{Bench, BenchOptions, Choice, Drawn, HeldAgainst, MeasuredScene, Program, WARM_UP};
 use framewright_lab::choosing::{Candidates, Chosen, Limit, Quantity};
 use framewright_lab::metric::{Errors, Metric, PIXELS_PER_DEGREE};
 use framewright_lab::outputs::{self, PictureRequest};
@@ -123,7 +123,9 @@ fn numbers_of_frames_that_no_results_have_are_refused() {
 fn a_choice_without_a_way_for_two_eyes_is_one_for_one_eye_also_if_it_cannot_be_drawn() {
     let Some(device) = render::device() else { return };
     let (program, (baseline, choices)) = (Memory::default(), choices());
-    let mut bench = bench(device, &program);
+    let mut options = BenchOptions::default();
+    (options.frames, options.held_against) = (1, HeldAgainst::Nothing);
+    let mut bench = Bench::new(device, forward(), Choices::default(), options, &program).expect("few frames");
     let subject = bench.subject("forward".to_owned(), &baseline).expect("planned");
     let mut rows = Vec::new();
     // lavapipe has no 8 samples.
