@@ -12,6 +12,7 @@ const USUAL_EXTENT: [u32; 2] = [1280, 720];
 
 /// What is chosen for a frame, beside the files of its pipeline. Begin with the default, and set fields.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Choices {
     /// Values of settings, by name, which are stronger than presets and settings files. If there are several for one setting, the last counts.
     pub set: Vec<(String, String)>,

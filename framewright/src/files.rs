@@ -14,6 +14,7 @@ const EXTENSION: &str = "extension";
 /// The words by which files are recorded that are read.
 const THE_PIPELINE: &str = "the pipeline itself";
 const AN_EXTENSION: &str = "an extension of the pipeline";
+const THE_SETTINGS: &str = "the settings file itself";
 
 /// Where the files may lie that a pipeline names.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -46,7 +47,8 @@ pub struct PipelineFile {
     pub(crate) extensions: Vec<FoundFile>,
     pub(crate) root: Option<Root>,
     pub(crate) read: ReadFiles,
-    shipped: bool,
+    /// Whether it is a shipped one, since there is no file of that name.
+    pub(crate) shipped: bool,
 }
 
 impl PipelineFile {
@@ -58,7 +60,7 @@ impl PipelineFile {
     pub fn find(path: &Path, options: &FileOptions, read: &ReadFiles) -> Result<PipelineFile, Error> {
         match bytes(PIPELINE, path, read, THE_PIPELINE) {
             Ok(bytes) => {
-                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+                let name = name_of(path);
                 let root = folder_of(path, &options.reach)?;
                 let own = FoundFile { shown: path.to_string_lossy().into_owned(), relative: (&*name).into(), bytes };
                 let files = PipelineFiles::beside(of_fragments(&root, read), &name, shipped::PIPELINES);
@@ -85,17 +87,23 @@ impl PipelineFile {
         .and_then(|file| file.extended(&options.extensions))
     }
 
-    /// A pipeline that the program carries within itself, which messages call `name`. The files that it names are shipped ones.
-    #[must_use]
-    pub fn carried(name: &str, text: &str) -> PipelineFile {
+    /// A pipeline that the program carries within itself, which messages call `name`. The files that it names are shipped ones, and so
+    /// are those of its extensions, which count as files beside it. Files that are read, now or later, are recorded in `read`.
+    ///
+    /// # Errors
+    /// If an extension can't be read.
+    pub fn carried(name: &str, text: &str, options: &FileOptions, read: &ReadFiles) -> Result<PipelineFile, Error> {
         let own = FoundFile { shown: name.to_owned(), relative: name.into(), bytes: text.as_bytes().to_vec() };
-        PipelineFile::of(own, PipelineFiles::shipped(shipped::PIPELINES), None, &ReadFiles::default())
+        let file = PipelineFile::of(own, PipelineFiles::shipped(shipped::PIPELINES), None, read);
+        file.extended(&options.extensions)
     }
 
-    /// Records in `read` the files that [`PipelineFile::find`] is going to read, before any is read.
-    pub fn expect(path: &Path, options: &FileOptions, read: &ReadFiles) {
+    /// Records in `read` the files that [`PipelineFile::find`] and [`PipelineFile::read`] are going to read, before any is read: the
+    /// pipeline, its extensions and settings files.
+    pub fn expect(path: &Path, options: &FileOptions, settings: &[PathBuf], read: &ReadFiles) {
         read.expect(THE_PIPELINE, path);
         options.extensions.iter().for_each(|file| read.expect(AN_EXTENSION, file));
+        settings.iter().for_each(|file| read.expect(THE_SETTINGS, file));
     }
 
     fn of(own: FoundFile, files: PipelineFiles, root: Option<Root>, read: &ReadFiles) -> PipelineFile {
@@ -104,15 +112,13 @@ impl PipelineFile {
 
     fn extended(mut self, paths: &[PathBuf]) -> Result<PipelineFile, Error> {
         for path in paths {
-            self.extensions.push(extension(path, &mut self.files, &self.read)?);
+            let found = extension(path, &self.read, || match self.root {
+                Some(_) => self.files.which(path),
+                None => name_of(path).as_str().into(),
+            })?;
+            self.extensions.push(found);
         }
         Ok(self)
-    }
-
-    /// Whether it is a shipped one, since there is no file of that name.
-    #[must_use]
-    pub fn is_shipped(&self) -> bool {
-        self.shipped
     }
 
     /// The folder of the files that it names; `None`: it is shipped, and so are they.
@@ -182,12 +188,17 @@ fn limited(pipeline: &Path, own: Root, reach: &Reach) -> Result<Root, Error> {
     Ok(own.within(chosen.clone()))
 }
 
+/// The name of a file in its folder.
+fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
 /// Reads an extension; where there is no such file, the shipped one of that path. Files that it names are counted from it: so its
-/// path is counted from the pipeline's folder, as `files` count.
-fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles) -> Result<FoundFile, Error> {
+/// path is counted from the pipeline's folder, as `relative` says.
+fn extension(path: &Path, read: &ReadFiles, relative: impl FnOnce() -> FilePath) -> Result<FoundFile, Error> {
     let shown = path.to_string_lossy().into_owned();
     match bytes(EXTENSION, path, read, AN_EXTENSION) {
-        Ok(bytes) => Ok(FoundFile { shown, relative: files.which(path), bytes }),
+        Ok(bytes) => Ok(FoundFile { shown, relative: relative(), bytes }),
         Err(Error::Unreadable { what, source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             let carried = shipped::PIPELINES.iter().find(|(file, _)| Path::new(file) == path);
             let (file, text) = carried.ok_or(Error::Unreadable { what, path: path.to_owned(), source })?;
@@ -212,7 +223,7 @@ fn bytes(what: &'static str, path: &Path, read: &ReadFiles, recorded: &'static s
 /// The text of a settings file.
 pub(crate) fn settings(path: &Path, read: &ReadFiles) -> Result<String, Error> {
     const WHAT: &str = "settings file";
-    let bytes = bytes(WHAT, path, read, "the settings file itself")?;
+    let bytes = bytes(WHAT, path, read, THE_SETTINGS)?;
     let text = text_of(&bytes).map_err(|why| Error::NotText { what: WHAT, path: path.to_owned(), why })?;
     Ok(text.to_owned())
 }

@@ -24,8 +24,6 @@ pub struct RendererOptions {
     pub helper: Option<Helper>,
     /// Shaders that were compiled ahead. A program without the feature `shader-compiler` needs them, or a helper that has it.
     pub precompiled: Option<PrecompiledShaders>,
-    /// Names of images that leave the frame beside its outputs, so that they can be read.
-    pub dump: Vec<String>,
     /// How Plans are made.
     pub compile: compile::Options,
     /// How they are executed.
@@ -41,7 +39,6 @@ impl Default for RendererOptions {
             draws: draw::interfaces(),
             helper: None,
             precompiled: None,
-            dump: Vec::new(),
             compile: compile::Options::default(),
             executor: ExecutorOptions::default(),
         }

@@ -16,6 +16,7 @@ use framewright_graph::verify;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::Device;
 use std::collections::BTreeSet;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -33,6 +34,13 @@ pub struct Pipeline {
     settings: Vec<SettingsFile>,
     /// What frames have in common.
     expander: Expander,
+    shipped: bool,
+}
+
+impl fmt::Debug for Pipeline {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.debug_struct("Pipeline").field("document", &self.document).finish_non_exhaustive()
+    }
 }
 
 /// Where a pipeline comes from.
@@ -86,7 +94,8 @@ impl Files for NamedFiles<'_> {
 }
 
 impl PipelineFile {
-    /// Reads it, its extensions, settings files, and the files that it names. No preset is in force yet: see [`Pipeline::choose`].
+    /// Reads it, its extensions, settings files, and the files that it names. The preset of the settings files is in force, if they name
+    /// one.
     ///
     /// # Errors
     /// [`Error::Mistakes`] with all mistakes that don't depend on settings, scene or device; settings files that can't be read.
@@ -98,15 +107,18 @@ impl PipelineFile {
         let document = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
         let pictures = named.pictures;
         let document = document.map_err(|diagnostics| Error::mistakes(&sources, diagnostics))?;
+        let (sources, shipped) = (Arc::new(sources), self.shipped);
         let mut pipeline = Pipeline {
             document,
-            sources: Arc::new(sources),
+            sources,
             assets,
             pictures,
             settings: Vec::new(),
+            shipped,
             expander: Expander::default(),
         };
         pipeline.read_settings(&options.settings, &read)?;
+        pipeline.choose(None)?;
         Ok(pipeline)
     }
 }
@@ -125,11 +137,15 @@ impl Pipeline {
     pub(crate) fn of(origin: &Origin, options: &RendererOptions, read: &ReadFiles) -> Result<Pipeline, Error> {
         let file = match origin {
             Origin::File(path) => PipelineFile::find(path, &options.files, read)?,
-            Origin::Text { name, text } => PipelineFile::carried(name, text),
+            Origin::Text { name, text } => PipelineFile::carried(name, text, &options.files, read)?,
         };
-        let mut pipeline = file.read(options)?;
-        pipeline.choose(None)?;
-        Ok(pipeline)
+        file.read(options)
+    }
+
+    /// Whether it is a shipped one, since there is no file of that name.
+    #[must_use]
+    pub fn is_shipped(&self) -> bool {
+        self.shipped
     }
 
     /// Reads settings files, one after the other.

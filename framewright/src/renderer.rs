@@ -96,7 +96,7 @@ impl Renderer {
     /// names are shipped ones, or of the folders in [`RendererOptions::shaders`].
     ///
     /// # Errors
-    /// If it is wrong in itself.
+    /// If it is wrong in itself, or an extension can't be read.
     pub fn carried(device: &Device, name: &str, text: &str, options: RendererOptions) -> Result<Renderer, Error> {
         Renderer::begin(device, Origin::Text { name: name.to_owned(), text: text.to_owned() }, options)
     }
@@ -123,7 +123,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Mistakes`] if the pipeline has no such setting, or it doesn't allow the value. It keeps the one that it had.
     pub fn set(&mut self, setting: &str, value: impl Display) -> Result<(), Error> {
-        let mut choices = self.chosen.of(self.document(), &[]);
+        let mut choices = self.chosen.of(self.document());
         let value = value.to_string();
         choices.set.push((setting.to_owned(), value.clone()));
         self.pipeline.check([&choices])?;
@@ -162,8 +162,19 @@ impl Renderer {
     /// # Errors
     /// [`Error::Mistakes`] if no frame has that size. It keeps the one that it had.
     pub fn set_extent(&mut self, extent: [u32; 2]) -> Result<(), Error> {
-        self.pipeline.check([&Choices { extent, ..self.chosen.of(self.document(), &[]) }])?;
+        self.pipeline.check([&Choices { extent, ..self.chosen.of(self.document()) }])?;
         self.take(|chosen| chosen.frame.extent = extent);
+        Ok(())
+    }
+
+    /// Has images of these names leave the frame beside its outputs, so that they can be read.
+    ///
+    /// # Errors
+    /// [`Error::Mistakes`] if there is no image of a name. It keeps those that it had.
+    pub fn set_dump(&mut self, images: &[&str]) -> Result<(), Error> {
+        let dump: Vec<String> = images.iter().map(|image| (*image).to_owned()).collect();
+        self.pipeline.check([&Choices { dump: dump.clone(), ..self.chosen.of(self.document()) }])?;
+        self.take(|chosen| chosen.frame.dump = dump);
         Ok(())
     }
 
@@ -187,7 +198,7 @@ impl Renderer {
     /// ([`Stereo::DoubleWide`], [`Stereo::Instanced`]) have half of its width each. While the window has no area nothing changes.
     ///
     /// # Errors
-    /// Those of [`Renderer::set_extent`].
+    /// Those of [`Renderer::set_extent`] and [`Renderer::set_stereo`].
     pub fn fit(&mut self, window: &Swapchain) -> Result<(), Error> {
         let (Some([width, height]), format) = (window.extent(), window.format()) else { return Ok(()) };
         let eyes = match self.chosen.frame.stereo_on(&self.profile)? {
@@ -243,7 +254,7 @@ impl Renderer {
     /// The mistakes of the pipeline, its shaders and choices, or those of making pipelines. The choices stay.
     pub fn make_pipelines(&mut self) -> Result<(), Error> {
         let Renderer { device, profile, options, pipeline, chosen, compiler, .. } = self;
-        let choices = chosen.of(&pipeline.document, &options.dump);
+        let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         Ok(device.make_pipelines(plan, &mut pipeline.assets.shaders)?)
     }
@@ -260,7 +271,7 @@ impl Renderer {
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
         let Renderer { device, profile, options, pipeline, chosen, compiler, drawn, .. } = self;
-        let choices = chosen.of(&pipeline.document, &options.dump);
+        let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         let stays = |drawn: &&mut DrawnPlan| !anew && drawn.plan.differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
@@ -404,6 +415,12 @@ impl Renderer {
         &self.pipeline.document
     }
 
+    /// Whether the pipeline is a shipped one, since there was no file of that name when it was read last.
+    #[must_use]
+    pub fn is_shipped(&self) -> bool {
+        self.pipeline.is_shipped()
+    }
+
     /// The Plan that is drawn; `None` before the first one. [`Renderer::prepare`] makes it.
     #[must_use]
     pub fn plan(&self) -> Option<&Plan> {
@@ -435,11 +452,11 @@ impl Renderer {
 
 impl DrawnChoices {
     /// What it means for a frame of a pipeline.
-    fn of(&self, document: &Document, dump: &[String]) -> Choices {
+    fn of(&self, document: &Document) -> Choices {
         let has = |name: &str| document.settings.iter().any(|setting| *setting.name.text == *name);
         let known = self.set.iter().filter(|(name, _)| has(name));
         let set = known.map(|(name, value)| (name.clone(), value.clone())).collect();
-        Choices { set, dump: dump.to_vec(), ..self.frame.clone() }
+        Choices { set, ..self.frame.clone() }
     }
 }
 

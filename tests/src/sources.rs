@@ -17,6 +17,42 @@ pub const FOLDERS: [&str; 7] = [
     "cli/src",
 ];
 
+/// An enumeration or set of flags that grows.
+#[derive(Debug)]
+pub struct Kind {
+    /// Its name.
+    pub name: &'static str,
+    /// What the paths begin with of the files in which the name means it.
+    pub within: &'static str,
+    /// What the paths begin with of the files that own it.
+    pub owners: &'static [&'static str],
+    /// How many other files name its variants.
+    pub others: usize,
+}
+
+/// The enumerations.
+pub const KINDS: [Kind; 5] = [
+    Kind { name: "Work", within: "", owners: &["graph/src/frame/", "graph/src/plan/"], others: 32 },
+    Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 13 },
+    Kind { name: "Role", within: "graph/src/compile/", owners: &["graph/src/compile/model.rs"], others: 10 },
+    Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 8 },
+    Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 7 },
+];
+
+/// The sets of flags.
+pub const FLAGS: [Kind; 2] = [
+    Kind { name: "Stages", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 20 },
+    Kind { name: "Accesses", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 10 },
+];
+
+impl Kind {
+    /// Whether its name means it in the file at `path`, which isn't its owner.
+    #[must_use]
+    pub fn is_foreign_to(&self, path: &str) -> bool {
+        path.starts_with(self.within) && !self.owners.iter().any(|owner| path.starts_with(owner))
+    }
+}
+
 /// A source file.
 #[derive(Debug)]
 pub struct Source {

@@ -42,8 +42,8 @@ impl Executor {
     /// Nothing is waited for but a free image, and the oldest frame on its way if as many are as may be.
     ///
     /// # Errors
-    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output or the window's images are none for it;
-    /// [`Error::SurfaceLost`]; [`Error::Timeout`] if no image becomes free.
+    /// Those of [`Executor::submit`]; [`Error::BadResource`] if there is no such output, or the window's images are none for it or of
+    /// another device; [`Error::SurfaceLost`]; [`Error::Timeout`] if no image becomes free.
     pub fn present(
         &mut self,
         source: &mut dyn DrawSource,
@@ -119,27 +119,29 @@ impl Executor {
 
     /// Takes the images of a swapchain for the output `name`, unless it has them. The frame finds them in the layout `found`.
     fn show_in(&mut self, swapchain: &Arc<SwapchainHandle>, name: &str, found: vk::ImageLayout) -> Result<(), Error> {
+        let bad = |why: &str| Error::BadResource { what: format!("`{name}` can't be shown: {why}") };
+        if !Arc::ptr_eq(&self.gpu, &swapchain.gpu) {
+            return Err(bad("the window belongs to another device"));
+        }
+        let image = self.plan().images.iter().find(|image| *image.name == *name);
+        let image = image.ok_or_else(|| bad("the Plan has no such image"))?;
+        if let Some(why) = swapchain.unfit(image) {
+            return Err(bad(&why));
+        }
+        let states = self.external_states(name).ok_or_else(|| bad("it doesn't leave the frame"))?;
+        if states.after.layout != vk::ImageLayout::PRESENT_SRC_KHR {
+            return Err(bad("the frame doesn't leave it as `Present`"));
+        }
+        if states.before.layout != found {
+            return Err(bad(match found {
+                vk::ImageLayout::UNDEFINED => "the frame needs its earlier contents",
+                _ => "the frame doesn't find it as `Present`",
+            }));
+        }
+        // Last: an executor that has the images may have got them below an overlay, or as one.
         let owner: Arc<dyn Any + Send + Sync> = swapchain.clone();
         if self.owners.iter().any(|(of, shown)| of == name && Arc::ptr_eq(shown, &owner)) {
             return Ok(());
-        }
-        let bad = |why: String| Error::BadResource { what: format!("`{name}` can't be shown: {why}") };
-        let image = self.plan().images.iter().find(|image| *image.name == *name);
-        let image = image.ok_or_else(|| bad("the Plan has no such image".to_owned()))?;
-        if let Some(why) = swapchain.unfit(image) {
-            return Err(bad(why));
-        }
-        let states = self.external_states(name).ok_or_else(|| bad("it doesn't leave the frame".to_owned()))?;
-        if states.after.layout != vk::ImageLayout::PRESENT_SRC_KHR {
-            return Err(bad("the frame doesn't leave it as `Present`".to_owned()));
-        }
-        if states.before.layout != found {
-            let needs = if found == vk::ImageLayout::UNDEFINED {
-                "needs its earlier contents"
-            } else {
-                "doesn't find it as `Present`"
-            };
-            return Err(bad(format!("the frame {needs}")));
         }
         // SAFETY: the images are as the Plan describes them and are kept as long as this executor may use them. Each is chosen
         // only when it is free.

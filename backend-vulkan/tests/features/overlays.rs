@@ -8,7 +8,8 @@ use framewright_graph::frame::{Blend, Draw, Frame, Image, Lifetime, Output, Pass
 use framewright_graph::vulkan::{Aspects, FillValue, Format, Layout, Numeric, State, Subresources};
 use framewright_tests::sweep;
 use framewright_vulkan::{
-    Device, DrawSource, Error, Executor, ExecutorOptions, Overlay, Presentation, Recorder, Swapchain, SwapchainOptions,
+    Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Overlay, Presentation, Recorder,
+    Swapchain, SwapchainOptions,
 };
 use std::time::{Duration, Instant};
 
@@ -238,6 +239,47 @@ fn overlays_that_cannot_be_drawn_are_refused_before_the_frame_is_drawn() {
         let refused = overlay_for(device, &swapchain, [2, 2]).present(&mut Nothing, &mut swapchain, "screen");
         let refused = refused.expect_err("nothing lies below it").to_string();
         assert_eq!(refused, "`screen` can't be shown: the frame needs its earlier contents");
+        assert_eq!(present(&mut executor, &mut swapchain), 0, "no frame was drawn");
+        shows(window, EXTENT, |x, _| Some(frame(1, x)));
+    });
+}
+
+#[test]
+fn executors_that_have_the_images_already_are_refused_in_each_other_s_place() {
+    in_windows(|device, window, surface| {
+        let mut swapchain = Swapchain::new(surface, &options(EXTENT)).expect("a swapchain");
+        let mut executor = executor_for(device, &swapchain);
+        let mut overlay = overlay_for(device, &swapchain, [2, 2]);
+        let mut other = executor_for(device, &swapchain);
+        present_below(&mut executor, &mut swapchain, &mut overlay);
+        present(&mut other, &mut swapchain);
+        let refused = overlay.present(&mut Nothing, &mut swapchain, "screen").expect_err("nothing lies below it");
+        assert_eq!(refused.to_string(), "`screen` can't be shown: the frame needs its earlier contents");
+        let over = Overlay { executor: &mut other, source: &mut Nothing, name: "screen" };
+        let refused = executor.present_with_overlay(&mut Nothing, &mut swapchain, "screen", over);
+        let refused = refused.expect_err("nothing would be left of the frame below").to_string();
+        assert_eq!(refused, "`screen` can't be shown: the frame doesn't find it as `Present`");
+        assert_eq!(present_below(&mut executor, &mut swapchain, &mut overlay), 1, "no frame was drawn");
+        shows(window, EXTENT, |x, y| (x < 10 || y < 20).then_some(frame(2, x)));
+    });
+}
+
+#[test]
+fn executors_of_another_device_are_refused_below_an_overlay_and_as_one() {
+    in_windows(|device, window, surface| {
+        let choice = DeviceChoice::Name(device.summary().name.clone());
+        let other = Device::open(&DeviceOptions { choice, ..DeviceOptions::default() }).expect("the driver is there");
+        let mut swapchain = Swapchain::new(surface, &options(EXTENT)).expect("a swapchain");
+        let (mut executor, mut of_other) = (executor_for(device, &swapchain), executor_for(&other, &swapchain));
+        let mut overlay = overlay_for(&other, &swapchain, [2, 2]);
+        let overlay = Overlay { executor: &mut overlay, source: &mut Nothing, name: "screen" };
+        for refused in [
+            of_other.present(&mut Nothing, &mut swapchain, "screen"),
+            executor.present_with_overlay(&mut Nothing, &mut swapchain, "screen", overlay),
+        ] {
+            let refused = refused.expect_err("of another device").to_string();
+            assert_eq!(refused, "`screen` can't be shown: the window belongs to another device");
+        }
         assert_eq!(present(&mut executor, &mut swapchain), 0, "no frame was drawn");
         shows(window, EXTENT, |x, _| Some(frame(1, x)));
     });

@@ -380,7 +380,8 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
 }
 
 impl Command {
-    /// The pipeline that it reads, if it reads one; and who draws it, in words, if that is this command alone.
+    /// The arguments of its pipeline, if it takes one. If it draws the pipeline, also the words "X draws", with which the sentence
+    /// begins that refuses `--interface`.
     fn pipeline(&self) -> Option<(&PipelineArguments, Option<&'static str>)> {
         Some(match self {
             Command::Check(check) => (&check.pipeline, None),
@@ -389,7 +390,7 @@ impl Command {
             Command::Explain(ExplainArguments::Thing(thing)) => (&thing.pipeline, None),
             Command::Run(run) => (&run.pipeline, Some("`run` draws")),
             Command::Serve(serve) => (&serve.pipeline, Some("`serve` draws")),
-            Command::Window(window) => (&window.pipeline, None),
+            Command::Window(window) => (&window.pipeline, Some("`window` draws")),
             Command::Measure(measure) => (&measure.pipeline, Some("`measure` draws")),
             _ => return None,
         })

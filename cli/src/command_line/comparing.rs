@@ -1,9 +1,9 @@
 //! The command line of `framewright compare`.
 
 use super::values::{AnswerFormat, number, png};
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum};
-use framewright_lab::metric::{Metric, PIXELS_PER_DEGREE};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use framewright_lab::metric::{Metric, PIXELS_PER_DEGREE, PIXELS_PER_DEGREE_RANGE};
 use std::path::PathBuf;
 
 /// `framewright compare`.
@@ -16,8 +16,8 @@ pub(crate) struct CompareArguments {
     #[arg(value_name = "PICTURE")]
     pub(crate) picture: PathBuf,
     /// Metric to print; without this all are. Repeatable.
-    #[arg(long, value_name = "METRIC", value_enum)]
-    pub(crate) metric: Vec<NamedMetric>,
+    #[arg(long, value_name = "METRIC", value_parser = metric())]
+    pub(crate) metric: Vec<Metric>,
     /// File for a picture of FLIP: black where no difference is seen, bright where much is.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     pub(crate) heatmap: Option<PathBuf>,
@@ -36,25 +36,11 @@ pub(crate) struct CompareArguments {
     pub(crate) limits: ErrorLimits,
 }
 
-/// A metric, as the command line names it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct NamedMetric(pub(crate) Metric);
-
-impl ValueEnum for NamedMetric {
-    fn value_variants<'a>() -> &'a [NamedMetric] {
-        &[
-            NamedMetric(Metric::Flip),
-            NamedMetric(Metric::Rmse),
-            NamedMetric(Metric::MaxError),
-            NamedMetric(Metric::RelativeMse),
-            NamedMetric(Metric::Psnr),
-            NamedMetric(Metric::Ssim),
-        ]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.0.name()).help(self.0.about()))
-    }
+/// Reads a metric by its name.
+fn metric() -> impl TypedValueParser<Value = Metric> {
+    let names = Metric::ALL.map(|metric| PossibleValue::new(metric.name()).help(metric.about()));
+    let named = |name: String| Metric::ALL.into_iter().find(|metric| metric.name() == name);
+    PossibleValuesParser::new(names).try_map(move |name| named(name).ok_or("no metric has that name"))
 }
 
 /// Limits of errors.
@@ -95,8 +81,9 @@ impl ErrorLimits {
     }
 }
 
-/// Reads pixels for a degree of sight. The reach of FLIP's filters grows with them.
+/// Reads pixels for a degree of sight.
 fn degree(text: &str) -> Result<f64, String> {
-    let pixels = number(text)?;
-    if (1.0..=1000.0).contains(&pixels) { Ok(pixels) } else { Err("expected 1 to 1000 pixels".to_owned()) }
+    let (pixels, range) = (number(text)?, PIXELS_PER_DEGREE_RANGE);
+    let problem = || format!("expected {} to {} pixels", range.start(), range.end());
+    if range.contains(&pixels) { Ok(pixels) } else { Err(problem()) }
 }

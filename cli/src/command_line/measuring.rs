@@ -4,7 +4,10 @@ use super::args::PipelineArguments;
 use super::scenes::{DrawingDevice, SceneArguments};
 use super::values::{DEFAULT_SIZE, Size, sweep};
 use clap::Args;
+use clap::builder::RangedI64ValueParser;
+use framewright_lab::results::{FLICKER_FRAMES, FRAMES};
 use framewright_lab::sweep::Sweep;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// `framewright measure`.
@@ -28,10 +31,10 @@ pub(crate) struct MeasureArguments {
     #[arg(long)]
     pub(crate) pairwise: bool,
     /// Frames of each choice whose times are taken.
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = within(FRAMES))]
     pub(crate) frames: u32,
     /// Measures flicker too: how much the error changes from frame to frame over the first N frames of the moving scene.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(long, value_name = "N", value_parser = within(FLICKER_FRAMES))]
     pub(crate) flicker: Option<u32>,
     /// Picture that errors are measured against: a .png or .exr file, or `auto`: the same choice under the preset `reference`, with at
     /// least 64 samples a pixel; `none` measures costs alone.
@@ -45,6 +48,11 @@ pub(crate) struct MeasureArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) device: DrawingDevice,
+}
+
+/// Reads a number of this range.
+fn within(range: RangeInclusive<u32>) -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(i64::from(*range.start())..=i64::from(*range.end()))
 }
 
 /// One part of a sweep.

@@ -40,10 +40,13 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     outputs::prepare(heat_map.into_iter(), &read)?;
     let reference = inputs::picture(&arguments.reference, &read)?;
     let test = inputs::picture(&arguments.picture, &read)?;
+    let differ = |reference: [usize; 2], picture: [usize; 2]| LabError::Sizes {
+        reference: (arguments.reference.clone(), reference),
+        picture: (arguments.picture.clone(), picture),
+    };
     // Before anything is decoded: a few bytes may stand for any size.
     if reference.extent != test.extent {
-        let reference = (arguments.reference.clone(), reference.extent);
-        return Err(LabError::Sizes { reference, picture: (arguments.picture.clone(), test.extent) }.into());
+        return Err(differ(reference.extent, test.extent).into());
     }
     let (reference, test) = (reference.decoded()?, test.decoded()?);
     for (path, picture) in [(&arguments.reference, &reference), (&arguments.picture, &test)] {
@@ -55,10 +58,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<Exit, Error> {
     let busy = progress::busy("comparing");
     let errors = Errors::between(&reference, &test, arguments.pixels_per_degree);
     drop(busy);
-    let errors = errors.ok_or_else(|| LabError::Sizes {
-        reference: (arguments.reference.clone(), reference.extent),
-        picture: (arguments.picture.clone(), test.extent),
-    })?;
+    let errors = errors.ok_or_else(|| differ(reference.extent, test.extent))?;
     if errors.of_nothing {
         let (reference, picture) = (arguments.reference.clone(), arguments.picture.clone());
         return Err(LabError::NothingFinite { reference, picture }.into());
@@ -100,7 +100,7 @@ fn limit(arguments: &CompareArguments, errors: &Errors, metric: Metric) -> Optio
 fn table(arguments: &CompareArguments, reference: &Light, errors: &Errors) -> String {
     let wanted = |metric: &&Metric| {
         let is_limited = arguments.limits.of(**metric).is_some();
-        arguments.metric.is_empty() || is_limited || arguments.metric.iter().any(|named| named.0 == **metric)
+        arguments.metric.is_empty() || is_limited || arguments.metric.contains(metric)
     };
     let [before, after] = errors.non_finite;
     let is_finite = [before, after] == [0, 0];

@@ -136,7 +136,9 @@ pub(crate) fn draw(
         for (at, capture) in batch.iter().enumerate() {
             let plane = capture.range.aspects;
             let texels = prepared.executor.read_image(&capture_name(at), plane, 0)?;
-            let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(vec![texels]);
+            let Some(Texels { format, extent: [width, height, _], bytes, .. }) = side_by_side(vec![texels]) else {
+                continue;
+            };
             // Stencil is read as bytes.
             let format = if plane == Aspects::STENCIL { Format::R8_UINT } else { format };
             let captured =

@@ -1,6 +1,4 @@
-//! Drawing a planned frame: the pictures that come out, and the times of passes.
+//! Drawing a planned frame: the pictures that come out.
 
 pub(crate) mod captures;
 pub(crate) mod pictures;
-
-pub(crate) use framewright_lab::timings;

@@ -26,8 +26,6 @@ pub(crate) struct FileRole {
 }
 
 impl FileRole {
-    /// A settings file.
-    pub(crate) const SETTINGS: FileRole = FileRole { name: "settings file", recorded: "the settings file itself" };
     /// A device profile.
     pub(crate) const PROFILE: FileRole = FileRole { name: "device profile", recorded: "the device profile itself" };
     /// A Plan.
@@ -59,26 +57,10 @@ pub(crate) fn options(arguments: &args::PipelineArguments) -> FileOptions {
     options
 }
 
-/// Finds a pipeline file; where there is none, a shipped one of that name, and says so.
-///
-/// # Errors
-/// If there is neither, it can't be read, or it lies outside the folder that `--root` names.
-pub(crate) fn pipeline(arguments: &args::PipelineArguments, read: &ReadFiles) -> Result<PipelineFile, Error> {
-    let found = PipelineFile::find(&arguments.file, &options(arguments), read)?;
-    if found.is_shipped() {
-        say_shipped("pipeline", &arguments.file);
-    }
-    Ok(found)
-}
-
 /// Records the files that the command line names beside a pipeline, before any is read.
 pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
-    PipelineFile::expect(&arguments.file, &options(arguments), read);
-    let settings = arguments.settings.iter().map(|file| (FileRole::SETTINGS, file));
-    let interface = arguments.interface.iter().map(|file| (FileRole::INTERFACE, file));
-    for (what, file) in settings.chain(interface) {
-        read.expect(what.recorded, file);
-    }
+    PipelineFile::expect(&arguments.file, &options(arguments), &arguments.settings, read);
+    arguments.interface.iter().for_each(|file| read.expect(FileRole::INTERFACE.recorded, file));
 }
 
 /// Reads a scene; where there is no such file, a shipped one of that name, and says so. Says too what the file holds that
@@ -176,6 +158,7 @@ fn missing(what: &'static str, path: &Path, files: ShippedFiles) -> Error {
     Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() }
 }
 
-fn say_shipped(what: &str, path: &Path) {
+/// Says that a shipped file takes the place of one that isn't here.
+pub(crate) fn say_shipped(what: &str, path: &Path) {
     text::say(&format!("note: there is no file `{}` here; this is the shipped {what} of that name", text::path(path)));
 }

@@ -22,10 +22,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The values of `--reference` that are no files.
-const AUTO: &str = "auto";
-const NONE: &str = "none";
-
 /// How often files for people are made anew while a sweep goes on. With many rows they take longer than a batch.
 const VIEWS_EVERY: Duration = Duration::from_secs(60);
 /// How often a line says how far the work is, where there is no terminal.
@@ -43,7 +39,7 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
     let of_all = planning::choices(&arguments.pipeline, arguments.size, Rotation::Identity);
     let (baseline, choices) = subjects::choices(arguments, &pipeline, &read)?;
-    if arguments.reference == Path::new(AUTO) && reference_settings(&pipeline).is_none() {
+    if arguments.reference == Path::new(ErrorBaseline::AUTO) && reference_settings(&pipeline).is_none() {
         let what = format!(
             "the pipeline has no preset `{REFERENCE}` to make the reference by: name a picture by --reference, or `none`"
         );
@@ -51,8 +47,8 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     }
     check_values(&pipeline, &of_all, &choices)?;
     let held_against = match arguments.reference.to_str() {
-        Some(AUTO) => ErrorBaseline::References,
-        Some(NONE) => ErrorBaseline::Nothing,
+        Some(ErrorBaseline::AUTO) => ErrorBaseline::References,
+        Some(ErrorBaseline::NONE) => ErrorBaseline::Nothing,
         _ => {
             let file = &arguments.reference;
             let picture = inputs::picture(file, &read)?;
@@ -71,8 +67,9 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Result<Exit, Error> {
     interrupt::watch();
     let device = device::open(chosen, false, &helper)?;
     let folder = Folder { path: &arguments.output, read: &read };
-    let options = BenchOptions { frames: arguments.frames, flicker: arguments.flicker, held_against };
-    let mut bench = Bench::new(&device, pipeline, of_all, options, &folder);
+    let mut options = BenchOptions::default();
+    (options.frames, options.flicker, options.held_against) = (arguments.frames, arguments.flicker, held_against);
+    let mut bench = Bench::new(&device, pipeline, of_all, options, &folder)?;
     let subject = bench.subject(arguments.pipeline.file.to_string_lossy().into_owned(), &baseline)?;
     let results = begun(&arguments.output, subject, &read)?;
     let choices = sweep::shard(choices, arguments.shard.number, arguments.shard.of);
@@ -185,7 +182,7 @@ impl Sweep<'_> {
 
     /// Draws the references that choices need and that the folder doesn't hold: then it is known how far the work is.
     fn draw_references(&mut self, choices: &[Choice]) -> Result<(), Error> {
-        if self.arguments.reference != Path::new(AUTO) {
+        if self.arguments.reference != Path::new(ErrorBaseline::AUTO) {
             return Ok(());
         }
         let mut known = HashSet::new();

@@ -46,16 +46,7 @@ pub(crate) fn choices(
             return Err(wrong(format!("the pipeline has no setting `{}`; there are {known}", text::escape(name))));
         }
     }
-    let count = sweep::count(&sweeps, combined);
-    if count > sweep::MOST_CHOICES as u128 {
-        let fits =
-            combined == Combination::All && sweep::count(&sweeps, Combination::Pairwise) <= sweep::MOST_CHOICES as u128;
-        let or_pairs = if fits { ", or add --pairwise" } else { "" };
-        let most = sweep::MOST_CHOICES;
-        return Err(wrong(format!(
-            "the sweep has {count} choices, and at most {most} are measured: sweep fewer values{or_pairs}"
-        )));
-    }
+    let chosen = sweep::choices(&sweeps, combined)?;
     let mut scenes: BTreeMap<PathBuf, Rc<MeasuredScene>> = BTreeMap::new();
     let mut scene = |path: &Path| -> Result<Rc<MeasuredScene>, Error> {
         if let Some(known) = scenes.get(path) {
@@ -73,7 +64,7 @@ pub(crate) fn choices(
         stereo: arguments.pipeline.stereo.0.clone(),
     };
     let mut choices = Vec::new();
-    for values in sweep::choices(&sweeps, combined) {
+    for values in chosen {
         let mut choice = Choice { values, ..baseline.clone() };
         if let Some(size) = choice.values.get(SIZE) {
             let size: Size = size.parse().map_err(|problem| wrong(format!("{SIZE}: {problem}")))?;

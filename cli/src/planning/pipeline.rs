@@ -61,27 +61,28 @@ pub(crate) fn load(arguments: &PipelineArguments, read: &ReadFiles) -> Result<Pi
 /// # Errors
 /// Those of [`load`].
 pub(crate) fn load_with(arguments: &PipelineArguments, read: &ReadFiles, helper: Helper) -> Result<Pipeline, Error> {
-    let file = inputs::pipeline(arguments, read)?;
-    let mut pipeline = file.read(&options(arguments, helper, read)?)?;
+    let mut pipeline = Pipeline::open(&arguments.file, &options(arguments, helper, read)?, read)?;
+    if pipeline.is_shipped() {
+        inputs::say_shipped("pipeline", &arguments.file);
+    }
     pipeline.choose(arguments.preset.as_deref())?;
     Ok(pipeline)
 }
 
 /// What the command line chooses for a frame of this size without a scene.
 pub(crate) fn choices(arguments: &PipelineArguments, size: Size, rotation: Rotation) -> Choices {
-    Choices {
-        set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
-        stereo: arguments.stereo.0.clone(),
-        extent: size.into(),
-        rotation,
-        ..Choices::default()
-    }
+    let mut choices = Choices::default();
+    choices.set = arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect();
+    choices.stereo.clone_from(&arguments.stereo.0);
+    (choices.extent, choices.rotation) = (size.into(), rotation);
+    choices
 }
 
 /// What the command line chooses for a frame that isn't drawn, with a scene that was read.
 pub(crate) fn undrawn(arguments: &PipelineArguments, subject: &SubjectArguments, scene: Option<&Scene>) -> Choices {
-    let choices = choices(arguments, subject.size, subject.planning.rotate);
-    Choices { facts: scene.map(Scene::facts), ..choices }
+    let mut choices = choices(arguments, subject.size, subject.planning.rotate);
+    choices.facts = scene.map(Scene::facts);
+    choices
 }
 
 /// Reads a pipeline and the scene and profile that are named beside it, and plans it. Nothing is drawn.

@@ -155,7 +155,8 @@ impl<'a> VariantChecker<'a> {
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
         let stereo = device.map_or(Ok(Stereo::Off), |device| choices.stereo_on(device));
         let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(Code::STEREO_UNSUPPORTED, why.to_string())])?;
-        let choices = Choices { set: axes.settings(choice), facts: Some(axes.facts(choice)), ..choices.clone() };
+        let mut choices = choices.clone();
+        (choices.set, choices.facts) = (axes.settings(choice), Some(axes.facts(choice)));
         let inputs = choices.inputs(stereo, device);
         expand::expand_reading(pipeline, Arc::clone(sources), &inputs, &mut self.shaders, Some(reads))
     }

@@ -12,16 +12,16 @@ use framewright_vulkan::{Device, Helper};
 /// # Errors
 /// Those of the pipeline, the command line and the device.
 pub(super) fn renderer(arguments: &WindowArguments, device: &Device, helper: Helper) -> Result<Renderer, Error> {
-    let read = ReadFiles::default();
-    // Says that it is a shipped one.
-    drop(inputs::pipeline(&arguments.pipeline, &read)?);
-    let mut options = planning::options(&arguments.pipeline, helper, &read)?;
+    let mut options = planning::options(&arguments.pipeline, helper, &ReadFiles::default())?;
     options.compile = arguments.planning.options();
     options.executor.poison = arguments.planning.poison;
     options.executor.frames_in_flight = 2;
     options.executor.timestamps = true;
     options.executor.readback = true;
     let mut renderer = Renderer::open(device, &arguments.pipeline.file, options)?;
+    if renderer.is_shipped() {
+        inputs::say_shipped("pipeline", &arguments.pipeline.file);
+    }
     if arguments.pipeline.preset.is_some() {
         renderer.preset(arguments.pipeline.preset.as_deref())?;
     }

@@ -13,11 +13,11 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Those of the device; [`framewright_lab::Error::Picture`].
 pub(super) fn encoded(renderer: &mut Renderer, frame: u64) -> Result<Option<Vec<u8>>, Error> {
-    let Some(output) = renderer.plan().and_then(|plan| plan.outputs.first()) else { return Ok(None) };
-    let name = output.name.to_string();
-    let texels = renderer.read_back(frame, &name)?;
+    let first = |renderer: &Renderer| renderer.plan()?.outputs.first().cloned();
+    let Some(output) = first(renderer) else { return Ok(None) };
+    let texels = renderer.read_back(frame, &output.name)?;
     let Some(plan) = renderer.plan() else { return Ok(None) };
-    Ok(Some(outputs::encoded(FileFormat::Png, (plan, 0), vec![texels], &text::note_once)?))
+    Ok(Some(outputs::encoded(FileFormat::Png, (plan, &output), vec![texels], &text::note_once)?))
 }
 
 /// Writes a picture by a name that is free, beside where the command was called, and says the name or what is wrong with it.

@@ -263,7 +263,7 @@ impl<'a> Session<'a> {
         let (wrong, times) = (self.problems.first(), self.list.times(plan));
         let contents = Contents::of(&name, extent, &self.renderer, &self.chosen, self.speed, wrong, times);
         match self.list.show(&contents, self.scale, self.renderer.device(), &self.swapchain) {
-            // Such as that its shaders can't be compiled: the picture needs none of them.
+            // Shaders of the list that can't be compiled are no reason to end: the picture needs none of them.
             Err(error) if error.can_be_mended_in_files() => {
                 text::say(&format!("note: the list can't be shown\n{}", error.shown()));
                 self.list.turn();

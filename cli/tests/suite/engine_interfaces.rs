@@ -204,6 +204,7 @@ fn commands_that_draw_take_no_interface() {
     for (command, more) in [
         ("run", &[][..]),
         ("serve", &["--port", "0"]),
+        ("window", &[]),
         ("measure", &["--sweep", "grass=true,false", "-o", "swept"]),
         ("inspect", &["--capture", "--format", "html", "-o", "page.html"]),
     ] {

@@ -9,7 +9,7 @@
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! use framewright::{Choices, Device, DeviceOptions, Pipeline, ReadFiles, RendererOptions, Stereo, load_scene};
-//! use framewright_lab::bench::{Bench, BenchOptions, Choice, ErrorBaseline, MeasuredScene, Program};
+//! use framewright_lab::bench::{Bench, BenchOptions, Choice, MeasuredScene, Program};
 //! use framewright_lab::choosing::{Candidates, Limit, Quantity, SettingsAnswer};
 //! use framewright_lab::results::{FORMAT_VERSION, Results};
 //! use framewright_lab::sweep::{self, Combination, Sweep};
@@ -25,11 +25,10 @@
 //! let scene = Rc::new(MeasuredScene::new("spheres_and_cubes".to_owned(), load_scene("spheres_and_cubes")?));
 //! let baseline = Choice { values: BTreeMap::new(), scene, size: [640, 360], stereo: vec![Stereo::Off] };
 //! let swept = [Sweep { name: "msaa".to_owned(), values: vec!["1".to_owned(), "4".to_owned()] }];
-//! let choices = sweep::choices(&swept, Combination::All).into_iter().map(|values| Choice { values, ..baseline.clone() });
+//! let choices = sweep::choices(&swept, Combination::All)?.into_iter().map(|values| Choice { values, ..baseline.clone() });
 //! let choices: Vec<Choice> = choices.collect();
 //!
-//! let options = BenchOptions { frames: 9, flicker: None, held_against: ErrorBaseline::References };
-//! let mut bench = Bench::new(&device, pipeline, Choices::default(), options, &Quiet);
+//! let mut bench = Bench::new(&device, pipeline, Choices::default(), BenchOptions::default(), &Quiet)?;
 //! let subject = bench.subject("forward".to_owned(), &baseline)?;
 //! let mut rows = Vec::new();
 //! bench.batch((&baseline, &subject), &choices, &|_| (), &mut rows)?;

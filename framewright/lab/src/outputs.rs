@@ -1,7 +1,7 @@
 //! Pictures of a Plan's outputs: they are read back and encoded, those of both eyes side by side.
 
 use crate::error::Error;
-use crate::picture::{self, FileFormat};
+use crate::picture::{self, EncodingError, FileFormat};
 use framewright_graph::base::escape;
 use framewright_graph::frame::Eye;
 use framewright_graph::plan::{Output, Plan, Resource};
@@ -20,7 +20,7 @@ pub struct EncodedPicture {
 /// A picture of an output.
 #[derive(Debug)]
 pub struct PictureRequest<'a> {
-    /// The output's number, or those of both eyes.
+    /// The output's number, or those of both eyes; at least one.
     pub outputs: Vec<usize>,
     /// The name of the output.
     pub name: &'a str,
@@ -34,10 +34,14 @@ impl PictureRequest<'_> {
     /// Reads the outputs back and encodes them. `note` is told what the picture leaves out or changes.
     ///
     /// # Errors
-    /// Those of the device, and of the encoder.
+    /// Those of the device, and of the encoder; [`framewright::Error::UnknownOutput`] without a number, or if the Plan has fewer outputs.
     pub fn encode(&self, executor: &mut Executor, plan: &Plan, note: &dyn Fn(&str)) -> Result<EncodedPicture, Error> {
-        let (first, texels) = (self.outputs[0], self.outputs.iter().map(|output| executor.read(*output)));
-        let texels = texels.collect::<Result<Vec<_>, _>>()?;
+        let unknown = || framewright::Error::UnknownOutput {
+            name: self.name.to_owned(),
+            known: plan.outputs.iter().map(|output| output.name.to_string()).collect(),
+        };
+        let first = self.outputs.first().and_then(|first| plan.outputs.get(*first)).ok_or_else(unknown)?;
+        let texels = self.outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
         let contents = encoded(self.file_format, (plan, first), texels, note)?;
         Ok(EncodedPicture { path: self.path.to_owned(), contents })
     }
@@ -46,15 +50,17 @@ impl PictureRequest<'_> {
 /// The file of an output that was read back, of both eyes one after the other. `note` is told what the picture leaves out or changes.
 ///
 /// # Errors
-/// [`Error::Picture`].
+/// [`Error::Picture`], also of no texels.
 pub fn encoded(
     file_format: FileFormat,
-    (plan, output): (&Plan, usize),
+    (plan, output): (&Plan, &Output),
     texels: Vec<Texels>,
     note: &dyn Fn(&str),
 ) -> Result<Vec<u8>, Error> {
-    let Output { name, resource, encoding, .. } = &plan.outputs[output];
-    let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(texels);
+    let Output { name, resource, encoding, .. } = output;
+    let problem = |problem| Error::Picture { image: name.to_string(), problem };
+    let all = side_by_side(texels).ok_or(EncodingError::TooFew).map_err(problem)?;
+    let Texels { format, extent: [width, height, _], bytes, .. } = all;
     let picture = picture::Picture { format, encoding: *encoding, extent: [width, height], bytes: &bytes };
     let mut losses: Vec<String> = file_format.losses(&picture).into_iter().map(str::to_owned).collect();
     let mips = if let Resource::Image(image) = *resource { plan.image(image).mips } else { 1 };
@@ -64,7 +70,7 @@ pub fn encoded(
     if !losses.is_empty() {
         note(&format!("`{}` is {format}: in its picture {}", escape(name), losses.join(", and ")));
     }
-    file_format.encode(&picture).map_err(|problem| Error::Picture { image: name.to_string(), problem })
+    file_format.encode(&picture).map_err(problem)
 }
 
 /// The picture of the first output, those of both eyes side by side; `None` if it is no image. Floating-point images become OpenEXR
@@ -124,17 +130,17 @@ fn alike(plan: &Plan, mut outputs: Vec<usize>) -> Vec<usize> {
     outputs
 }
 
-/// All layers and slices of some images of the same size and format in one row, the first one on the left.
+/// All layers and slices of some images of the same size and format in one row, the first one on the left; `None` of no images.
 #[must_use]
-pub fn side_by_side(images: Vec<Texels>) -> Texels {
+pub fn side_by_side(images: Vec<Texels>) -> Option<Texels> {
     let parts = |it: &Texels| it.layers.max(1) as usize * it.extent[2].max(1) as usize;
     let count = images.iter().map(parts).sum::<usize>();
-    let rows = images[0].extent[1].max(1) as usize;
-    let mut all = Texels { bytes: Vec::new(), ..images[0] };
     if count == 1 {
-        all.bytes.clone_from(&images[0].bytes);
-        return all;
+        return images.into_iter().next();
     }
+    let first = images.first()?;
+    let rows = first.extent[1].max(1) as usize;
+    let mut all = Texels { bytes: Vec::new(), ..*first };
     let flat = images.iter().flat_map(|it| it.bytes.chunks((it.bytes.len() / parts(it)).max(1)));
     let flat: Vec<&[u8]> = flat.collect();
     for row in 0..rows {
@@ -145,5 +151,5 @@ pub fn side_by_side(images: Vec<Texels>) -> Texels {
     }
     let count = u32::try_from(count).unwrap_or(u32::MAX);
     (all.extent, all.layers) = ([all.extent[0].saturating_mul(count), all.extent[1], 1], 1);
-    all
+    Some(all)
 }

@@ -3,7 +3,7 @@
 use crate::quantiles::median;
 use framewright_graph::dataflow::NodeKind;
 use framewright_graph::plan::{ImageId, Plan, RenderScope, Resource};
-use framewright_vulkan::FrameReport;
+use framewright_vulkan::{FrameReport, StepReport};
 use serde::Serialize;
 
 /// A pass, or work that the compiler inserted.
@@ -27,14 +27,18 @@ pub struct Row {
     pub gpu_milliseconds: f64,
 }
 
-/// Draw counts of the last frame, and medians of the times of all.
+/// Draw counts of the last frame, and medians of the times of all. The frames are of this Plan: steps and passes that reports lack have
+/// no time.
 #[must_use]
 pub fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
     let Some(last) = frames.last() else { return Vec::new() };
-    let over = |time: &dyn Fn(&FrameReport) -> f64| median(frames.iter().map(time).collect()).unwrap_or_default();
     let mut rows = Vec::new();
     for (step, planned) in plan.steps.iter().enumerate() {
-        let gpu_milliseconds = over(&|frame| frame.steps[step].milliseconds);
+        let over = |time: &dyn Fn(&StepReport) -> Option<f64>| {
+            let times = frames.iter().filter_map(|frame| time(frame.steps.get(step)?));
+            median(times.collect()).unwrap_or_default()
+        };
+        let gpu_milliseconds = over(&|step| Some(step.milliseconds));
         let pass = |kind, name: &str| Row {
             step,
             kind,
@@ -47,15 +51,14 @@ pub fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
         let work = &planned.work;
         match work.scope() {
             Some(scope) => {
-                for (number, drawn) in last.steps[step].passes.iter().enumerate() {
-                    let gpu_milliseconds = over(&|frame| frame.steps[step].passes[number].milliseconds);
+                for (number, drawn) in last.steps.get(step).into_iter().flat_map(|step| &step.passes).enumerate() {
+                    let gpu_milliseconds = over(&|step| Some(step.passes.get(number)?.milliseconds));
                     let (draws, culled) = (drawn.draws, drawn.culled);
                     rows.push(Row { draws, culled, gpu_milliseconds, ..pass(NodeKind::Draw, &drawn.name) });
                 }
                 if let Some(resolves) = resolves(plan, scope) {
-                    let rest = over(&|frame| {
-                        let step = &frame.steps[step];
-                        step.milliseconds - step.passes.iter().map(|pass| pass.milliseconds).sum::<f64>()
+                    let rest = over(&|step| {
+                        Some(step.milliseconds - step.passes.iter().map(|pass| pass.milliseconds).sum::<f64>())
                     });
                     let (inserted, gpu_milliseconds) = (Some("resolve"), rest.max(0.0));
                     rows.push(Row { inserted, gpu_milliseconds, ..pass(NodeKind::Resolve, &resolves) });

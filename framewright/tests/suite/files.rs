@@ -2,7 +2,7 @@
 
 use crate::testing::{Place, draw, renderer, renderer_with};
 use framewright::passes::shipped;
-use framewright::{Error, Reach, Renderer, RendererOptions};
+use framewright::{Error, Reach, Renderer, RendererOptions, Root};
 use framewright_tests::render;
 use std::path::PathBuf;
 
@@ -83,14 +83,16 @@ fn files_outside_of_the_folder_are_read_only_where_that_is_allowed() {
 }
 
 #[test]
-fn extensions_settings_files_and_further_images_are_options() {
+fn extensions_and_settings_files_are_options_and_further_images_can_be_read() {
     let Some(device) = render::device() else { return };
     let place = Place::new();
     let mut options = RendererOptions::default();
     options.files.extensions = vec![place.file("more.ron", r#"Extension(version: 1, changes: [Remove(pass: "sky")])"#)];
     options.settings = vec![place.file("chosen.ron", r#"Settings(version: 1, set: {"msaa": 2})"#)];
-    options.dump = vec!["depth".to_owned()];
     let mut renderer = renderer_with(device, "forward", options.clone());
+    let wrong = renderer.set_dump(&["depht"]).expect_err("no image").to_string();
+    assert!(wrong.contains("there is no image named `depht` to dump"), "{wrong}");
+    renderer.set_dump(&["depth"]).expect("an image");
     let plan = renderer.prepare().expect("planned").plan;
     assert!(!plan.tree().contains("`sky` draws"), "{}", plan.tree());
     assert!(plan.settings.iter().any(|used| *used.name == *"msaa" && used.value == "2"), "{:?}", plan.settings);
@@ -114,6 +116,50 @@ fn a_pipeline_is_read_from_a_text() {
     renderer.reload().expect("it is there");
     assert_eq!(draw(&mut renderer, 1).1, picture);
     assert_eq!(draw(&mut renderer.try_clone().expect("it is there"), 1).1, picture);
+    assert!(!renderer.is_shipped());
     let error = carried(&text.replace("forward.ron", "mine.ron")).map(drop).expect_err("no such file").to_string();
     assert!(error.contains("within:1:31") && error.contains("mine.ron"), "{error}");
+}
+
+/// The files beside a text of the program's own: extensions, settings, and the shaders of a folder.
+#[test]
+fn files_beside_a_pipeline_of_the_program_count_and_are_followed() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    let shader = |red: &str| {
+        format!(
+            "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() {{ color = vec4({red}, 0.0, 0.0, 1.0); }}\n"
+        )
+    };
+    place.file("red.frag", shader("1.0"));
+    let extension = |name: &str| {
+        format!(
+            r#"Extension(version: 1, changes: [Insert(after: "tone_map", passes: [
+                (name: "{name}", draw: FullScreen("red"), color: ["screen"])])])"#
+        )
+    };
+    let settings = |msaa: u32| format!(r#"Settings(version: 1, set: {{"msaa": {msaa}}})"#);
+    let mut options = RendererOptions::default();
+    options.files.extensions = vec![place.file("more.ron", &extension("first"))];
+    options.settings = vec![place.file("chosen.ron", &settings(2))];
+    options.shaders = vec![Root::new(place.path(""))];
+    let text = r#"Pipeline(version: 1, extends: "forward.ron")"#;
+    let mut renderer = Renderer::carried(device, "within", text, options.clone()).expect("it is right");
+    renderer.set_extent([64, 36]).expect("allowed");
+    assert_eq!(draw(&mut renderer, 1).1[..4], [255, 0, 0, 255]);
+    let plan = renderer.plan().expect("drawn");
+    assert!(plan.settings.iter().any(|used| *used.name == *"msaa" && used.value == "2"), "{:?}", plan.settings);
+    for (file, changed) in [("more.ron", extension("second")), ("chosen.ron", settings(4)), ("red.frag", shader("0.5"))]
+    {
+        assert!(!renderer.files_changed(), "{file}");
+        place.file(file, &changed);
+        assert!(renderer.files_changed(), "{file}");
+        renderer.reload().expect("it is right");
+    }
+    assert!((180..195).contains(&draw(&mut renderer, 1).1[0]), "half of the light");
+    let tree = renderer.plan().expect("drawn").tree();
+    assert!(tree.contains("`second`") && !tree.contains("`first`"), "{tree}");
+    options.files.extensions = vec![PathBuf::from("none.ron")];
+    let refused = Renderer::carried(device, "within", text, options).map(drop);
+    assert!(matches!(refused, Err(Error::Unreadable { what: "extension", .. })), "{refused:?}");
 }

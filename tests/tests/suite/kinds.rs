@@ -1,25 +1,7 @@
 //! Counts the files that name variants of an enumeration that grows: somebody looks at each of them for a new kind of work, draw or access.
 
-use framewright_tests::sources::{self, Source, flat};
+use framewright_tests::sources::{self, FLAGS, KINDS, Source, flat};
 use std::collections::BTreeSet;
-
-/// An enumeration or set of flags, where it is used, the files that own it, and how many others name its variants.
-struct Kind {
-    name: &'static str,
-    within: &'static str,
-    owners: &'static [&'static str],
-    others: usize,
-}
-
-const KINDS: &[Kind] = &[
-    Kind { name: "Work", within: "", owners: &["graph/src/frame/", "graph/src/plan/"], others: 32 },
-    Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 13 },
-    Kind { name: "Role", within: "graph/src/compile/", owners: &["graph/src/compile/model.rs"], others: 10 },
-    Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 8 },
-    Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 7 },
-    Kind { name: "Stages", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 20 },
-    Kind { name: "Accesses", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 10 },
-];
 
 /// Whether a file names a variant of `kind`, or imports one; under an alias too.
 fn names(source: &Source, kind: &str) -> bool {
@@ -35,12 +17,12 @@ fn names(source: &Source, kind: &str) -> bool {
 fn as_many_files_name_kinds_as_did() {
     let sources = sources::all();
     let mut changed = Vec::new();
-    for Kind { name, within, owners, others: known } in KINDS {
-        let used = sources.iter().filter(|source| source.path.starts_with(within));
-        let others = used.filter(|source| !owners.iter().any(|owner| source.path.starts_with(owner)));
+    for kind in KINDS.iter().chain(&FLAGS) {
+        let (name, known) = (kind.name, kind.others);
+        let others = sources.iter().filter(|source| kind.is_foreign_to(&source.path));
         let naming: Vec<&str> = others.filter(|source| names(source, name)).map(|source| &*source.path).collect();
         println!("{name}: {} files", naming.len());
-        if naming.len() != *known {
+        if naming.len() != known {
             changed.push(format!("{} files name variants of `{name}`, and {known} did: {naming:#?}", naming.len()));
         }
     }

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::planning::{self, plan_file};
 use crate::system::{interrupt, text};
-use framewright::{Assets, Choices, Helper, Pipeline};
+use framewright::{Assets, Helper, Pipeline};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Totals};
@@ -75,12 +75,10 @@ impl Subject {
             Subject::Pipeline(pipeline) => pipeline,
             Subject::Plan(plan) => return Ok((plan.0.clone(), None)),
         };
-        let without = Choices {
-            facts: Some(scene.facts()),
-            ..planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate)
-        };
-        let dump = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
-        let choices = Choices { dump, ..without.clone() };
+        let mut without = planning::choices(&arguments.pipeline, arguments.size, arguments.planning.rotate);
+        without.facts = Some(scene.facts());
+        let mut choices = without.clone();
+        choices.dump = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
         let options = arguments.planning.options();
         let (profile, mut memory) = (device.profile(), device.memory());
         if interrupt::asked() {

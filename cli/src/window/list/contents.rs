@@ -1,11 +1,11 @@
 //! What the list tells.
 
-use crate::drawing::timings::Row;
 use crate::system::text;
 use crate::window::chosen_setting::ChosenSetting;
 use crate::window::pace::Speed;
 use framewright::Renderer;
 use framewright_graph::language::ChosenBy;
+use framewright_lab::timings::Row;
 
 /// What the list tells. All texts are escaped.
 #[derive(Debug, Clone, Default, PartialEq)]

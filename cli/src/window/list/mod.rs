@@ -6,12 +6,12 @@ mod paint;
 
 pub(super) use contents::Contents;
 
-use crate::drawing::timings::{self, Row};
 use crate::error::Error;
 use framewright::{
     Change, Device, Draw, DrawSource, FrameReport, Plan, Recorder, Renderer, RendererOptions, Swapchain,
 };
 use framewright_graph::vulkan::Aspects;
+use framewright_lab::timings::{self, Row};
 use lines::Line;
 use paint::{Grid, Painting};
 use std::time::{Duration, Instant};
@@ -118,12 +118,7 @@ impl List {
     ) -> Result<(), Error> {
         self.made = Some(Instant::now());
         let Some(extent) = swapchain.extent() else { return Ok(()) };
-        let grid = Grid::new(extent, scale);
-        let lines = lines::of(contents, grid.columns, grid.rows);
-        let is_new = self.shown.as_ref().is_none_or(|shown| shown.0 != grid || shown.1 != lines);
-        if is_new {
-            self.painted = paint::painted(&lines, &grid);
-        }
+        let is_new = self.paint(contents, extent, scale);
         let Some(Painting { extent: [width, height], texels }) = &self.painted else {
             self.renderer = None;
             return Ok(());
@@ -139,12 +134,39 @@ impl List {
         if is_new || matches!(change, Change::Executor { .. }) {
             renderer.executor_mut()?.write_image("list", Aspects::COLOR, 0, texels)?;
         }
-        self.shown = Some((grid, lines));
         Ok(())
+    }
+
+    /// Paints it for a window of this size, and says whether the picture is another one than before.
+    fn paint(&mut self, contents: &Contents, extent: [u32; 2], scale: f64) -> bool {
+        let grid = Grid::new(extent, scale);
+        let lines = lines::of(contents, grid.columns, grid.rows);
+        let is_new = self.shown.as_ref().is_none_or(|shown| shown.0 != grid || shown.1 != lines);
+        if is_new {
+            self.painted = paint::painted(&lines, &grid);
+            self.shown = Some((grid, lines));
+        }
+        is_new
     }
 
     /// What draws it, if it is shown.
     pub(super) fn renderer(&mut self) -> Option<&mut Renderer> {
         self.renderer.as_mut()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_that_had_no_room_is_painted_again_when_it_has() {
+        let contents = Contents { title: "forward".to_owned(), ..Contents::default() };
+        let mut list = List::new(true, RendererOptions::default());
+        for (extent, is_there) in [([600, 400], true), ([4, 4], false), ([600, 400], true)] {
+            assert!(list.paint(&contents, extent, 1.0), "{extent:?}");
+            assert_eq!(list.painted.is_some(), is_there, "{extent:?}");
+        }
+        assert!(!list.paint(&contents, [600, 400], 1.0));
     }
 }

@@ -478,7 +478,8 @@ fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
     // Where pairs are few enough they are named.
     let many = ["render_scale=0.5..4:50", "white_point=1..100:50", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
-    wrong(&many).mentions("has 15000 choices, and at most 10000 are measured: sweep fewer values, or add --pairwise");
+    wrong(&many)
+        .mentions("has 15000 choices, and at most 10000 are measured: sweep fewer values, or combine them pairwise");
     let arguments = ["measure", "auto_exposure", "--scene", "spheres_and_cubes", "-o", "swept"];
     place.run(&arguments).exits(2).mentions("the pipeline has no preset `reference`");
     assert!(!place.path("swept").exists());

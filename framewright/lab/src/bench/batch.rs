@@ -110,7 +110,8 @@ impl Bench<'_> {
 
     /// The way in which a choice would be drawn for two eyes.
     fn stereo(&self, choice: &Choice) -> Stereo {
-        Stereo::first_fit(&choice.stereo, &self.device.profile()).unwrap_or(choice.stereo[0])
+        let choices = choice.of(&self.of_all, &choice.scene.still);
+        choices.stereo_on(&self.device.profile()).unwrap_or(choice.stereo.first().copied().unwrap_or_default())
     }
 }
 

@@ -35,7 +35,7 @@ pub fn check_sizes(
 ) -> Result<(), Error> {
     let mut seen: Vec<[u32; 2]> = Vec::new();
     for choice in std::iter::once(baseline).chain(choices) {
-        if choice.stereo != [Stereo::Off] || seen.contains(&choice.size) {
+        if choice.stereo.iter().any(|stereo| *stereo != Stereo::Off) || seen.contains(&choice.size) {
             continue;
         }
         seen.push(choice.size);

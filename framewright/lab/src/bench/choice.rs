@@ -44,7 +44,7 @@ pub struct Choice {
     pub scene: Rc<MeasuredScene>,
     /// Width and height of the output.
     pub size: [u32; 2],
-    /// Ways of drawing for two eyes, at least one. The first counts that the device has.
+    /// Ways of drawing for two eyes, as [`Choices::stereo`] has them.
     pub stereo: Vec<Stereo>,
 }
 

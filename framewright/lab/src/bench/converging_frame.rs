@@ -178,7 +178,8 @@ mod tests {
         let mut loaded = Pipeline::open(pipeline, &options, &ReadFiles::default()).expect("a pipeline");
         let of_user = set.split_once('=').map(|(name, value)| (name.to_owned(), value.to_owned()));
         let of_reference = reference_settings(&loaded).expect("a preset");
-        let choices = Choices { set: of_user.into_iter().chain(of_reference).collect(), ..Choices::default() };
+        let mut choices = Choices::default();
+        choices.set = of_user.into_iter().chain(of_reference).collect();
         let frame = loaded.frame(&choices, device).expect("a frame");
         let converging = ConvergingFrame::of(frame, device, &loaded);
         let planned = converging.planned(&mut loaded, device, &mut MemoryEstimate(device), 64).expect("a Plan");

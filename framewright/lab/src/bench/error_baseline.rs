@@ -33,12 +33,17 @@ pub enum ErrorBaseline {
 }
 
 impl ErrorBaseline {
+    /// The name of [`ErrorBaseline::References`].
+    pub const AUTO: &str = "auto";
+    /// The name of [`ErrorBaseline::Nothing`].
+    pub const NONE: &str = "none";
+
     /// Its name in results.
     #[must_use]
     pub fn name(&self) -> String {
         match self {
-            ErrorBaseline::References => "auto".to_owned(),
-            ErrorBaseline::Nothing => "none".to_owned(),
+            ErrorBaseline::References => ErrorBaseline::AUTO.to_owned(),
+            ErrorBaseline::Nothing => ErrorBaseline::NONE.to_owned(),
             ErrorBaseline::Picture { picture, .. } => Digest::of_value(picture),
         }
     }
@@ -53,12 +58,11 @@ impl ErrorBaseline {
 }
 
 impl Bench<'_> {
-    /// Says once if a given reference and the pictures hold light of different ranges.
-    pub(super) fn tell_of_light(&mut self, reference: &Light, shown: &Light) {
-        if let (ErrorBaseline::Picture { file, .. }, false) = (&self.options.held_against, self.told_of_light)
+    /// Notes if a given reference and a picture hold light of different ranges.
+    pub(super) fn tell_of_light(&self, reference: &Light, shown: &Light) {
+        if let ErrorBaseline::Picture { file, .. } = &self.options.held_against
             && reference.is_light != shown.is_light
         {
-            self.told_of_light = true;
             let file = escape(&file.to_string_lossy());
             let (with, without) = if reference.is_light { (&*file, "the output") } else { ("the output", &*file) };
             self.program.note(&format!(

@@ -17,13 +17,14 @@ mod reference;
 mod references;
 
 use crate::error::Error;
-use crate::results::Subject;
+use crate::results::{FLICKER_FRAMES, FRAMES, Subject};
 use crate::sweep::{SCENE, SIZE, STEREO, size_name};
 use framewright::{Choices, Device, Pipeline, PlannedFrame, Scene};
 use framewright_graph::compile;
 use framewright_graph::plan::Plan;
 use references::{GIVEN, Reference, References};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 pub use batch::{AT_ONCE, BatchProgress, WARM_UP};
 pub use checks::{check_sizes, check_values};
@@ -31,15 +32,22 @@ pub use choice::{Choice, MeasuredScene, REFERENCE, of_reference, reference_setti
 pub use error_baseline::ErrorBaseline;
 pub use program::Program;
 
-/// How choices are measured.
+/// How choices are measured. Begin with the default, and set fields.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct BenchOptions {
-    /// Frames of each choice whose times are taken.
+    /// Frames of each choice whose times are taken, of [`FRAMES`]; by default 9.
     pub frames: u32,
-    /// Frames of the moving scene over which flicker is measured; `None`: it isn't.
+    /// Frames of the moving scene over which flicker is measured, of [`FLICKER_FRAMES`]; `None`: it isn't.
     pub flicker: Option<u32>,
-    /// The pictures that errors are measured against.
+    /// The pictures that errors are measured against; by default those of the preset [`REFERENCE`].
     pub held_against: ErrorBaseline,
+}
+
+impl Default for BenchOptions {
+    fn default() -> Self {
+        BenchOptions { frames: 9, flicker: None, held_against: ErrorBaseline::References }
+    }
 }
 
 /// A pipeline on a device, and what its choices are held against.
@@ -52,24 +60,33 @@ pub struct Bench<'p> {
     program: &'p dyn Program,
     pipeline_digest: String,
     references: References,
-    told_of_light: bool,
 }
 
 impl<'p> Bench<'p> {
     /// One that has measured nothing. `of_all` is chosen for all choices.
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`Error::Sweep`] if a number of frames is out of its range.
     pub fn new(
         device: &Device,
         pipeline: Pipeline,
         of_all: Choices,
         options: BenchOptions,
         program: &'p dyn Program,
-    ) -> Bench<'p> {
+    ) -> Result<Bench<'p>, Error> {
+        let in_range = |what: &str, frames: u32, range: RangeInclusive<u32>| match range.contains(&frames) {
+            true => Ok(()),
+            false => Err(Error::Sweep {
+                what: format!("{what} over {} to {} frames, and not {frames}", range.start(), range.end()),
+            }),
+        };
+        in_range("times are taken", options.frames, FRAMES)?;
+        options.flicker.map_or(Ok(()), |frames| in_range("flicker is measured", frames, FLICKER_FRAMES))?;
         let mut references = References::default();
         if let ErrorBaseline::Picture { picture, .. } = &options.held_against {
             references.remember(GIVEN, Reference { picture: picture.clone(), errors: None });
         }
-        Bench {
+        Ok(Bench {
             pipeline_digest: pipeline_digest::of(&pipeline),
             references,
             pipeline,
@@ -77,8 +94,7 @@ impl<'p> Bench<'p> {
             device: device.clone(),
             options,
             program,
-            told_of_light: false,
-        }
+        })
     }
 
     /// What all rows have in common that are measured beside `baseline`. `name` is the pipeline's, for people.

@@ -9,7 +9,7 @@ pub trait Program {
         false
     }
 
-    /// Takes a note for people. One may come again and again.
+    /// Takes a note for people. The same note may come with each choice.
     fn note(&self, _note: &str) {}
 
     /// The words for an error of a choice, which its row keeps.

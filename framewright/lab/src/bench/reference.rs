@@ -30,7 +30,7 @@ pub(super) struct ReferencePair {
 /// Draws a reference, and tells `progress` how many frames are drawn, and of how many.
 ///
 /// # Errors
-/// Those of drawing; Ctrl-C.
+/// Those of drawing; [`Error::Stopped`].
 pub(super) fn draw(
     (device, program): (&Device, &dyn Program),
     converging: &ConvergingFrame,

@@ -11,7 +11,7 @@ mod ssim;
 
 use crate::picture::Light;
 pub use flicker::{Changes, Flicker};
-pub use flip::{Exposures, PIXELS_PER_DEGREE};
+pub use flip::{Exposures, PIXELS_PER_DEGREE, PIXELS_PER_DEGREE_RANGE};
 use framewright_passes::srgb;
 pub use heat_map::heat_map;
 use plane::Plane;
@@ -43,7 +43,7 @@ pub enum Metric {
 pub struct FlipErrors {
     /// Those of HDR-FLIP; `None` for pictures of light from 0 to 1, which a display shows as they are.
     pub exposures: Option<Exposures>,
-    /// Pixels for a degree of sight.
+    /// Pixels for a degree of sight, of [`PIXELS_PER_DEGREE_RANGE`].
     pub pixels_per_degree: f64,
     /// The mean over all pixels, from 0 to 1.
     pub mean: f64,
@@ -118,14 +118,16 @@ impl Metric {
 }
 
 impl Errors {
-    /// The errors of a picture beside a reference. `pixels_per_degree` is what FLIP takes for the number of pixels in a degree of sight.
-    /// `None`: the pictures have different sizes, or one has more or fewer texels than its size says.
+    /// The errors of a picture beside a reference. `pixels_per_degree` is what FLIP takes for the number of pixels in a degree of sight,
+    /// of [`PIXELS_PER_DEGREE_RANGE`]. `None`: it isn't, the pictures have different sizes or no pixels, or one has more or fewer texels
+    /// than its size says.
     #[must_use]
     pub fn between(reference: &Light, test: &Light, pixels_per_degree: f64) -> Option<Errors> {
         let extent = reference.extent;
         let texels = extent[0].checked_mul(extent[1])?;
         let fits = |picture: &Light| picture.extent == extent && picture.texels.len() == texels;
-        if !fits(reference) || !fits(test) {
+        let in_range = PIXELS_PER_DEGREE_RANGE.contains(&pixels_per_degree);
+        if texels == 0 || !in_range || !fits(reference) || !fits(test) {
             return None;
         }
         let finite: Vec<[bool; 2]> = reference

@@ -13,9 +13,15 @@ pub use naming::Group;
 use serde::{Deserialize, Serialize};
 pub use spread::spread;
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// The version of the form.
 pub const FORMAT_VERSION: u32 = 1;
+
+/// The numbers of frames of a choice whose times can be taken.
+pub const FRAMES: RangeInclusive<u32> = 1..=100_000;
+/// The numbers of frames over which flicker can be measured: a frame alone doesn't flicker.
+pub const FLICKER_FRAMES: RangeInclusive<u32> = 2..=1000;
 
 /// All that a sweep has measured so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,9 +51,9 @@ pub struct Subject {
     pub device: String,
     /// The driver's name and version.
     pub driver: String,
-    /// Frames whose times were taken, for each row.
+    /// Frames whose times were taken, for each row, of [`FRAMES`].
     pub frames: u32,
-    /// Frames of the moving scene over which flicker is measured; `None`: it isn't.
+    /// Frames of the moving scene over which flicker is measured, of [`FLICKER_FRAMES`]; `None`: it isn't.
     pub flicker_frames: Option<u32>,
     /// The pictures that errors are measured against: `auto`, `none`, or the digest of a picture.
     pub reference: String,

@@ -1,6 +1,7 @@
 //! Names of what results hold, for people and as keys.
 
 use super::{Outcome, Results, Row, RowFigures};
+use crate::sweep::size_name;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The surroundings of a row: rows of one group differ in settings alone, and can be compared.
@@ -18,10 +19,10 @@ impl Group {
     /// Its name for people.
     #[must_use]
     pub fn name(&self) -> String {
-        let [width, height] = self.size;
+        let at = format!("{} at {}", self.scene, size_name(self.size));
         match &*self.stereo {
-            "off" => format!("{} at {width}x{height}", self.scene),
-            stereo => format!("{} at {width}x{height}, {stereo}", self.scene),
+            "off" => at,
+            stereo => format!("{at}, {stereo}"),
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Figures that a measurement can have. Others come of a damaged file.
 
-use super::{Cost, Outcome, Results, Row, RowFigures, Spread};
-use crate::metric::{Errors, Flicker};
+use super::{Cost, FLICKER_FRAMES, FRAMES, Outcome, Results, Row, RowFigures, Spread, Subject};
+use crate::metric::{Errors, Flicker, PIXELS_PER_DEGREE_RANGE};
 use crate::picture::FileFormat;
+use crate::sweep::size_name;
 use std::path::{Component, Path};
 
 /// Largest width or height of a frame, in pixels.
@@ -16,11 +17,12 @@ const MOST_DECIBELS: f64 = 2000.0;
 
 /// The first thing in results that no measurement gives, in words.
 pub(super) fn problem(results: &Results) -> Option<String> {
-    if results.subject.frames == 0 {
-        return Some("`frames` is 0".to_owned());
+    let Subject { frames, flicker_frames, .. } = results.subject;
+    if !FRAMES.contains(&frames) {
+        return Some(format!("`frames` can't be {frames}"));
     }
-    if results.subject.flicker_frames.is_some_and(|frames| frames < 2) {
-        return Some("`flicker_frames` is below 2".to_owned());
+    if let Some(frames) = flicker_frames.filter(|frames| !FLICKER_FRAMES.contains(frames)) {
+        return Some(format!("`flicker_frames` can't be {frames}"));
     }
     results.rows.iter().enumerate().find_map(|(at, row)| {
         let problem = of_row(row)?;
@@ -30,7 +32,7 @@ pub(super) fn problem(results: &Results) -> Option<String> {
 
 fn of_row(row: &Row) -> Option<String> {
     if !row.size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)) {
-        return Some(format!("the size {}x{} is none", row.size[0], row.size[1]));
+        return Some(format!("the size {} is none", size_name(row.size)));
     }
     let Outcome::Measured(measured) = &row.outcome else { return None };
     let unknown = row.choice.keys().find(|name| !name.starts_with('@') && !row.settings.contains_key(*name));
@@ -53,7 +55,7 @@ fn of_flicker(flicker: &Flicker, size: [u32; 2]) -> Option<String> {
     if let Some((figure, value, _)) = wrong {
         return Some(format!("`flicker.{figure}` can't be {value}"));
     }
-    if *frames < 2 {
+    if !FLICKER_FRAMES.contains(frames) {
         return Some(format!("`flicker.frames` can't be {frames}"));
     }
     let pixels = pixels(size);
@@ -94,7 +96,7 @@ fn of_errors(name: &str, errors: &Errors, size: [u32; 2]) -> Option<String> {
         ("flip.worst", flip.worst, within(flip.worst, 0.0, 1.0)),
         ("flip.mean", flip.mean, within(flip.mean, 0.0, flip.worst)),
         ("flip.percentile_95", flip.percentile_95, within(flip.percentile_95, 0.0, flip.worst)),
-        ("flip.pixels_per_degree", flip.pixels_per_degree, within(flip.pixels_per_degree, 1.0, 1000.0)),
+        ("flip.pixels_per_degree", flip.pixels_per_degree, PIXELS_PER_DEGREE_RANGE.contains(&flip.pixels_per_degree)),
         ("max_error", errors.max_error, within(errors.max_error, 0.0, f64::MAX)),
         ("rmse", errors.rmse, within(errors.rmse, 0.0, errors.max_error)),
         ("relative_mse", errors.relative_mse, within(errors.relative_mse, 0.0, f64::MAX)),

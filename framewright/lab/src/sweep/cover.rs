@@ -21,12 +21,15 @@ pub fn pairs(sizes: &[usize]) -> usize {
     })
 }
 
-/// Rows with one value, from 0, for each axis, whose numbers of values are `sizes`, each at least 1. The first row is all 0,
-/// and cells that no pair needs are 0.
+/// Rows with one value, from 0, for each axis, whose numbers of values are `sizes`. The first row is all 0, and cells that no pair needs
+/// are 0. There are none if an axis has no value.
 #[must_use]
 pub fn rows(sizes: &[usize]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..sizes.len()).collect();
     order.sort_by_key(|axis| std::cmp::Reverse(sizes[*axis]));
+    if sizes.contains(&0) {
+        return Vec::new();
+    }
     let Some((first, others)) = order.split_first() else { return vec![Vec::new()] };
     let mut rows: Vec<Vec<usize>> = (0..sizes[*first])
         .map(|value| {
@@ -155,9 +158,10 @@ mod tests {
     }
 
     #[test]
-    fn one_axis_gives_each_value_once_and_none_gives_one_row() {
+    fn one_axis_gives_each_value_once_and_none_gives_one_row_and_no_value_none() {
         assert_eq!(rows(&[3]), [[0], [1], [2]]);
         assert_eq!(rows(&[]), [[0_usize; 0]]);
+        assert!(rows(&[0]).is_empty() && rows(&[2, 0, 3]).is_empty());
     }
 
     #[test]

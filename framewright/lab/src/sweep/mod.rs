@@ -3,6 +3,7 @@
 pub mod cover;
 mod values;
 
+use crate::error::Error;
 use std::collections::BTreeMap;
 pub use values::{text, values};
 
@@ -22,7 +23,7 @@ pub struct Sweep {
     pub values: Vec<String>,
 }
 
-/// A sweep makes at most this many choices.
+/// Sweeps make at most this many choices: see [`choices`].
 pub const MOST_CHOICES: usize = 10_000;
 
 /// How several sweeps make choices.
@@ -43,20 +44,33 @@ pub fn count(sweeps: &[Sweep], combined: Combination) -> u128 {
     match combined {
         Combination::OneByOne => sizes.sum::<u128>() + 1,
         // At most: a pair of values in each.
-        Combination::Pairwise => {
+        Combination::Pairwise if sweeps.len() > 1 => {
             cover::pairs(&sweeps.iter().map(|sweep| sweep.values.len()).collect::<Vec<_>>()) as u128
         }
-        Combination::All => sizes.fold(1, u128::saturating_mul),
+        Combination::All | Combination::Pairwise => sizes.fold(1, u128::saturating_mul),
     }
 }
 
-/// The choices that sweeps make, each once: values by name. The last sweep varies fastest.
-#[must_use]
-pub fn choices(sweeps: &[Sweep], combined: Combination) -> Vec<BTreeMap<String, String>> {
+/// The choices that sweeps make, each once: values by name. The last sweep varies fastest. A sweep without values leaves none, unless
+/// they vary one by one.
+///
+/// # Errors
+/// [`Error::Sweep`] if their [`count`] is above [`MOST_CHOICES`].
+pub fn choices(sweeps: &[Sweep], combined: Combination) -> Result<Vec<BTreeMap<String, String>>, Error> {
+    let fits = |combined| count(sweeps, combined) <= MOST_CHOICES as u128;
+    if !fits(combined) {
+        let or_pairs = if fits(Combination::Pairwise) { ", or combine them pairwise" } else { "" };
+        let count = count(sweeps, combined);
+        return Err(Error::Sweep {
+            what: format!(
+                "the sweep has {count} choices, and at most {MOST_CHOICES} are measured: sweep fewer values{or_pairs}"
+            ),
+        });
+    }
     let chosen = |row: &[usize]| -> BTreeMap<String, String> {
         sweeps.iter().zip(row).map(|(sweep, at)| (sweep.name.clone(), sweep.values[*at].clone())).collect()
     };
-    match combined {
+    Ok(match combined {
         Combination::OneByOne => {
             let one = |sweep: &Sweep, value: &String| BTreeMap::from([(sweep.name.clone(), value.clone())]);
             let each = sweeps.iter().flat_map(|sweep| sweep.values.iter().map(move |value| one(sweep, value)));
@@ -77,7 +91,7 @@ pub fn choices(sweeps: &[Sweep], combined: Combination) -> Vec<BTreeMap<String, 
             }
             rows.iter().map(|row| chosen(row)).collect()
         }
-    }
+    })
 }
 
 /// The name of a size, as results have it.
@@ -86,10 +100,13 @@ pub fn size_name([width, height]: [u32; 2]) -> String {
     format!("{width}x{height}")
 }
 
-/// The part `number` of `of` parts of a list, numbered from 1. All parts together are the list.
+/// The part `number` of `of` parts of a list, numbered from 1; empty if there is no such part. All parts together are the list.
 #[must_use]
 pub fn shard<T>(list: Vec<T>, number: usize, of: usize) -> Vec<T> {
-    list.into_iter().skip(number - 1).step_by(of).collect()
+    match (1..=of).contains(&number) {
+        true => list.into_iter().skip(number - 1).step_by(of).collect(),
+        false => Vec::new(),
+    }
 }
 
 #[cfg(test)]
@@ -103,6 +120,7 @@ mod tests {
             values: values.iter().map(|value| (*value).to_owned()).collect(),
         };
         let sweeps = [sweep("a", &["1", "2", "3"]), sweep("b", &["x", "y"]), sweep("c", &["p", "q"])];
+        let choices = |sweeps: &[Sweep], combined| choices(sweeps, combined).expect("few");
         let all = choices(&sweeps, Combination::All);
         assert_eq!((all.len() as u128, count(&sweeps, Combination::All)), (12, 12));
         assert_eq!(all[1]["c"], "q");
@@ -117,6 +135,27 @@ mod tests {
         assert_eq!(choices(&sweeps, Combination::OneByOne).len(), 8);
         assert_eq!(choices(&sweeps[..1], Combination::Pairwise).len(), 3);
         assert_eq!(choices(&[], Combination::All), [BTreeMap::new()]);
+        for combined in [Combination::All, Combination::Pairwise] {
+            assert!(choices(&[sweep("a", &["1", "2"]), sweep("b", &[])], combined).is_empty());
+        }
+    }
+
+    #[test]
+    fn too_many_choices_are_refused_before_they_are_made() {
+        let sweep = |name: &str, values: u32| Sweep {
+            name: name.to_owned(),
+            values: (0..values).map(|value| value.to_string()).collect(),
+        };
+        let refused = |sweeps: &[Sweep], combined| choices(sweeps, combined).expect_err("too many").to_string();
+        let [many, some] = [sweep("a", 10_001), sweep("b", 30)];
+        for combined in [Combination::All, Combination::Pairwise, Combination::OneByOne] {
+            let refused = refused(std::slice::from_ref(&many), combined);
+            assert!(refused.contains("at most 10000 are measured: sweep fewer values"), "{refused}");
+        }
+        let cube = [some.clone(), some.clone(), some];
+        let refused = refused(&cube, Combination::All);
+        assert!(refused.contains("has 27000 choices") && refused.ends_with(", or combine them pairwise"), "{refused}");
+        assert!(choices(&cube, Combination::Pairwise).is_ok_and(|rows| rows.len() >= 900));
     }
 
     #[test]
@@ -124,5 +163,8 @@ mod tests {
         let mut joined: Vec<u32> = (1..=3).flat_map(|number| shard((0..10).collect(), number, 3)).collect();
         joined.sort_unstable();
         assert_eq!(joined, (0..10).collect::<Vec<u32>>());
+        for (number, of) in [(0, 3), (4, 3), (1, 0)] {
+            assert!(shard(vec![1, 2], number, of).is_empty(), "{number}/{of}");
+        }
     }
 }

@@ -11,10 +11,14 @@ use super::plane::{Edge, Plane};
 use color::{hunt_lab, hyab, rgb_of_ycxcz, ycxcz};
 pub use exposures::Exposures;
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 use std::thread;
 
 /// Pixels for a degree of sight: a screen of 3,840 pixels and 0.7 m width, seen from 0.7 m.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
+
+/// The pixels for a degree that errors are told for: the reach of filters grows with them.
+pub const PIXELS_PER_DEGREE_RANGE: RangeInclusive<f64> = 1.0..=1000.0;
 
 /// Amplitudes and widths (in square degrees) of the eye's contrast sensitivity: lightness, red against green, and the two terms of
 /// yellow against blue.
